@@ -78,7 +78,7 @@ class ReferenceView(QGraphicsView):
         super().__init__()
         self.editor = editor
         widths = TextWidths(self.font())
-        measures = Measures(widths.line, widths)
+        measures = Measures(widths.line, widths.__getitem__)
         self._layout = Layout(editor.project, editor.language, measures)
         self._block_painter = BlockPainter(theme, editor.language, measures, self.font())
         self._scene = QGraphicsScene(self)
@@ -158,7 +158,7 @@ class ReferenceView(QGraphicsView):
 
     def _add(self, stack_id: str) -> None:
         stack = self.editor.project.stacks[stack_id]
-        item = StackItem(self._layout.stack(stack_id), self._block_painter)
+        item = StackItem(self._layout.chain(stack.body, owner=stack_id), self._block_painter)
         item.setPos(stack.x, stack.y)
         self._scene.addItem(item)
         self._stacks[stack_id] = item

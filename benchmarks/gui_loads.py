@@ -87,11 +87,11 @@ def open_a_large_program(window: MainWindow, folder: Path, wait: Wait) -> None:
     file = folder / "large.nep"
     file.write_text(json.dumps(large_program()), encoding="utf-8")
     checked: list[object] = []
-    window.workbench.problems_found.connect(checked.append)
+    window.workbench.checks.found.connect(checked.append)
     window.files.open(file)
     wait(lambda: window.files.document is not None and window.workbench.canvas.isVisible())
     wait(lambda: bool(checked))
-    window.workbench.problems_found.disconnect(checked.append)
+    window.workbench.checks.found.disconnect(checked.append)
 
 
 def press_run(window: MainWindow, folder: Path, wait: Wait) -> None:

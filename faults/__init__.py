@@ -94,23 +94,20 @@ class Tr(Protocol):
 
 def plain(text: Words, /, **values: object) -> str:
     """Return the English words."""
-    return told(text) if isinstance(text, Text) else filled(text, values_told(values, plain))
+    return told(text) if isinstance(text, Text) else filled(text, values, plain)
 
 
 def told(text: Words, tr: Tr = plain) -> str:
     """Return the words of a text, and of the texts in its places, in the language of ``tr``."""
     if isinstance(text, str):
         return tr(text)
-    return tr(text.text, **values_told(text.values, tr))
+    return tr(text.text, **text.values)
 
 
-def values_told(values: Mapping[str, object], tr: Tr) -> dict[str, object]:
-    """Return the values with words in the place of texts."""
-    return {name: _told(value, tr) for name, value in values.items()}
-
-
-def filled(template: str, values: Mapping[str, object]) -> str:
+def filled(template: str, values: Mapping[str, object], tr: Tr) -> str:
     """Return the template with each ``{name}`` that is known filled in, and nothing else touched.
+
+    Texts among the values are told in the language of ``tr``.
 
     Not ``str.format``: a template may come from another program, and could ask for attributes or
     for a billion spaces. A text without values is taken as it is, brackets and all.
@@ -119,7 +116,7 @@ def filled(template: str, values: Mapping[str, object]) -> str:
         return template
 
     def fill(found: re.Match[str]) -> str:
-        value = values.get(found[1], found[0])
+        value = _told(values.get(found[1], found[0]), tr)
         goes_on = template[found.end() : found.end() + 1] in _GOES_ON
         return value.rstrip(_STOPS) if isinstance(value, _Inner) and goes_on else str(value)
 

@@ -73,7 +73,15 @@ def calculate(text: str) -> Arithmetic:
     plain = text.translate(_SIGNS).strip()
     if not plain:
         raise ArithmeticRefused("A number is needed here.")
-    _require_known_signs(plain)
+    # Python warns of “2pi”, and of much else: only signs of arithmetic reach it
+    position = 0
+    while position < len(plain):
+        token = _TOKEN.match(plain, position)
+        if token is None or not token[0].isascii():
+            raise ArithmeticRefused(_not_understood(plain))
+        position = token.end()
+    if "\n" in plain or "\r" in plain:
+        raise ArithmeticRefused("A number is written on one line.")
     try:
         tree = ast.parse(plain, mode="eval").body
     except (SyntaxError, ValueError, RecursionError, MemoryError) as error:
@@ -93,18 +101,6 @@ def number_of(value: object) -> Number:
     if isinstance(value, int | float):
         return value
     raise TypeError(f"{type(value).__name__} is no number")
-
-
-def _require_known_signs(text: str) -> None:
-    """Python warns of “2pi”, and of much else: only signs of arithmetic reach it."""
-    position = 0
-    while position < len(text):
-        token = _TOKEN.match(text, position)
-        if token is None or not token[0].isascii():
-            raise ArithmeticRefused(_not_understood(text))
-        position = token.end()
-    if "\n" in text or "\r" in text:
-        raise ArithmeticRefused("A number is written on one line.")
 
 
 def _not_understood(text: str) -> Text:

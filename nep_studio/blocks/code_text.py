@@ -59,7 +59,16 @@ def read_lines(text: str, *, in_loop: bool = True) -> CodeText:
         raise CodeTextRefused(_in_line(refused.sentence, line), line) from refused
     if any(getattr(c, "co_flags", 0) & _GENERATOR_FLAGS for c in code.co_consts):
         raise CodeTextRefused("“yield” and “await” cannot be in a block of a program.")
-    _refuse_global(tree)
+    # “global” is nowhere but in functions of its own
+    waiting: list[ast.AST] = [tree]
+    while waiting:
+        node = waiting.pop()
+        if isinstance(node, ast.Global | ast.Nonlocal):
+            raise CodeTextRefused(
+                _in_line(Text("The program writes “global” by itself."), node.lineno), node.lineno
+            )
+        if not isinstance(node, ast.FunctionDef | ast.ClassDef | ast.Lambda):
+            waiting += ast.iter_child_nodes(node)
     read, made = _names(tree)
     here = _names_here(tree)
     return CodeText(tuple(lines), inside, read, made, here, is_empty=not tree.body)
@@ -133,18 +142,6 @@ def lines_inside_texts(tree: ast.AST) -> Iterator[int]:
         )
         if is_text and isinstance(node, ast.expr):
             yield from range(node.lineno + 1, (node.end_lineno or node.lineno) + 1)
-
-
-def _refuse_global(tree: ast.AST) -> None:
-    waiting: list[ast.AST] = [tree]
-    while waiting:
-        node = waiting.pop()
-        if isinstance(node, ast.Global | ast.Nonlocal):
-            raise CodeTextRefused(
-                _in_line(Text("The program writes “global” by itself."), node.lineno), node.lineno
-            )
-        if not isinstance(node, ast.FunctionDef | ast.ClassDef | ast.Lambda):
-            waiting += ast.iter_child_nodes(node)
 
 
 def _names(tree: ast.AST) -> tuple[frozenset[str], frozenset[str]]:

@@ -126,17 +126,13 @@ def _word_or_slot(token: re.Match[str], group: str) -> str | Slot:
             raise SentenceError(f"slot “{name}”: a choice names its table, choice(table)")
         return Slot(name, kind, named["table"], group, named["master"] or "")
     if kind_name == "slider":
-        return _slider(name, kind, group, more)
+        ends = _RANGE.fullmatch(more)
+        if ends is None or float(ends["low"]) >= float(ends["high"]):
+            raise SentenceError(f"slot “{name}”: a slider has its ends, slider(0..100)")
+        return Slot(name, kind, group=group, low=float(ends["low"]), high=float(ends["high"]))
     if more:
         raise SentenceError(f"slot “{name}”: {kind_name} has nothing in parentheses")
     return Slot(name, kind, group=group)
-
-
-def _slider(name: str, kind: Kind, group: str, more: str) -> Slot:
-    ends = _RANGE.fullmatch(more)
-    if ends is None or float(ends["low"]) >= float(ends["high"]):
-        raise SentenceError(f"slot “{name}”: a slider has its ends, slider(0..100)")
-    return Slot(name, kind, group=group, low=float(ends["low"]), high=float(ends["high"]))
 
 
 def slots_of(parts: tuple[Part, ...]) -> dict[str, Slot]:
@@ -330,27 +326,28 @@ class Definition:
     call: Call | None = None
     generator: str = ""
     translations: Mapping[str, str] = field(default_factory=dict)
+    kinds: frozenset[str] = field(init=False)
+    """The names of the kinds of its slots."""
+    page: str = field(init=False)
+    """The page on which the block belongs."""
+    is_value: bool = field(init=False)
+    """Whether the block is plugged into inputs rather than put in chains."""
+    is_last: bool = field(init=False)
+    """Whether nothing may follow the block in its chain."""
 
-    @property
-    def page(self) -> str:
-        """The page on which the block belongs."""
-        return self.category.page
+    def __post_init__(self) -> None:
+        # asked for at every edit, and the same for ever
+        kinds = frozenset(slot.kind.name for slot in self.slots.values())
+        object.__setattr__(self, "kinds", kinds)
+        object.__setattr__(self, "page", self.category.page)
+        object.__setattr__(self, "is_value", self.shape in ("reporter", "boolean"))
+        object.__setattr__(self, "is_last", self.shape == "cap" or "last" in self.flags)
 
     @property
     def in_words(self) -> str:
         """The block in words, for messages: its sentence with … for each slot."""
         words = [part if isinstance(part, str) else "…" for part in self.parts]
         return " ".join(word for word in words if word).replace(" ,", ",")
-
-    @property
-    def is_value(self) -> bool:
-        """Whether the block is plugged into inputs rather than put in chains."""
-        return self.shape in ("reporter", "boolean")
-
-    @property
-    def is_last(self) -> bool:
-        """Whether nothing may follow the block in its chain."""
-        return self.shape == "cap" or "last" in self.flags
 
     def slot(self, key: str, groups: Mapping[str, int]) -> Slot | None:
         """The slot with this key in a block with so many groups, or None."""

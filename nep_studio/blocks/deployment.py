@@ -4,13 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Container, Iterable, Iterator, Mapping
 from dataclasses import dataclass
-from typing import cast
+from typing import NamedTuple, cast
 
 from .language import Language
 from .procedures import DEFINE
 from .program import ROBOT_BLOCK, Block, Project
-from .slices import Steps, at_once
-from .slots import GESTURE_STATE, FieldValue, Setting
+from .slots import GESTURE_STATE, Setting
 
 NODE_BLOCK = "nodes.launch"
 GESTURE_NODE = "perceptual/gesture"
@@ -44,54 +43,59 @@ class NodeEntry:
 def robot_entries(project: Project, language: Language) -> tuple[RobotEntry, ...]:
     """The robots of the Robots page, in its order."""
     entries = []
-    for block in _entries(project, "robots", ROBOT_BLOCK):
-        name, kind, address = _values(language, block, "name", "driver", "address")
-        driver, _, model = str(kind).partition("_")
-        entries.append(RobotEntry(str(name), driver, str(address), block.id, model))
+    for block in _enabled(project, "robots", ROBOT_BLOCK):
+        value = language.definitions[block.type].value
+        driver, _, model = str(value(block, "driver")).partition("_")
+        name, address = str(value(block, "name")), str(value(block, "address"))
+        entries.append(RobotEntry(name, driver, address, block.id, model))
     return tuple(entries)
 
 
 def node_entries(project: Project, language: Language) -> tuple[NodeEntry, ...]:
     """The nodes of the Nodes page, in its order."""
     entries = []
-    for block in _entries(project, "nodes", NODE_BLOCK):
-        node, name, parameters = _values(language, block, "node", "name", "parameters")
-        settings = dict(cast("Mapping[str, Setting]", parameters))
-        entries.append(NodeEntry(str(node), str(name), settings, block.id))
+    for block in _enabled(project, "nodes", NODE_BLOCK):
+        value = language.definitions[block.type].value
+        settings = dict(cast("Mapping[str, Setting]", value(block, "parameters")))
+        node, name = str(value(block, "node")), str(value(block, "name"))
+        entries.append(NodeEntry(node, name, settings, block.id))
     return tuple(entries)
 
 
-def robots_used(project: Project, language: Language) -> dict[str, str]:
-    """The robots that rules name, each with the first block that does; "*" is all of them."""
-    return at_once(find_robots_used(project, language))
+class Use(NamedTuple):
+    """A block of a rule names a "robot" ("*" is all of them) or a "gesture"."""
+
+    kind: str
+    name: str
+    block: str
 
 
-def find_robots_used(project: Project, language: Language) -> Steps[dict[str, str]]:
-    """The same in steps."""
+def find_uses(project: Project, language: Language, chain: list[str]) -> Iterator[Use | None]:
+    """The robots and gestures that the blocks of a chain name; None wherever it may rest."""
+    for block in project.within(chain, enabled=True):
+        yield None
+        definition = language.definitions.get(block.type)
+        if definition is None or _NAMING.isdisjoint(definition.kinds):
+            continue
+        for key, slot in definition.keys(block.groups):
+            kind, name = slot.kind.name, str(definition.value(block, key))
+            if kind == "gesture" or (kind == "state" and name.startswith(GESTURE_STATE)):
+                yield Use("gesture", name.removeprefix(GESTURE_STATE), block.id)
+            elif kind == "robot":
+                yield Use("robot", name, block.id)
+
+
+_NAMING = frozenset(("robot", "gesture", "state"))
+"""The kinds of the slots that name a robot or a gesture."""
+
+
+def names_used(project: Project, language: Language, kind: str) -> dict[str, str]:
+    """The robots or gestures that rules name, each with the first block that does."""
     used: dict[str, str] = {}
-    for block, keys in _slots_of_kind(project, language, "robot"):
-        yield
-        for key in keys:
-            name = str(language.definitions[block.type].value(block, key))
-            used.setdefault(name, block.id)
-    return used
-
-
-def gestures_used(project: Project, language: Language) -> dict[str, str]:
-    """The gestures that rules and questions name, each with the first block that does."""
-    return at_once(find_gestures_used(project, language))
-
-
-def find_gestures_used(project: Project, language: Language) -> Steps[dict[str, str]]:
-    """The same in steps."""
-    used: dict[str, str] = {}
-    for kind in ("gesture", "state"):
-        for block, keys in _slots_of_kind(project, language, kind):
-            yield
-            for key in keys:
-                name = str(language.definitions[block.type].value(block, key))
-                if kind == "gesture" or name.startswith(GESTURE_STATE):
-                    used.setdefault(name.removeprefix(GESTURE_STATE), block.id)
+    for chain in chains(project, language):
+        for use in find_uses(project, language, chain):
+            if use is not None and use.kind == kind:
+                used.setdefault(use.name, use.block)
     return used
 
 
@@ -130,38 +134,17 @@ def rules(project: Project, language: Language) -> Iterator[list[str]]:
 def chains(project: Project, language: Language) -> Iterator[list[str]]:
     """The rules, and the chains that define own blocks: all that becomes code."""
     definitions = language.of(project).definitions
-    for _, stack in project.stacks_of_kind("behaviour"):
-        first = project.blocks[stack.body[0]]
-        definition = definitions.get(first.type)
-        if definition is not None and definition.shape == "hat" and not first.disabled:
-            yield stack.body
+    for page, stacks in project.pages.items():
+        for stack in stacks if project.kind_of_page(page) == "behaviour" else ():
+            first = project.blocks[stack.body[0]]
+            definition = definitions.get(first.type)
+            if definition is not None and definition.shape == "hat" and not first.disabled:
+                yield stack.body
 
 
-def _slots_of_kind(
-    project: Project, language: Language, kind: str
-) -> Iterator[tuple[Block, list[str]]]:
-    """The blocks in rules, and of each the keys of its slots of this kind, mostly none."""
-    has_kind: dict[str, bool] = {}
-    for chain in chains(project, language):
-        for block in project.within(chain, enabled=True):
-            definition = language.definitions.get(block.type)
-            if definition is None:
-                continue
-            if block.type not in has_kind:
-                slots = definition.slots.values()
-                has_kind[block.type] = any(slot.kind.name == kind for slot in slots)
-            keys = definition.keys(block.groups) if has_kind[block.type] else ()
-            yield block, [key for key, slot in keys if slot.kind.name == kind]
-
-
-def _entries(project: Project, page: str, block_type: str) -> Iterator[Block]:
+def _enabled(project: Project, page: str, block_type: str) -> Iterator[Block]:
     for stack in project.pages[page]:
         for block_id in stack.body:
             block = project.blocks[block_id]
             if block.type == block_type and not block.disabled:
                 yield block
-
-
-def _values(language: Language, block: Block, *keys: str) -> list[FieldValue | None]:
-    definition = language.definitions[block.type]
-    return [definition.value(block, key) for key in keys]

@@ -19,7 +19,6 @@ from .connections import (
     why_not_size,
     why_not_variable_name,
 )
-from .definitions import Definition
 from .edits import Edit
 from .edits.content import (
     AddGroup,
@@ -61,11 +60,6 @@ from .slots import why_not_name, why_not_text
 # Why blocks cannot be put into a place: what is above and below, the slot, the page.
 
 
-def is_near(x: float, y: float) -> bool:
-    """Whether a place is near enough to the page's corner."""
-    return abs(x) <= FARTHEST and abs(y) <= FARTHEST
-
-
 def why_not_move(edit: MoveBlocks, project: Project, language: Language) -> Text | None:
     """Why blocks cannot be moved."""
     if edit.first not in project.blocks:
@@ -98,7 +92,7 @@ def _why_not_here(
     roots: list[Block], place: Place, project: Project, language: Language
 ) -> Text | None:
     """Why these blocks cannot be put, one after the other, into a place."""
-    if isinstance(place, NewStack) and not is_near(place.x, place.y):
+    if isinstance(place, NewStack) and max(abs(place.x), abs(place.y)) > FARTHEST:
         return Text("This is too far outside the page.")
     if isinstance(place, InInput | InBody):
         owner = project.blocks.get(place.block)
@@ -108,65 +102,42 @@ def _why_not_here(
             return why_not_plugged(owner, place.slot, roots[0], language.definitions)
         if (reason := why_no_body(owner, place.slot, language.definitions)) is not None:
             return reason
-    return _why_not_page(roots, place, project, language) or _why_not_between(
-        roots, place, project, language
-    )
+    at = place.block if isinstance(place, InBody) else place.stack
+    page = place.page if isinstance(place, NewStack) else ""
+    if at in project.blocks or at in project.stacks:
+        page = page or project.page_of(at)
+    for root in roots if page else ():
+        definition = language.definitions.get(root.type)
+        if definition is not None and definition.page != project.kind_of_page(page):
+            right = Text(definition.page.title())
+            return text_of("This block belongs on the page {page}.", page=right)
+    return _why_not_between(roots, place, project, language)
 
 
 def _why_not_between(
     roots: list[Block], place: Place, project: Project, language: Language
 ) -> Text | None:
-    """Why these blocks cannot be between those that are above and below a place."""
-
-    def definition(block: Block) -> Definition | None:
-        return language.definitions.get(block.type)
-
-    above, below = _neighbours({block.id for block in roots}, place, project)
-    is_top = above is None and not isinstance(place, InBody)
-    reason = why_not_chained(definition(roots[0]), first_in_stack=is_top)
-    if reason is None and above is not None:
-        reason = why_not_below(definition(above))
-    if reason is None and below is not None:
-        reason = why_not_below(definition(roots[-1])) or why_not_chained(
-            definition(below), first_in_stack=False
-        )
-    return reason
-
-
-def _why_not_page(
-    roots: list[Block], place: Place, project: Project, language: Language
-) -> Text | None:
-    if isinstance(place, NewStack):
-        page = place.page
-    elif isinstance(place, InStack) and place.stack in project.stacks:
-        page = project.page_of(place.stack)
-    elif isinstance(place, InBody) and place.block in project.blocks:
-        page = project.page_of(project.stack_of(place.block).id)
-    else:
-        return None
-    for block in roots:
-        definition = language.definitions.get(block.type)
-        if definition is not None and definition.page != project.kind_of_page(page):
-            return text_of(
-                "This block belongs on the page {page}.", page=Text(definition.page.title())
-            )
-    return None
-
-
-def _neighbours(
-    moved: set[str], place: Place, project: Project
-) -> tuple[Block | None, Block | None]:
-    """The blocks that will be directly above and below a place."""
+    """Why these blocks cannot be between those that will be above and below a place."""
     if isinstance(place, InStack) and place.stack in project.stacks:
         chain = project.stacks[place.stack].body
     elif isinstance(place, InBody) and place.block in project.blocks:
         chain = project.blocks[place.block].bodies.get(place.slot, [])
     else:
-        return None, None
+        chain = []
+    moved, definitions = {block.id for block in roots}, language.definitions
     left = chain if moved.isdisjoint(chain) else [i for i in chain if i not in moved]
-    above = project.blocks[left[place.index - 1]] if 0 < place.index <= len(left) else None
-    below = project.blocks[left[place.index]] if 0 <= place.index < len(left) else None
-    return above, below
+    index = place.index if isinstance(place, InStack | InBody) else 0
+    above = project.blocks[left[index - 1]] if 0 < index <= len(left) else None
+    below = project.blocks[left[index]] if 0 <= index < len(left) else None
+    is_top = above is None and not isinstance(place, InBody)
+    reason = why_not_chained(definitions.get(roots[0].type), first_in_stack=is_top)
+    if reason is None and above is not None:
+        reason = why_not_below(definitions.get(above.type))
+    if reason is None and below is not None:
+        reason = why_not_below(definitions.get(roots[-1].type)) or why_not_chained(
+            definitions.get(below.type), first_in_stack=False
+        )
+    return reason
 
 
 # What happens to the blocks that use an own block when its sentence changes.
@@ -277,7 +248,7 @@ def why_not(edit: Edit, project: Project, language: Language) -> Text | None:
             return _why_not_group(edit, project, language)
         case SetComment():
             return why_not_text(edit.comment)
-        case MoveStack() if not is_near(edit.x, edit.y):
+        case MoveStack() if max(abs(edit.x), abs(edit.y)) > FARTHEST:
             return Text("This is too far outside the page.")
         case RenameProject():
             return why_not_name(edit.name)

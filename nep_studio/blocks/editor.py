@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from contextlib import AbstractContextManager, contextmanager
+from contextlib import contextmanager
 from dataclasses import dataclass, field
 
 import msgspec
@@ -60,6 +60,12 @@ class History:
         self._applied: list[Edit] = []
         self._recorders: list[Recorder] = []
         self._of_whole: list[Listener] = []
+        self.position = 0
+        """The number of the step that undo would take back: tells whether a program is saved."""
+        self.undo_label: Words = ""
+        """What undo would take back, or an empty text when there is nothing."""
+        self.redo_label: Words = ""
+        """What redo would do again, or an empty text when there is nothing."""
 
     def listen(self, listener: Listener, *, is_of_whole: bool = False) -> None:
         """Call ``listener`` with what has changed, after each step and each undo and redo.
@@ -84,21 +90,6 @@ class History:
         """Call ``recorder`` no more."""
         self._recorders.remove(recorder)
 
-    @property
-    def position(self) -> int:
-        """The number of the step that undo would take back: tells whether a program is saved."""
-        return self._undo[-1].number if self._undo else 0
-
-    @property
-    def undo_label(self) -> Words:
-        """What undo would take back, or an empty text when there is nothing."""
-        return self._undo[-1].label if self._undo else ""
-
-    @property
-    def redo_label(self) -> Words:
-        """What redo would do again, or an empty text when there is nothing."""
-        return self._redo[-1].label if self._redo else ""
-
     @contextmanager
     def transaction(self, label: Words) -> Iterator[Step]:
         """Everything applied inside is one step; an exception takes all of it back.
@@ -119,7 +110,11 @@ class History:
             self._applied.clear()
             raise
         else:
-            self._record(step)
+            if step.edits:
+                self._redo.clear()
+                if not (self._may_merge and self._undo and self._is_same_typing(step)):
+                    self._undo.append(step)
+                self._may_merge = True
         finally:
             self._open = None
             self._tell()
@@ -137,9 +132,12 @@ class History:
 
     def apply(self, edit: Edit, label: Words = "") -> None:
         """Apply an edit, as a step of its own when no transaction is open."""
-        with self.transaction(label or edit.label) as step:
-            step.edits.append(edit.apply(self._project))
-            self._applied.append(edit)
+        if self._open is None:
+            with self.transaction(label or edit.label):
+                self.apply(edit)
+            return
+        self._open.edits.append(edit.apply(self._project))
+        self._applied.append(edit)
 
     def undo(self) -> bool:
         """Take the last step back; False when there is none."""
@@ -179,6 +177,9 @@ class History:
 
     def _tell(self) -> None:
         """Tell the listeners what has changed since the last time."""
+        last = self._undo[-1] if self._undo else Step("")
+        self.position, self.undo_label = last.number, last.label
+        self.redo_label = self._redo[-1].label if self._redo else ""
         applied, self._applied = tuple(self._applied), []
         for recorder in list(self._recorders) if applied else ():
             recorder(applied)
@@ -196,14 +197,6 @@ class History:
             opposite.edits.append(edit.apply(self._project))
             self._applied.append(edit)
         return opposite
-
-    def _record(self, step: Step) -> None:
-        if not step.edits:
-            return
-        self._redo.clear()
-        if not (self._may_merge and self._undo and self._is_same_typing(step)):
-            self._undo.append(step)
-        self._may_merge = True
 
     def _is_same_typing(self, step: Step) -> bool:
         """Whether a step goes on with the typing of the last one."""
@@ -244,6 +237,8 @@ class Editor:
     def __init__(self, project: Project, language: Language) -> None:
         self.project = project
         self.history = History(project)
+        self.transaction = self.history.transaction
+        """Everything applied inside is one step of undo."""
         self._language = language.of(project)
         self._offered = dict(self._language.choices)
         self.history.listen(self._on_changes)
@@ -258,10 +253,6 @@ class Editor:
         self._language = language.of(self.project)
         self._offered = dict(self._language.choices)
 
-    def transaction(self, label: Words) -> AbstractContextManager[object]:
-        """Everything applied inside is one step of undo."""
-        return self.history.transaction(label)
-
     def why_not(self, edit: Edit) -> Text | None:
         """Why an edit does not fit the language, or None when it does."""
         return why_not(edit, self.project, self.language)
@@ -271,7 +262,7 @@ class Editor:
 
         Choices that depend on a field follow it in the same step.
         """
-        reason = self.why_not(edit)
+        reason = why_not(edit, self.project, self.language)
         if reason is not None:
             raise EditRefused(reason)
         if not isinstance(edit, SetField) or not (followers := self._followers(edit)):

@@ -322,7 +322,11 @@ def _read_block(project: Project, entry: dict[str, Any], language: Language) -> 
     except msgspec.ValidationError as error:
         raise Flaw(in_words(error), block_id) from error
     if block.comment or block.comment_width or block.comment_height:
-        _require_comment(block)
+        reason = why_not_text(block.comment) or why_not_size(
+            block.comment_width, block.comment_height
+        )
+        if reason is not None:
+            raise Flaw("its comment: {reason}", block.id, reason=reason)
     if len(known) < len(entry):
         block.extra = {key: value for key, value in entry.items() if key not in keys}
         if is_deeper(block.extra, DEEPEST_EXTRA):
@@ -332,12 +336,6 @@ def _read_block(project: Project, entry: dict[str, Any], language: Language) -> 
     if definition is not None and definition.minimum:
         block.groups = {**definition.minimum, **block.groups}
     project.blocks[block_id] = block
-
-
-def _require_comment(block: Block) -> None:
-    reason = why_not_text(block.comment) or why_not_size(block.comment_width, block.comment_height)
-    if reason is not None:
-        raise Flaw("its comment: {reason}", block.id, reason=reason)
 
 
 def _new_id(project: Project, some_id: str, taken: Container[str]) -> None:

@@ -95,18 +95,14 @@ def take(project: Project, first: str, count: int) -> list[str]:
         roots = chain[index : index + count]
         del chain[index : index + count]
         if not chain:
-            _drop_chain(project, parent)
+            if parent.slot:
+                del project.blocks[parent.owner].bodies[parent.slot]
+            else:
+                page = project.page_of(parent.owner)
+                project.pages[page].remove(project.stacks.pop(parent.owner))
     for root in roots:
         del project.parents[root]
     return roots
-
-
-def _drop_chain(project: Project, parent: Parent) -> None:
-    if parent.slot:
-        del project.blocks[parent.owner].bodies[parent.slot]
-    else:
-        page = project.page_of(parent.owner)
-        project.pages[page].remove(project.stacks.pop(parent.owner))
 
 
 # Where a variable or an own block is used.

@@ -189,9 +189,9 @@ class Project:
         if digits.isascii() and digits.isdecimal() and len(digits) < 16:
             self._last_id = max(self._last_id, int(digits))
 
-    def stack_of(self, block_id: str) -> Stack:
-        """The stack in which a block is, however deep."""
-        owner = block_id
+    def stack_of(self, some_id: str) -> Stack:
+        """The stack in which a block is, however deep; a stack is in itself."""
+        owner = some_id
         while owner in self.parents:
             owner = self.parents[owner].owner
         return self.stacks[owner]
@@ -206,9 +206,9 @@ class Project:
             if self.kind_of_page(page) == kind:
                 yield from ((page, stack) for stack in stacks)
 
-    def page_of(self, stack_id: str) -> str:
-        """The name of the page on which a stack is."""
-        stack = self.stacks[stack_id]
+    def page_of(self, some_id: str) -> str:
+        """The name of the page on which a block or a stack is."""
+        stack = self.stack_of(some_id)
         return next(page for page, stacks in self.pages.items() if stack in stacks)
 
     def chain_of(self, parent: Parent) -> list[str] | None:

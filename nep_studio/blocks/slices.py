@@ -18,19 +18,12 @@ Steps = Generator[None, None, Result]
 class Sliced(Generic[Result]):
     """Work that is done in slices; ``run`` raises what the work raises."""
 
+    result: Result
+    """What came of it, once it is over."""
+
     def __init__(self, steps: Steps[Result]) -> None:
         self._steps = steps
-        self._results: list[Result] = []
-
-    @property
-    def is_over(self) -> bool:
-        """Whether there is a result."""
-        return bool(self._results)
-
-    @property
-    def result(self) -> Result:
-        """What came of it, once it is over."""
-        return self._results[0]
+        self.is_over = False
 
     def run(self, slice_s: float) -> bool:
         """Work for a slice, at least to the next rest; whether it is over."""
@@ -40,7 +33,7 @@ class Sliced(Generic[Result]):
             while time.perf_counter() < end_s:
                 next(self._steps)
         except StopIteration as end:
-            self._results.append(end.value)
+            self.result, self.is_over = end.value, True
         return self.is_over
 
     def cancel(self) -> None:

@@ -229,10 +229,6 @@ Write = Callable[[object], str]
 WhyNot = Callable[[object], Text | None]
 
 
-def _same(text: str) -> FieldValue:
-    return text
-
-
 def _written(value: object) -> str:
     return "" if value is None else str(value)
 
@@ -256,7 +252,7 @@ class Kind:
     shape: SlotShape = "pill"
     fits: frozenset[str] = frozenset()
     why_not: WhyNot = why_not_line
-    read: Read = _same
+    read: Read = str
     write: Write = _written
     typed: bool = True
     constants: tuple[type, ...] = (str,)

@@ -15,10 +15,9 @@ from nep_studio import paths
 from nep_studio.blocks.definitions import Definition
 from nep_studio.blocks.deployment import (
     NODE_BLOCK,
-    gestures_used,
+    names_used,
     node_entries,
     robot_entries,
-    robots_used,
 )
 from nep_studio.blocks.editor import Editor
 from nep_studio.blocks.edits.content import AddGroup, AddProcedure, SetField
@@ -481,11 +480,11 @@ def _complete(editor: Editor) -> None:
     """Add the robots that blocks name, and a watch with a node for each gesture."""
     project, language = editor.project, editor.language
     here = {entry.name for entry in robot_entries(project, language)}
-    used = robots_used(project, language)
+    used = names_used(project, language, "robot")
     for name in dict.fromkeys(language.profile.title if n == ALL_ROBOTS else n for n in used):
         if name not in here:
             _add(editor, "robots", ROBOT_BLOCK, {"name": name, "driver": "virtual"})
-    gestures = list(gestures_used(project, language))
+    gestures = list(names_used(project, language, "gesture"))
     if not gestures or node_entries(project, language):
         return
     made = ", ".join(f"{FIRST_GESTURE_S * (n + 1)} {each}" for n, each in enumerate(gestures))

@@ -124,8 +124,9 @@ class Journal:
             self._snapshot()
             return
         try:
-            line = _ENCODER.encode(edits) + b"\n"
-            _write_all(self._file, line)
+            line = left = _ENCODER.encode(edits) + b"\n"
+            while left:
+                left = left[os.write(self._file, left) :]
             self._steps, self._bytes = self._steps + 1, self._bytes + len(line)
         except OSError as error:
             self._fail(error)
@@ -223,8 +224,3 @@ def _steps(edits: Path) -> Iterator[list[Edit]]:
             yield _DECODER.decode(line)
         except msgspec.MsgspecError:
             return  # the program died while it wrote this line
-
-
-def _write_all(file: int, data: bytes) -> None:
-    while data:
-        data = data[os.write(file, data) :]

@@ -14,7 +14,7 @@ from nep_core.places import node_folders
 from nep_core.processes.manifest import Manifest, NodeCatalog, read_manifest
 from nep_studio import paths
 from nep_studio.blocks.checks import KnownChains, check_steps
-from nep_studio.blocks.checks.diagnostic import Diagnostic
+from nep_studio.blocks.checks.diagnostic import SEVERITIES, Diagnostic
 from nep_studio.blocks.definition_files import load_definitions, load_profiles, read_toml
 from nep_studio.blocks.deployment import (
     GESTURE_NODE,
@@ -48,16 +48,21 @@ def problem_steps(
     """The same in steps; ``known`` has what was found the last time."""
     known = known or KnownProblems()
     nodes, robots = node_entries(project, language), robot_entries(project, language)
-    gestures = _known_gestures(project, language)
+    learned = (project, project.extra_revision, language.choices.get("gestures"))
+    if known.learned != learned:
+        known.learned, known.gestures = learned, _known_gestures(project, language)
     found = [
         *(yield from check_steps(project, language, known.chains)),
-        *known.of_nodes(nodes, gestures, folder),
-        *(problem for entry in robots for problem in _robot(entry)),
-        *(_reserved("nodes", entry.name, entry.block_id) for entry in nodes),
-        *(_reserved("robots", entry.name, entry.block_id) for entry in robots),
+        *known.of_nodes(nodes, known.gestures, folder),
+        *(
+            _no_address(entry)
+            for entry in robots
+            if entry.driver == "naoqi" and not entry.address.strip()
+        ),
+        *(_reserved("nodes", entry) for entry in nodes if entry.name in RESERVED_NAMES),
+        *(_reserved("robots", entry) for entry in robots if entry.name in RESERVED_NAMES),
     ]
-    order = {"error": 0, "warning": 1, "info": 2}
-    return sorted((one for one in found if one is not None), key=lambda one: order[one.severity])
+    return [one for severity in SEVERITIES for one in found if one.severity == severity]
 
 
 class KnownProblems:
@@ -65,6 +70,9 @@ class KnownProblems:
 
     def __init__(self) -> None:
         self.chains = KnownChains()
+        self.learned: object = None
+        """What the gestures follow from: to read them takes as long as their recordings are."""
+        self.gestures: list[str] = []
         self._in_order: list[tuple[NodeEntry, list[str]]] = []
         """Nodes of the Nodes page, each with the gestures that were known then."""
 
@@ -141,28 +149,24 @@ def _wrong(entry: NodeEntry, sentence: Text, checklist: tuple[Words, ...]) -> Di
     return Diagnostic("error", "node_settings", "nodes", entry.block_id, words, checklist)
 
 
-def _robot(entry: RobotEntry) -> Iterator[Diagnostic]:
-    if entry.driver == "naoqi" and not entry.address.strip():
-        yield Diagnostic(
-            "error",
-            "robot_address",
-            "robots",
-            entry.block_id,
-            text_of("Where is {name}? A real robot needs its address.", name=entry.name),
-            (
-                "Press the robot's chest button once: it says its address. Write it here.",
-                "Or choose the robot on this screen.",
-            ),
-        )
-
-
-def _reserved(page: str, name: str, block_id: str) -> Diagnostic | None:
-    if name not in RESERVED_NAMES:
-        return None
-    sentence = text_of("“{name}” is the name of a part that every project has.", name=name)
+def _no_address(entry: RobotEntry) -> Diagnostic:
     return Diagnostic(
-        "error", "reserved_name", page, block_id, sentence, ("Give it another name.",)
+        "error",
+        "robot_address",
+        "robots",
+        entry.block_id,
+        text_of("Where is {name}? A real robot needs its address.", name=entry.name),
+        (
+            "Press the robot's chest button once: it says its address. Write it here.",
+            "Or choose the robot on this screen.",
+        ),
     )
+
+
+def _reserved(page: str, entry: RobotEntry | NodeEntry) -> Diagnostic:
+    sentence = text_of("“{name}” is the name of a part that every project has.", name=entry.name)
+    checklist = ("Give it another name.",)
+    return Diagnostic("error", "reserved_name", page, entry.block_id, sentence, checklist)
 
 
 # Load the block language from the folders that hold its definitions and its robot profile.

@@ -10,9 +10,9 @@ from typing import Protocol
 from nep_studio.blocks.deployment import (
     NodeEntry,
     RobotEntry,
-    gestures_used,
     is_recognised,
     named_gestures,
+    names_used,
     node_entries,
     robot_entries,
 )
@@ -151,7 +151,7 @@ def _found(value: Setting, folder: Path) -> Setting:
 def _known_gestures(project: Project, language: Language) -> list[str]:
     """The gestures that rules wait for and somebody has taught."""
     known = {*language.choices.get("gestures", {})} | {*trained_gestures(project)}
-    return [gesture for gesture in gestures_used(project, language) if gesture in known]
+    return [gesture for gesture in names_used(project, language, "gesture") if gesture in known]
 
 
 def _missing_gestures(

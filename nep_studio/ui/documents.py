@@ -15,7 +15,7 @@ from nep_studio.blocks.edits.project import RenameProject
 from nep_studio.blocks.errors import BlocksError, ProjectFileError
 from nep_studio.blocks.files import from_bytes, load
 from nep_studio.blocks.language import Language
-from nep_studio.blocks.program import Changes, Project
+from nep_studio.blocks.program import Project
 from nep_studio.project.journal import Journal
 from nep_studio.project.picture_files import project_bytes_from
 
@@ -37,13 +37,10 @@ Stamp = tuple[int, int]
 class Document(QObject):
     """An editor, its file and its journal. ``changed`` tells of its title and of being saved.
 
-    ``edited`` gives the Changes of each step, ``settled`` those of several, for those who are slow.
     ``kept_changed`` tells that the journal cannot be written any more, or can be again.
     """
 
     changed = Signal()
-    edited = Signal(object)
-    settled = Signal(object)
     kept_changed = Signal()
 
     def __init__(
@@ -55,7 +52,7 @@ class Document(QObject):
         parent: QObject | None = None,
     ) -> None:
         super().__init__(parent)
-        self.editor = editor
+        self.editor, self.project = editor, editor.project
         self.path = path
         self._is_open = True
         self._saved_position = -1 if is_unsaved else editor.history.position
@@ -65,35 +62,18 @@ class Document(QObject):
         self._flush.timeout.connect(self.flush)
         self._flush.start()
         self._edits = edits_of(editor)
-        self._edits.edited.connect(self._on_edited)
-        self._edits.settled.connect(self._on_settled)
-        self._shown = (self.path, self.title, self.is_modified)
-        self._was_kept = self.is_kept
-
-    @property
-    def project(self) -> Project:
-        """The project."""
-        return self.editor.project
-
-    @property
-    def title(self) -> str:
-        """The name of its file, or of the project when it has none yet."""
-        return self.path.stem if self.path is not None else self.project.name
-
-    @property
-    def is_modified(self) -> bool:
-        """Whether it differs from what was saved last."""
-        return self.editor.history.position != self._saved_position
-
-    @property
-    def is_kept(self) -> bool:
-        """Whether a journal keeps what is not saved yet."""
-        return self._journal is not None and not self._journal.error
-
-    @property
-    def folder(self) -> Path:
+        self._edits.edited.connect(self._tell)
+        self._edits.settled.connect(self._look_at_journal)
+        self.folder = Path.cwd()
         """Where the project's own files are."""
-        return self.path.parent if self.path is not None else Path.cwd()
+        self.title = ""
+        """The name of its file, or of the project when it has none yet."""
+        self.is_modified = False
+        """Whether it differs from what was saved last."""
+        self._shown: object = None
+        self._tell()
+        self.is_kept = self._journal is not None and not self._journal.error
+        """Whether a journal keeps what is not saved yet."""
 
     def is_changed_by_others(self) -> bool:
         """Whether the file on the disk is another one than we have read or written."""
@@ -102,7 +82,10 @@ class Document(QObject):
 
     def save(self, path: Path) -> None:
         """Write the project to a file, which is its file from now on; raises ProjectFileError."""
-        self._name_after(path)
+        # A project without a name of its own is called like its file
+        rename = RenameProject(path.stem)
+        if self.project.name == new_name() and self.editor.why_not(rename) is None:
+            self.editor.apply(rename)
         files.save(self.project, path)
         self.editor.history.seal()
         self.path, self._stamp = path, _stamp(path)
@@ -123,32 +106,22 @@ class Document(QObject):
             return
         self._is_open = False
         self._flush.stop()
-        self._edits.edited.disconnect(self._on_edited)
-        self._edits.settled.disconnect(self._on_settled)
+        self._edits.edited.disconnect(self._tell)
+        self._edits.settled.disconnect(self._look_at_journal)
         if self._journal is not None:
             self._journal.close(keep=keep)
-            self._journal = None
-
-    def _name_after(self, path: Path) -> None:
-        """A project without a name of its own is called like its file."""
-        rename = RenameProject(path.stem)
-        if self.project.name == new_name() and self.editor.why_not(rename) is None:
-            self.editor.apply(rename)
-
-    def _on_edited(self, changes: Changes) -> None:
-        self.edited.emit(changes)
-        self._tell()
-
-    def _on_settled(self, changes: Changes) -> None:
-        self._look_at_journal()
-        self.settled.emit(changes)
+            self._journal, self.is_kept = None, False
 
     def _look_at_journal(self) -> None:
-        if self.is_kept != self._was_kept:
-            self._was_kept = self.is_kept
+        is_kept = self._journal is not None and not self._journal.error
+        if is_kept != self.is_kept:
+            self.is_kept = is_kept
             self.kept_changed.emit()
 
     def _tell(self) -> None:
+        self.folder = self.path.parent if self.path is not None else Path.cwd()
+        self.title = self.path.stem if self.path is not None else self.project.name
+        self.is_modified = self.editor.history.position != self._saved_position
         shown = (self.path, self.title, self.is_modified)
         if shown != self._shown:
             self._shown = shown

@@ -34,6 +34,8 @@ class Floor(QObject):
         super().__init__(parent)
         self._runner = runner
         self._kept: list[Thing] = []
+        self._kept_of: object = None
+        """The project that keeps them, and how often what it keeps had changed then."""
         self._visitors: dict[str, Thing] = {}
         self._held: Thing | None = None
         self._has_told = False
@@ -119,6 +121,10 @@ class Floor(QObject):
 
     def _on_project_changed(self) -> None:
         editor = self._project.editor
+        of = None if editor is None else (editor.project, editor.project.extra_revision)
+        if of == self._kept_of:
+            return
+        self._kept_of = of
         kept = kept_things(editor.project) if editor is not None else []
         if kept != self._kept:
             self._kept, self._held = kept, None

@@ -96,6 +96,8 @@ class Messages(QObject):
         self.history: deque[LoggedMessage] = deque(maxlen=MOST_TOLD)
         self._window = window
         self._place: Place | None = None
+        self._has_passing = False
+        """Whether something may be shown that goes by itself."""
 
     def show_in(self, place: Place) -> Place | None:
         """Use this place for what is told from now on; the place that was used before."""
@@ -106,6 +108,7 @@ class Messages(QObject):
         """Show a message; nobody has to answer it."""
         if self._place is not None:
             self._place.show_message(message)
+        self._has_passing = self._has_passing or message.passes
         announce(self._window, message.spoken)
         self.history.append(LoggedMessage(message, time.time()))
         self.told.emit(self.history[-1])
@@ -132,7 +135,8 @@ class Messages(QObject):
 
     def clear_passing(self) -> None:
         """Take away what goes by itself: the person has gone on."""
-        if self._place is not None:
+        if self._place is not None and self._has_passing:
+            self._has_passing = False
             self._place.clear_passing()
 
     def withdraw(self, message: Message) -> None:

@@ -12,7 +12,7 @@ from itertools import takewhile
 from pathlib import Path
 from typing import Any
 
-from faults import Text, Words, filled, told, values_told
+from faults import Text, Words, filled, told
 from nep_studio import paths
 
 log = logging.getLogger(__name__)
@@ -51,7 +51,7 @@ def tr(text: Words, /, **values: object) -> str:
     if words is not text and not set(_PLACES.findall(words)) <= set(_PLACES.findall(text)):
         log.warning("A message in %s cannot be filled in: %r", _used.code, text)
         words = text
-    return filled(words, values_told(values, tr))
+    return filled(words, values, tr)
 
 
 def count_words(count: int, one: str, many: str, /, **values: object) -> str:

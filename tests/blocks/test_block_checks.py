@@ -12,10 +12,9 @@ from nep_studio.blocks.checks import check
 from nep_studio.blocks.deployment import (
     NodeEntry,
     RobotEntry,
-    gestures_used,
+    names_used,
     node_entries,
     robot_entries,
-    robots_used,
 )
 from nep_studio.blocks.edits.content import SetField, SetFlag
 from nep_studio.blocks.edits.placing import DeleteBlocks
@@ -108,7 +107,7 @@ def test_a_question_about_a_gesture_needs_its_node_too(language):
     editor = sound(language, [B("event.started"), until])
 
     assert only(editor, language).fix.data == {"gesture": "wave"}
-    assert gestures_used(editor.project, language) == {
+    assert names_used(editor.project, language, "gesture") == {
         "wave": block_of(editor, "sensing.human_state_is")
     }
 
@@ -120,7 +119,7 @@ def test_a_robot_that_is_not_on_the_robots_page_can_be_added(language):
 
     assert str(problem.sentence) == "Pepper is not on the Robots page."
     assert problem.fix.name == "add_robot" and problem.fix.data == {"name": "Pepper"}
-    assert robots_used(editor.project, language) == {"Pepper": problem.block}
+    assert names_used(editor.project, language, "robot") == {"Pepper": problem.block}
 
 
 def test_all_robots_need_at_least_one(language):

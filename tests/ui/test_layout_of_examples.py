@@ -90,7 +90,7 @@ def scene(project: Project, language: Language, scale: float = 1.0, *, is_mirror
     small = QFont(font)
     small.setPointSizeF(font.pointSizeF() * HINT_SIZE)
     widths = TextWidths(font)
-    measures = Measures(widths.line, widths, is_mirrored=is_mirrored)
+    measures = Measures(widths.line, widths.__getitem__, is_mirrored=is_mirrored)
     layout = PageLayout(project, language, measures)
     return Scene(QFontMetricsF(font), QFontMetricsF(small), measures, layout)
 
@@ -227,7 +227,7 @@ def stacks_over_each_other(scene: Scene) -> list[tuple[str, str]]:
     found = []
     for page in scene.layout.project.pages:
         scene.layout.show(page)
-        rects = {stack: scene.layout.index.rect(stack) for stack in scene.layout.chains}
+        rects = {stack: scene.layout.index.rects[stack] for stack in scene.layout.chains}
         found += [(a, b) for a, b in combinations(rects, 2) if is_over(rects[a], rects[b])]
     return found
 

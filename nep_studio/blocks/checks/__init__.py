@@ -2,19 +2,22 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Iterator
+from functools import partial
+from typing import Any, TypeVar
 
-from ..deployment import chains, robot_entries
+from ..deployment import chains, find_uses, node_entries, robot_entries
 from ..language import Language
 from ..program import Project
 from ..slices import Steps, at_once
 from .blocks import check_blocks, check_inside, check_own_blocks
 from .deployment import check_abilities, check_deployment, check_real_robots, check_rules
-from .diagnostic import Diagnostic, Fix, Found
+from .diagnostic import SEVERITIES, Diagnostic, Fix
 from .flow import check_flow, check_limits
 
-_OfChain = Callable[[Project, Language, list[str]], Found]
-"""A check of the blocks of one chain, which looks at no other."""
+One = TypeVar("One")
+_OfChain = Callable[[Project, Language, list[str]], Iterator[One | None]]
+"""What looks at the blocks of one chain, and at no other; None wherever it may rest."""
 
 
 class KnownChains:
@@ -22,7 +25,7 @@ class KnownChains:
 
     def __init__(self) -> None:
         self._around: object = None
-        self._found: dict[tuple[_OfChain, str], tuple[int, list[Diagnostic]]] = {}
+        self._found: dict[object, tuple[object, list[Any]]] = {}
 
     def begin(self, project: Project, language: Language) -> None:
         """Forget all when something has changed that a check of any chain may look at."""
@@ -39,23 +42,33 @@ class KnownChains:
             self._around = around
             self._found.clear()
 
-    def find(
-        self, check: _OfChain, project: Project, language: Language, found_in: Iterable[list[str]]
-    ) -> Found:
-        """The problems that a check finds in chains that begin a stack."""
+    def in_chains(
+        self, look: _OfChain[One], project: Project, language: Language, found_in: list[list[str]]
+    ) -> Steps[list[One]]:
+        """What is found in chains that begin a stack."""
+        found = list[One]()
         for chain in found_in:
-            yield None
+            yield
             stack = project.stack_of(chain[0]).id
-            key, revision = (check, stack), project.revisions.get(stack, 0)
-            known = self._found.get(key)
-            if known is None or known[0] != revision:
-                problems = list[Diagnostic]()
-                for problem in check(project, language, chain):
-                    yield None
-                    if problem is not None:
-                        problems.append(problem)
-                known = self._found[key] = revision, problems
-            yield from known[1]
+            revision = project.revisions.get(stack, 0)
+            of_chain = partial(look, project, language, chain)
+            found += yield from self.find((look, stack), revision, of_chain)
+        return found
+
+    def find(
+        self, key: object, of: object, look: Callable[[], Iterable[One | None]]
+    ) -> Steps[list[One]]:
+        """What is found, or was found already when it was the same as now that it follows from."""
+        known = self._found.get(key)
+        if known is None or known[0] != of:
+            found = list[One]()
+            for one in look():
+                if one is None:
+                    yield
+                else:
+                    found.append(one)
+            known = self._found[key] = of, found
+        return known[1]
 
 
 def check(project: Project, language: Language) -> list[Diagnostic]:
@@ -70,32 +83,26 @@ def check_steps(
 
     ``known`` has what was found the last time.
     """
-    language, problems = language.of(project), list[Diagnostic]()
-    known = known or KnownChains()
+    language, known = language.of(project), known or KnownChains()
     known.begin(project, language)
-    for found in _finds(project, language, known):
-        for problem in found:
-            if problem is None:
-                yield
-            else:
-                problems.append(problem)
-    order = {"error": 0, "warning": 1, "info": 2}
-    return sorted(problems, key=lambda problem: order[problem.severity])
-
-
-def _finds(project: Project, language: Language, known: KnownChains) -> Iterable[Found]:
-    """What each check finds."""
     every = [stack.body for stacks in project.pages.values() for stack in stacks]
     running = list(chains(project, language))
-    yield check_rules(project, language)
-    yield known.find(check_blocks, project, language, every)
-    yield known.find(check_inside, project, language, running)
-    yield check_own_blocks(project, language)
-    yield known.find(check_limits, project, language, running)
-    yield known.find(check_flow, project, language, running)
-    yield check_deployment(project, language)
-    yield known.find(check_abilities, project, language, running)
-    yield known.find(check_real_robots, project, language, running)
+    problems = list(check_rules(project, language, running))
+    problems += yield from known.in_chains(check_blocks, project, language, every)
+    problems += yield from known.in_chains(check_inside, project, language, running)
+    if project.procedures:
+        own = partial(check_own_blocks, project, language, running)
+        always_anew = object()
+        problems += yield from known.find(check_own_blocks, always_anew, own)
+    for look in (check_limits, check_flow, check_abilities, check_real_robots):
+        problems += yield from known.in_chains(look, project, language, running)
+    # the other pages follow from which robots and gestures are named, and where first
+    nodes, uses = node_entries(project, language), dict[tuple[str, str], tuple[str, str]]()
+    for use in (yield from known.in_chains(find_uses, project, language, running)):
+        uses.setdefault((use.kind, use.name), (use.block, project.page_of(use.block)))
+    pages = partial(check_deployment, project, language, nodes, uses)
+    problems += yield from known.find(check_deployment, (nodes, uses), pages)
+    return [one for severity in SEVERITIES for one in problems if one.severity == severity]
 
 
 __all__ = ["Diagnostic", "Fix", "KnownChains", "check", "check_steps"]

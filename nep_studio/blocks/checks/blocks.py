@@ -2,33 +2,78 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from typing import NamedTuple
 
 from faults import Text, text_of
 from nep_studio.blocks.arithmetic import number_of
 from nep_studio.blocks.code_text import CodeTextRefused, read_lines, read_value
 from nep_studio.blocks.definitions import Definition, Slot
-from nep_studio.blocks.deployment import chains
 from nep_studio.blocks.language import Language
 from nep_studio.blocks.procedures import CALL, DEFINE, PARAMETER, RETURN, procedure_of, title
 from nep_studio.blocks.program import Block, Project
 from nep_studio.blocks.slots import FieldValue
 from nep_studio.blocks.text import sentence
 
-from .diagnostic import Diagnostic, Found, Severity, page_of
+from .diagnostic import Diagnostic, Found, Severity
 
 
 def check_blocks(project: Project, language: Language, chain: list[str]) -> Found:
-    """Problems of single blocks; disabled blocks have none."""
-    page = page_of(project, chain[0])
+    """Problems of single blocks; disabled blocks have none. And of a chain that nothing starts."""
+    page, definitions = project.page_of(chain[0]), language.definitions
+    first, kind = definitions.get(project.blocks[chain[0]].type), project.kind_of_page(page)
+    if first is not None and first.shape != "hat" and first.page == kind == "behaviour":
+        yield _loose(project, language, page, chain[0])
     for block in project.within(chain, enabled=True):
         yield None
-        definition = language.definitions.get(block.type)
+        definition = definitions.get(block.type)
         if definition is None:
             yield _unknown(page, block)
             continue
-        yield from _check_block(project, language, page, block, definition)
+        if definition.page != kind:
+            yield _on_wrong_page(page, block, definition)
+        for key, slot in definition.keys(block.groups):
+            plugged = project.blocks.get(block.inputs.get(key, ""))
+            if slot.kind.name == "body" or (plugged is not None and not plugged.disabled):
+                continue
+            wrong = _why_not_filled(project, language, block, definition, key, slot)
+            if wrong is not None:
+                yield _not_filled(project, language, page, block, wrong)
+
+
+def _loose(project: Project, language: Language, page: str, first: str) -> Diagnostic:
+    return Diagnostic(
+        "info",
+        "loose_block",
+        page,
+        first,
+        text_of(
+            "“{block}” is under no “when” block and will not run.",
+            block=sentence(project, language, first),
+        ),
+        ("Drag it under a “when” block, or leave it here for later.",),
+    )
+
+
+def _on_wrong_page(page: str, block: Block, definition: Definition) -> Diagnostic:
+    right = Text(definition.page.title())
+    return Diagnostic(
+        "error",
+        "wrong_page",
+        page,
+        block.id,
+        text_of("This block belongs on the page {page}.", page=right),
+        (text_of("Move it to the page {page}.", page=right),),
+    )
+
+
+def _not_filled(
+    project: Project, language: Language, page: str, block: Block, wrong: _Wrong
+) -> Diagnostic:
+    kind, reason, remedy = wrong
+    told = sentence(project, language, block.id)
+    words = text_of("“{told}”: {reason}", told=told, reason=reason)
+    return Diagnostic("error", kind, page, block.id, words, (remedy,))
 
 
 def _unknown(page: str, block: Block) -> Diagnostic:
@@ -59,36 +104,6 @@ _Misplaced = tuple[Severity, str, Text, str]
 """The same, and before it how bad it is."""
 
 
-def _check_block(
-    project: Project, language: Language, page: str, block: Block, definition: Definition
-) -> Iterator[Diagnostic]:
-    if definition.page != project.kind_of_page(page):
-        yield Diagnostic(
-            "error",
-            "wrong_page",
-            page,
-            block.id,
-            text_of("This block belongs on the page {page}.", page=Text(definition.page.title())),
-            (text_of("Move it to the page {page}.", page=Text(definition.page.title())),),
-        )
-    for key, slot in definition.keys(block.groups):
-        plugged = project.blocks.get(block.inputs.get(key, ""))
-        if slot.kind.name == "body" or (plugged is not None and not plugged.disabled):
-            continue
-        wrong = _why_not_filled(project, language, block, definition, key, slot)
-        if wrong is not None:
-            kind, reason, remedy = wrong
-            told = sentence(project, language, block.id)
-            yield Diagnostic(
-                "error",
-                kind,
-                page,
-                block.id,
-                text_of("“{told}”: {reason}", told=told, reason=reason),
-                (remedy,),
-            )
-
-
 def _why_not_filled(
     project: Project,
     language: Language,
@@ -110,7 +125,9 @@ def _why_not_filled(
     reason = language.why_not_choice(slot, value, block, key)
     if reason is not None:
         return ("unknown_choice", reason, "Choose another one.")
-    return _why_not_number(definition, slot, value)
+    if kind.name in ("number", "duration"):
+        return _why_not_number(definition, slot, value)
+    return None
 
 
 def _why_not_number(definition: Definition, slot: Slot, value: FieldValue | None) -> _Wrong | None:
@@ -160,7 +177,12 @@ def check_inside(project: Project, language: Language, chain: list[str]) -> Foun
         definition = language.definitions.get(block.type)
         if block.disabled or definition is None:
             continue
-        yield from _misplaced(project, language, block, definition, place)
+        if (wrong := _why_not_there(block, definition, place)) is not None:
+            severity, kind, reason, remedy = wrong
+            said = sentence(project, language, block.id)
+            words = text_of("“{block}”: {reason}", block=said, reason=reason)
+            page = project.page_of(block.id)
+            yield Diagnostic(severity, kind, page, block.id, words, (remedy,))
         if block.inputs or block.bodies:
             inner = _inner(definition, place)
             waiting += [(child, inner) for child in block.children()]
@@ -172,24 +194,7 @@ def _inner(definition: Definition, place: _Place) -> _Place:
     return place._replace(loop=True) if "loop" in definition.flags else place
 
 
-def _misplaced(
-    project: Project, language: Language, block: Block, definition: Definition, place: _Place
-) -> Iterator[Diagnostic]:
-    told = _misplacement(block, definition, place)
-    if told is None:
-        return
-    severity, kind, reason, remedy = told
-    yield Diagnostic(
-        severity,
-        kind,
-        page_of(project, block.id),
-        block.id,
-        text_of("“{block}”: {reason}", block=sentence(project, language, block.id), reason=reason),
-        (remedy,),
-    )
-
-
-def _misplacement(block: Block, definition: Definition, place: _Place) -> _Misplaced | None:
+def _why_not_there(block: Block, definition: Definition, place: _Place) -> _Misplaced | None:
     """How bad it is, the kind, the sentence and the remedy of what is wrong, or None."""
     if "in_loop" in definition.flags and not place.loop:
         return ("error", "outside_loop", Text("it is in no loop."), "Put it into a “repeat” block.")
@@ -205,32 +210,25 @@ def _misplacement(block: Block, definition: Definition, place: _Place) -> _Mispl
         remedy = "Move it under the “define” block that it comes from."
         return ("error", "parameter_outside", reason, remedy)
     if block.type in (CODE_LINES, CODE_VALUE):
-        return _wrong_python(block, definition, place)
-    return None
-
-
-def _wrong_python(block: Block, definition: Definition, place: _Place) -> _Misplaced | None:
-    text = str(definition.value(block, "code"))
-    try:
-        if block.type == CODE_VALUE:
-            read_value(text)
-        else:
-            read_lines(text, in_loop=place.loop)
-    except CodeTextRefused as refused:
-        return ("error", "wrong_python", refused.sentence, "Change the code.")
+        text = str(definition.value(block, "code"))
+        try:
+            if block.type == CODE_VALUE:
+                read_value(text)
+            else:
+                read_lines(text, in_loop=place.loop)
+        except CodeTextRefused as refused:
+            return ("error", "wrong_python", refused.sentence, "Change the code.")
     return None
 
 
 # Checks of own blocks: called without a definition, defined twice, giving nothing, in circles.
 
 
-def check_own_blocks(project: Project, language: Language) -> Found:
-    """Problems of own blocks; nothing is looked at where there are none."""
-    if not project.procedures:
-        return
+def check_own_blocks(project: Project, language: Language, running: Iterable[list[str]]) -> Found:
+    """Problems of own blocks; ``running`` are the chains that become code."""
     headers: dict[str, str] = {}
     calls: dict[str, dict[str, str]] = {}
-    for chain in chains(project, language):
+    for chain in running:
         header = project.blocks[chain[0]]
         owner = procedure_of(header.type) if header.type.startswith(DEFINE) else ""
         blocks = list(project.within(chain, enabled=True))
@@ -257,7 +255,7 @@ def _twice(project: Project, header: Block) -> Diagnostic:
     return Diagnostic(
         "error",
         "defined_twice",
-        page_of(project, header.id),
+        project.page_of(header.id),
         header.id,
         text_of(
             "The block “{own_block}” is defined twice.",
@@ -271,7 +269,7 @@ def _gives_nothing(project: Project, header: Block) -> Diagnostic:
     return Diagnostic(
         "warning",
         "gives_nothing",
-        page_of(project, header.id),
+        project.page_of(header.id),
         header.id,
         text_of(
             "“{own_block}” gives a value, but there is no “give back” block in it.",
@@ -290,7 +288,7 @@ def _undefined(
             yield Diagnostic(
                 "error",
                 "no_definition",
-                page_of(project, block),
+                project.page_of(block),
                 block,
                 text_of(
                     "Nothing says what “{own_block}” does: its “define” block is on no page, or it "
@@ -309,7 +307,7 @@ def _circles(
             yield Diagnostic(
                 "info",
                 "calls_itself",
-                page_of(project, header),
+                project.page_of(header),
                 header,
                 text_of(
                     "“{own_block}” calls itself, at once or through another block.",

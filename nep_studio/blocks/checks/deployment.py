@@ -2,17 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator, Mapping
 
 from faults import Text, text_of
-from nep_studio.blocks.definitions import Definition
+from nep_studio.blocks.definitions import Definition, Slot
 from nep_studio.blocks.deployment import (
-    find_gestures_used,
-    find_robots_used,
+    NodeEntry,
     is_recognised,
-    node_entries,
     robot_entries,
-    rules,
 )
 from nep_studio.blocks.language import Language
 from nep_studio.blocks.own_gestures import own_gestures, trained_gestures
@@ -21,20 +18,32 @@ from nep_studio.blocks.program import ALL_ROBOTS, Block, Project
 from nep_studio.blocks.slots import GESTURE_STATE, why_not_name
 from nep_studio.blocks.text import sentence
 
-from .diagnostic import Diagnostic, Fix, Found, page_of
+from .diagnostic import Diagnostic, Fix, Found
+
+Uses = Mapping[tuple[str, str], tuple[str, str]]
+"""The first block that names a robot or a gesture, and its page, by kind and name."""
 
 
-def check_deployment(project: Project, language: Language) -> Found:
-    """Problems of which robots and nodes there are."""
-    yield from _missing_robots(project, language)
-    yield from _unrecognised_gestures(project, language)
-    yield from _names(project, language)
+def check_deployment(
+    project: Project, language: Language, nodes: tuple[NodeEntry, ...], uses: Uses
+) -> Iterator[Diagnostic]:
+    """Problems of which robots and nodes there are; ``uses`` are those that rules name."""
+    robots = robot_entries(project, language)
+    yield from _missing_robots(language, {entry.name for entry in robots}, uses)
+    yield from _unrecognised_gestures(project, language, nodes, uses)
+    # robots are nodes too, so that all their names must differ
+    yield from _wrong_names(
+        [
+            *(("robots", entry.name, entry.block_id) for entry in robots),
+            *(("nodes", entry.name, entry.block_id) for entry in nodes),
+        ]
+    )
 
 
-def _missing_robots(project: Project, language: Language) -> Found:
-    listed = {entry.name for entry in robot_entries(project, language)}
-    used = yield from find_robots_used(project, language)
-    for name, block in used.items():
+def _missing_robots(language: Language, listed: set[str], uses: Uses) -> Iterator[Diagnostic]:
+    for (kind, name), (block, page) in uses.items():
+        if kind != "robot":
+            continue
         if name == ALL_ROBOTS and not listed:
             sentence = Text("There is no robot on the Robots page.")
         elif name == ALL_ROBOTS or name in listed or not name.strip():
@@ -45,7 +54,7 @@ def _missing_robots(project: Project, language: Language) -> Found:
         yield Diagnostic(
             "error",
             "robot_missing",
-            page_of(project, block),
+            page,
             block,
             sentence,
             ("Add the robot to the Robots page.", "Or choose another robot in this block."),
@@ -53,20 +62,23 @@ def _missing_robots(project: Project, language: Language) -> Found:
         )
 
 
-def _unrecognised_gestures(project: Project, language: Language) -> Found:
-    nodes, shipped = node_entries(project, language), language.choices.get("gestures", {})
+def _unrecognised_gestures(
+    project: Project, language: Language, nodes: tuple[NodeEntry, ...], uses: Uses
+) -> Iterator[Diagnostic]:
+    shipped = language.choices.get("gestures", {})
     own, trained = own_gestures(project), trained_gestures(project)
-    used = yield from find_gestures_used(project, language)
-    for gesture, block in used.items():
+    for (kind, gesture), (block, page) in uses.items():
+        if kind != "gesture":
+            continue
         if gesture in own and gesture not in trained:
-            yield _untrained(own[gesture].title, page_of(project, block), block)
+            yield _untrained(own[gesture].title, page, block)
         elif gesture in trained or not gesture.strip():
             continue  # the project's own recogniser is started with the program
         elif not is_recognised(gesture, nodes, shipped, trained):
             yield Diagnostic(
                 "warning",
                 "gesture_unrecognised",
-                page_of(project, block),
+                page,
                 block,
                 text_of(
                     "No node of the Nodes page recognises the gesture “{gesture}”.", gesture=gesture
@@ -91,12 +103,10 @@ def _untrained(title: str, page: str, block: str) -> Diagnostic:
     )
 
 
-def _names(project: Project, language: Language) -> Iterator[Diagnostic]:
-    """Robots are nodes too, so that all their names must differ."""
-    robots = [("robots", e.name, e.block_id) for e in robot_entries(project, language)]
-    nodes = [("nodes", e.name, e.block_id) for e in node_entries(project, language)]
+def _wrong_names(named: Iterable[tuple[str, str, str]]) -> Iterator[Diagnostic]:
+    """The pages, names and blocks of robots and nodes whose names are no good."""
     seen: set[str] = set()
-    for page, name, block in [*robots, *nodes]:
+    for page, name, block in named:
         reason = why_not_name(name)
         if name == ALL_ROBOTS:
             reason = text_of(
@@ -123,38 +133,46 @@ def _names(project: Project, language: Language) -> Iterator[Diagnostic]:
 def check_abilities(project: Project, language: Language, chain: list[str]) -> Found:
     """Choices that the robot of a block, or one of all robots, does not have."""
     for block in project.within(chain, enabled=True):
+        yield None
         robot = language.robot_of(block)
         asked = list(language.robots) if robot == ALL_ROBOTS else [robot]
-        if robots := [name for name in asked if name in language.robots]:
-            yield from _lacking(project, language, block, robots)
+        robots = [name for name in asked if name in language.robots]
+        if not robots:
+            continue
+        definition = language.definitions[block.type]
+        for key, slot in definition.keys(block.groups):
+            value = definition.value(block, key)
+            if slot.kind.name != "choice" or language.why_not_choice(slot, value, block, key):
+                continue  # what no robot has is told of by check_blocks
+            table = language.table_of(slot, block, key)
+            lacking = [name for name in robots if not _has(language, name, table, value)]
+            if lacking:
+                yield _lacks(project, language, block, (key, slot), lacking)
 
 
-def _lacking(
-    project: Project, language: Language, block: Block, robots: list[str]
-) -> Iterator[Diagnostic]:
-    definition = language.definitions[block.type]
-    for key, slot in definition.keys(block.groups):
-        value = definition.value(block, key)
-        if slot.kind.name != "choice" or language.why_not_choice(slot, value, block, key):
-            continue  # what no robot has is told of by check_blocks
-        table = language.table_of(slot, block, key)
-        lacking = [name for name in robots if not _has(language, name, table, value)]
-        if lacking:
-            label = language.label_of(slot, value, block, key)
-            yield Diagnostic(
-                "error",
-                "robot_lacks",
-                page_of(project, block.id),
-                block.id,
-                text_of(
-                    "“{block}”: “{choice}” is not there for {robots}.",
-                    block=sentence(project, language, block.id),
-                    choice=label,
-                    robots=[f"{name} ({language.robots[name].title})" for name in lacking],
-                ),
-                ("Choose another one.", "Or choose another robot in this block."),
-                _instead(language, block, key, table, lacking),
-            )
+def _lacks(
+    project: Project,
+    language: Language,
+    block: Block,
+    place: tuple[str, Slot],
+    lacking: list[str],
+) -> Diagnostic:
+    key, slot = place
+    value = language.definitions[block.type].value(block, key)
+    return Diagnostic(
+        "error",
+        "robot_lacks",
+        project.page_of(block.id),
+        block.id,
+        text_of(
+            "“{block}”: “{choice}” is not there for {robots}.",
+            block=sentence(project, language, block.id),
+            choice=language.label_of(slot, value, block, key),
+            robots=[f"{name} ({language.robots[name].title})" for name in lacking],
+        ),
+        ("Choose another one.", "Or choose another robot in this block."),
+        _instead(language, block, key, language.table_of(slot, block, key), lacking),
+    )
 
 
 def _has(language: Language, robot: str, table: str, value: object) -> bool:
@@ -221,10 +239,13 @@ def check_real_robots(project: Project, language: Language, chain: list[str]) ->
 # Checks of rules: nothing starts, two rules for the same thing, blocks under no rule.
 
 
-def check_rules(project: Project, language: Language) -> Iterator[Diagnostic]:
-    """Problems of how stacks begin."""
-    chains = list(rules(project, language))
-    if not chains:
+def check_rules(
+    project: Project, language: Language, running: Iterable[list[str]]
+) -> Iterator[Diagnostic]:
+    """Problems of the beginnings of the chains that become code."""
+    hats = [project.blocks[chain[0]] for chain in running]
+    hats = [hat for hat in hats if not hat.type.startswith(DEFINE)]
+    if not hats:
         yield Diagnostic(
             "error",
             "no_rule",
@@ -233,21 +254,13 @@ def check_rules(project: Project, language: Language) -> Iterator[Diagnostic]:
             "Nothing starts this program: it has no “when” block.",
             ("Drag a “when” block from the palette onto the page Behaviour.",),
         )
-    yield from _same_trigger(project, language, chains)
-    yield from _loose(project, language)
-
-
-def _same_trigger(
-    project: Project, language: Language, chains: list[list[str]]
-) -> Iterator[Diagnostic]:
     first: dict[str, str] = {}
-    for chain in chains:
-        hat = project.blocks[chain[0]]
+    for hat in hats:
         if first.setdefault(_trigger(language, hat), hat.id) != hat.id:
             yield Diagnostic(
                 "warning",
                 "same_trigger",
-                page_of(project, hat.id),
+                project.page_of(hat.id),
                 hat.id,
                 text_of(
                     "Two rules begin with “{block}”. Both will run.",
@@ -272,21 +285,3 @@ def _trigger(language: Language, hat: Block) -> str:
 def _goal_name(definition: Definition, hat: Block) -> str:
     """What tells goals that begin alike from each other, and from rules: their name."""
     return f" goal {definition.value(hat, 'name')}" if "name" in definition.slots else ""
-
-
-def _loose(project: Project, language: Language) -> Iterator[Diagnostic]:
-    for page, stack in project.stacks_of_kind("behaviour"):
-        first = project.blocks[stack.body[0]]
-        definition = language.definitions.get(first.type)
-        if definition is not None and definition.shape != "hat" and definition.page == "behaviour":
-            yield Diagnostic(
-                "info",
-                "loose_block",
-                page,
-                first.id,
-                text_of(
-                    "“{block}” is under no “when” block and will not run.",
-                    block=sentence(project, language, first.id),
-                ),
-                ("Drag it under a “when” block, or leave it here for later.",),
-            )

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
-from typing import Literal
+from typing import Literal, get_args
 
 from faults import Words
 
-from ..program import Project
-
 Severity = Literal["error", "warning", "info"]
+SEVERITIES: tuple[Severity, ...] = get_args(Severity)
+"""The worst first."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -41,8 +41,3 @@ class Diagnostic:
 
 Found = Iterator[Diagnostic | None]
 """What a check finds, one after the other; None wherever it may rest."""
-
-
-def page_of(project: Project, block_id: str) -> str:
-    """The page on which a block is."""
-    return project.page_of(project.stack_of(block_id).id)

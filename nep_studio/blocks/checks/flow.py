@@ -13,10 +13,11 @@ from nep_studio.blocks.language import Language
 from nep_studio.blocks.program import ALL_ROBOTS, Block, Project
 from nep_studio.blocks.text import sentence
 
-from .diagnostic import Diagnostic, Fix, Found, page_of
+from .diagnostic import Diagnostic, Fix, Found
 
 _POSTURES = {"stands_up": "posture_stand", "rests": "posture_rest"}
 """The postures after blocks with such a flag."""
+_OF_POSTURE = {"posture", "stands", *_POSTURES}
 
 
 def check_flow(project: Project, language: Language, chain: list[str]) -> Found:
@@ -32,15 +33,18 @@ def _loops_without_pause(project: Project, language: Language, blocks: list[Bloc
     pauses: set[str] = set()
     for block in reversed(blocks):
         yield None
-        flags = _flags(language, block)
-        takes_time = "takes_time" in flags or _ends(language, block)
-        if takes_time or not pauses.isdisjoint(block.children()):
+        definition = language.definitions.get(block.type)
+        goes_on = definition is not None and not (
+            "takes_time" in definition.flags
+            or (definition.shape == "cap" and definition.generator != "next_round")
+        )
+        if not goes_on or not pauses.isdisjoint(block.children()):
             pauses.add(block.id)
-        elif "needs_pause" in flags:
+        elif definition is not None and "needs_pause" in definition.flags:
             yield Diagnostic(
                 "warning",
                 "no_pause",
-                page_of(project, block.id),
+                project.page_of(block.id),
                 block.id,
                 text_of(
                     "“{block}” never pauses: the computer would do nothing else.",
@@ -49,13 +53,6 @@ def _loops_without_pause(project: Project, language: Language, blocks: list[Bloc
                 ("Put a “wait” block inside.", "Or let the robot do something inside."),
                 Fix("add_wait", "Add a pause", {"block": block.id, "slot": "do"}),
             )
-
-
-def _ends(language: Language, block: Block) -> bool:
-    definition = language.definitions.get(block.type)
-    if definition is None:
-        return True
-    return definition.shape == "cap" and definition.generator != "next_round"
 
 
 def _never_reached(
@@ -70,7 +67,7 @@ def _never_reached(
                 yield Diagnostic(
                     "warning",
                     "never_reached",
-                    page_of(project, lower.id),
+                    project.page_of(lower.id),
                     lower.id,
                     text_of(
                         "“{block}” is never reached: it comes after “{block_2}”.",
@@ -86,12 +83,14 @@ def _walking_unready(project: Project, language: Language, blocks: list[Block]) 
     postures: dict[str, str] = {}
     for block in blocks:
         yield None
-        flags = _flags(language, block)
-        if not flags & {"posture", "stands", *_POSTURES}:
+        definition = language.definitions.get(block.type)
+        if definition is None or definition.flags.isdisjoint(_OF_POSTURE):
             continue
-        definition = language.definitions[block.type]
         robot = str(definition.value(block, "robot"))
-        if taken := _posture_taken(definition, block):
+        taken = next((_POSTURES[flag] for flag in definition.flags if flag in _POSTURES), "")
+        if "posture" in definition.flags:
+            taken = str(definition.value(block, "posture"))
+        if taken:
             if robot == ALL_ROBOTS:
                 postures.clear()
             postures[robot] = taken
@@ -103,24 +102,12 @@ def _walking_unready(project: Project, language: Language, blocks: list[Block]) 
             yield Diagnostic(
                 "warning",
                 "not_standing",
-                page_of(project, block.id),
+                project.page_of(block.id),
                 block.id,
                 text_of("{name} cannot walk after the posture “{label}”.", name=name, label=label),
                 ("Let the robot stand first.",),
                 Fix("stand_first", "Stand first", {"block": block.id, "robot": robot}),
             )
-
-
-def _posture_taken(definition: Definition, block: Block) -> str:
-    """The posture that a block leaves a robot in, "" when it leaves it as it is."""
-    if "posture" in definition.flags:
-        return str(definition.value(block, "posture"))
-    return next((_POSTURES[flag] for flag in definition.flags if flag in _POSTURES), "")
-
-
-def _flags(language: Language, block: Block) -> frozenset[str]:
-    definition = language.definitions.get(block.type)
-    return definition.flags if definition is not None else frozenset()
 
 
 # Checks of what Python itself cannot take: loops in loops in loops, values in values.
@@ -145,13 +132,13 @@ def check_limits(project: Project, language: Language, chain: list[str]) -> Foun
         if block.disabled or definition is None:
             continue
         inside = _inside(block, definition, depth)
-        if not _is_too_deep(inside, definition):
+        if inside is not None:
             waiting += [(child, inside) for child in block.children()]
             continue
         yield Diagnostic(
             "error",
             "too_deep",
-            page_of(project, block_id),
+            project.page_of(block_id),
             block_id,
             text_of(
                 "Blocks are nested too deep here: {deepest_loop} loops, {deepest_indent} "
@@ -164,17 +151,14 @@ def check_limits(project: Project, language: Language, chain: list[str]) -> Foun
         )
 
 
-def _inside(block: Block, definition: Definition, depth: _Depth) -> _Depth:
-    """How deep the blocks inside a block are."""
+def _inside(block: Block, definition: Definition, depth: _Depth) -> _Depth | None:
+    """How deep the blocks inside a block are; None where that is too deep."""
     if definition.is_value:
-        return depth._replace(values=depth.values + value_cost(block))
-    if definition.shape != "c":
-        return depth
-    loops = 0 if "apart" in definition.flags else depth.loops + ("loop" in definition.flags)
-    return _Depth(loops, depth.indent + 1, 0)
-
-
-def _is_too_deep(inside: _Depth, definition: Definition) -> bool:
-    if definition.is_value:
-        return inside.values > DEEPEST_VALUE
-    return inside.loops > DEEPEST_LOOP or inside.indent > DEEPEST_INDENT
+        values = depth.values + value_cost(block)
+        return None if values > DEEPEST_VALUE else depth._replace(values=values)
+    loops, indent, values = depth
+    if definition.shape == "c":
+        loops = 0 if "apart" in definition.flags else loops + ("loop" in definition.flags)
+        indent, values = indent + 1, 0
+    too_deep = loops > DEEPEST_LOOP or indent > DEEPEST_INDENT
+    return None if too_deep else _Depth(loops, indent, values)

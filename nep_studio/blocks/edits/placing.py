@@ -65,7 +65,17 @@ class MoveBlocks(Edit, frozen=True):
         """Move the blocks."""
         roots = _require_run(project, self.first, self.count)
         old = place_of(project, self.first, self.count)
-        _require_outside(project, self.place, roots)
+        # A place must not be inside the blocks that are moved there
+        place = self.place
+        owner = place.stack if isinstance(place, NewStack | InStack) else place.block
+        moved = set(roots)
+        while owner in project.blocks:
+            if owner in moved:
+                raise EditRefused("A block cannot be put inside itself.")
+            owner = project.parents[owner].owner
+        stack = project.stacks.get(place.stack) if isinstance(place, InStack) else None
+        if stack is not None and stack.body == roots:
+            raise EditRefused("These blocks are a stack already.")
         _require_free(project, self.place, roots, moved=True)
         take(project, self.first, self.count)
         put(project, roots, self.place)
@@ -100,19 +110,6 @@ def _require_whole(edit: CreateBlocks) -> None:
         raise EditRefused("These blocks are not complete.")
 
 
-def _require_outside(project: Project, place: Place, roots: list[str]) -> None:
-    """A place must not be inside the blocks that are moved there."""
-    owner = place.stack if isinstance(place, NewStack | InStack) else place.block
-    moved = set(roots)
-    while owner in project.blocks:
-        if owner in moved:
-            raise EditRefused("A block cannot be put inside itself.")
-        owner = project.parents[owner].owner
-    stack = project.stacks.get(place.stack) if isinstance(place, InStack) else None
-    if stack is not None and stack.body == roots:
-        raise EditRefused("These blocks are a stack already.")
-
-
 def _require_free(
     project: Project, place: Place, roots: Sequence[str], *, moved: bool = False
 ) -> None:
@@ -123,34 +120,26 @@ def _require_free(
         if len(roots) != 1 or plugged not in (None, *leaving):
             raise EditRefused("There is a block in this slot already.")
         return
-    index = place.position if isinstance(place, NewStack) else place.index
-    if not 0 <= index <= _length(project, place, leaving):
-        raise EditRefused("There is no such place.")
-
-
-def _length(project: Project, place: NewStack | InStack | InBody, leaving: Sequence[str]) -> int:
-    """How long the list of a place is, once the blocks that are moved have left it."""
     if isinstance(place, NewStack):
         taken = place.stack in project.stacks or place.stack in project.blocks
         if place.page not in project.pages or taken:
             raise EditRefused("A stack cannot be made here.")
-        return len(project.pages[place.page]) - _leaves_page(project, leaving, place.page)
-    if isinstance(place, InBody):
-        chain = require_block(project, place.block).bodies.get(place.slot, [])
-    elif place.stack in project.stacks:
-        chain = project.stacks[place.stack].body
+        # a stack that is moved as a whole leaves the list of its page
+        stack = project.stacks.get(project.parents[leaving[0]].owner) if leaving else None
+        leaves = stack is not None and len(stack.body) == len(leaving)
+        there = project.pages[place.page]
+        index, length = place.position, len(there) - (leaves and stack in there)
     else:
-        raise EditRefused("This stack is not there any more.")
-    return len(chain) - (len(leaving) if leaving and leaving[0] in chain else 0)
-
-
-def _leaves_page(project: Project, roots: Sequence[str], page: str) -> bool:
-    """Whether moving the blocks empties their stack, which then leaves this page's list."""
-    if not roots:
-        return False
-    parent = project.parents[roots[0]]
-    stack = project.stacks.get(parent.owner)
-    return stack is not None and len(stack.body) == len(roots) and stack in project.pages[page]
+        if isinstance(place, InBody):
+            chain = require_block(project, place.block).bodies.get(place.slot, [])
+        elif place.stack in project.stacks:
+            chain = project.stacks[place.stack].body
+        else:
+            raise EditRefused("This stack is not there any more.")
+        left = len(leaving) if leaving and leaving[0] in chain else 0
+        index, length = place.index, len(chain) - left
+    if not 0 <= index <= length:
+        raise EditRefused("There is no such place.")
 
 
 def _adopt(project: Project, block: Block) -> None:

@@ -187,7 +187,7 @@ class StatementReader:
         while left:
             found = self._statement(left, begin)
             is_end = found is None or len(left) == found[1]
-            if found is None or (self._is_last(found[0]) and not is_end):
+            if found is None or (self._language.definitions[found[0].type].is_last and not is_end):
                 code.append(left.pop(0))
                 continue
             begin = self._keep_code(made, code, begin)
@@ -200,7 +200,9 @@ class StatementReader:
         said = self._source.comments_between(begin + 1, until, margin)
         note = self.values.type_of("note")
         if said and note:
-            made.append(Made(note, {"text": "\n".join(said)}, text=_commented(said)))
+            made.append(
+                Made(note, {"text": "\n".join(said)}, text="\n".join(f"# {line}" for line in said))
+            )
         return made
 
     def rule(self, node: ast.FunctionDef, after: int, *, as_code: bool = False) -> list[Made]:
@@ -280,9 +282,6 @@ class StatementReader:
         first = self._source.first_line(nodes[0], begin)
         made.text = self._source.text(first, end_of(nodes))
 
-    def _is_last(self, made: Made) -> bool:
-        return self._language.definitions[made.type].is_last
-
 
 def _without_pass(body: Sequence[ast.stmt]) -> list[ast.stmt]:
     kept = _without_global(body)
@@ -291,10 +290,6 @@ def _without_pass(body: Sequence[ast.stmt]) -> list[ast.stmt]:
 
 def _without_global(body: Sequence[ast.stmt]) -> list[ast.stmt]:
     return [node for node in body if not isinstance(node, ast.Global)]
-
-
-def _commented(said: Sequence[str]) -> str:
-    return "\n".join(f"# {line}" for line in said)
 
 
 _HEADERS = ("Robot", "Behavior")

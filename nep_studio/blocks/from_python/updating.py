@@ -50,7 +50,10 @@ class ChainUpdater:
         project = self._editor.project
         stack = project.stack_of(first)
         hat = project.blocks[first]
-        if self._hat_text(first) == wanted[0].text:
+        # The lines of a hat, to the one that begins the function
+        lines = [self._lines[number - 1] for number in self._code.lines_of(first)]
+        end = next((n for n, line in enumerate(lines, 1) if line.startswith("def ")), 0)
+        if "\n".join(lines[:end]) == wanted[0].text:
             pass
         elif hat.type != wanted[0].type:
             roots, blocks = blocks_of(project, self._editor.language, wanted[:1])
@@ -123,12 +126,6 @@ class ChainUpdater:
         roots, blocks = blocks_of(self._editor.project, self._editor.language, chain)
         self._editor.apply(CreateBlocks(roots, blocks, place))
         return len(roots)
-
-    def _hat_text(self, hat: str) -> str:
-        """The lines of a hat, to the one that begins the function."""
-        lines = [self._lines[number - 1] for number in self._code.lines_of(hat)]
-        end = next((n for n, line in enumerate(lines, 1) if line.startswith("def ")), 0)
-        return "\n".join(lines[:end])
 
     def _text(self, block: str) -> str:
         """The lines that a block makes with all inside it, without their margin."""
@@ -286,15 +283,11 @@ def _spans(project: Project, code: Code) -> Iterator[tuple[str, int, int]]:
     """The stacks of the behaviour with their first and last lines."""
     spans: dict[str, tuple[int, int]] = {}
     for number, block in enumerate(code.blocks, start=1):
-        if block and project.kind_of_page(_page(project, block)) == "behaviour":
+        if block and project.kind_of_page(project.page_of(block)) == "behaviour":
             stack = project.stack_of(block).id
             spans[stack] = (spans.get(stack, (number, 0))[0], number)
     for stack, (first, last) in spans.items():
         yield stack, first, last
-
-
-def _page(project: Project, block: str) -> str:
-    return project.page_of(project.stack_of(block).id)
 
 
 def _function_name(line: str) -> str:

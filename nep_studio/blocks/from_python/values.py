@@ -16,11 +16,11 @@ from nep_studio.blocks.procedures import CALL, PARAMETER, parameters, words
 from nep_studio.blocks.program import split_slot
 from nep_studio.blocks.slots import TEXT_RESULTS, FieldValue
 
-from ..deployment import robot_entries, robots_used
+from ..deployment import names_used, robot_entries
 from ..editor import Editor
 from ..generate.names import RESERVED, python_name
 from ..places import InStack
-from ..program import ALL_ROBOTS, ROBOT_BLOCK, Parameter, Procedure, Project
+from ..program import ALL_ROBOTS, ROBOT_BLOCK, Parameter, Procedure
 from .learning import (
     VARIABLE_NAME,
     CodeUnread,
@@ -67,7 +67,10 @@ def names_in(editor: Editor, tree: ast.Module) -> SourceNames:
                 assigned.append(name)
     for name in [*assigned, *_shared(tree)]:
         if name not in names.robots and name not in names.variables and name not in RESERVED:
-            names.variables[name] = editor.add_variable(_free(editor.project, name))
+            # A name for a new variable that no other has; its Python name is the same
+            project = editor.project
+            taken = {variable.name for variable in project.variables}
+            names.variables[name] = editor.add_variable(name if name not in taken else f"{name}_")
     _require_variables(names, tree)
     return names
 
@@ -94,7 +97,7 @@ def _known(editor: Editor) -> SourceNames:
     names = SourceNames()
     for entry in robot_entries(editor.project, editor.language):
         names.robots.setdefault(_safe(entry.name.lower(), "robot"), entry.name)
-    for robot in robots_used(editor.project, editor.language):
+    for robot in names_used(editor.project, editor.language, "robot"):
         names.robots.setdefault(_safe(robot.lower(), "robot"), robot)
     names.robots.setdefault("all_robots", ALL_ROBOTS)
     for variable in editor.project.variables:
@@ -190,12 +193,6 @@ def _shared(tree: ast.Module) -> Iterator[str]:
                 yield name
             case ast.For(target=ast.Name(id=name)) if name != "_":
                 yield name
-
-
-def _free(project: Project, name: str) -> str:
-    """A name for a new variable that no other has; its Python name is the same."""
-    taken = {variable.name for variable in project.variables}
-    return name if name not in taken else f"{name}_"
 
 
 # Read expressions: what goes into the field of a slot, and which block is plugged into it.

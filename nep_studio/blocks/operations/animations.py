@@ -32,7 +32,7 @@ class Use(NamedTuple):
 
 def animation_uses(editor: Editor, name: str) -> list[Use]:
     """The blocks that play an animation, in the order of their making."""
-    return list(_uses(editor, name))
+    return [use for use, used in _all_uses(editor.project, editor.language) if used == name]
 
 
 def use_of(editor: Editor, block_id: str) -> Use | None:
@@ -123,10 +123,6 @@ def _taken(editor: Editor) -> set[str]:
     tables = editor.language.choices
     names = {name for table in _TABLES for name in tables.get(table, ())}
     return names | own_animations(editor.project).keys()
-
-
-def _uses(editor: Editor, name: str) -> Iterator[Use]:
-    return (use for use, used in _all_uses(editor.project, editor.language) if used == name)
 
 
 def _all_uses(project: Project, language: Language) -> Iterator[tuple[Use, object]]:

@@ -37,7 +37,7 @@ from nep_studio.blocks.program import PAGES, Block, Procedure, Project, Stack
 from nep_studio.blocks.slots import FieldValue
 
 from .animations import bring_animations, take_along
-from .selection import Run, members, page_of_block, require_runs, runs
+from .selection import Run, members, require_runs, runs
 
 Points = Mapping[str, tuple[float, float]]
 """Where blocks are on their page, in canvas units, as the canvas has laid them out."""
@@ -87,7 +87,16 @@ def copy(project: Project, language: Language, ids: Iterable[str], at: Points = 
         page = definition.page if definition is not None else PAGES[0]
         place = at.get(run.first) or _place(project, run, number)
         _create(clip.project, roots, list(project.within(roots)), page, place)
-    _add_variables(clip.project, project, language)
+    # The variables that the blocks name, with the ids that they have in their project
+    target = clip.project
+    used = {
+        block.fields.get(key)
+        for block in target.blocks.values()
+        for key in variable_keys(block, language.definitions)
+    }
+    for variable in project.variables:
+        if variable.id in used:
+            AddVariable(variable.id, variable.name, len(target.variables)).apply(target)
     _add_procedures(clip.project, project)
     take_along(clip.project, project, language)
     return clip
@@ -128,18 +137,6 @@ def _create(
     while place.stack in project.blocks or any(place.stack == block.id for block in blocks):
         place = NewStack(page, project.new_id("s"), *at, len(project.pages[page]))
     CreateBlocks(tuple(roots), tuple(blocks), place).apply(project)
-
-
-def _add_variables(target: Project, source: Project, language: Language) -> None:
-    """The variables that the blocks name, with the ids that they have in their project."""
-    used = {
-        block.fields.get(key)
-        for block in target.blocks.values()
-        for key in variable_keys(block, language.definitions)
-    }
-    for variable in source.variables:
-        if variable.id in used:
-            AddVariable(variable.id, variable.name, len(target.variables)).apply(target)
 
 
 def _add_procedures(target: Project, source: Project) -> None:
@@ -310,7 +307,7 @@ def duplicate(editor: Editor, ids: Iterable[str], at: Points = UNKNOWN) -> tuple
     ``at`` says where blocks lie that do not begin a stack.
     """
     project, ids = editor.project, list(ids)
-    page = page_of_block(project, require_runs(project, ids)[0].first)
+    page = project.page_of(require_runs(project, ids)[0].first)
     clip = copy(project, editor.language, ids, at)
     left, top = clip.corner
     with editor.transaction("duplicate blocks"):
@@ -376,7 +373,11 @@ def _complete(clip: Project, language: Language, first: str) -> set[str]:
     if not definition.is_value:
         return {hat}
     holder = _create_chain(clip, language, HOLDER, stack)
-    clip.blocks[holder].fields["variable"] = _variable(clip)
+    variable, name = clip.new_id("v"), "value"
+    while any(known.name == name for known in clip.variables):
+        name += "_"
+    AddVariable(variable, name, len(clip.variables)).apply(clip)
+    clip.blocks[holder].fields["variable"] = variable
     MoveBlocks(first, 1, InInput(holder, HELD)).apply(clip)
     MoveBlocks(holder, 1, InStack(stack, 1)).apply(clip)
     return {hat, holder}
@@ -386,14 +387,6 @@ def _create_chain(clip: Project, language: Language, block_type: str, stack: str
     block = language.definitions[block_type].new_block(clip.new_id("b"))
     CreateBlocks((block.id,), (block,), InStack(stack, 0)).apply(clip)
     return block.id
-
-
-def _variable(clip: Project) -> str:
-    variable, name = clip.new_id("v"), "value"
-    while any(known.name == name for known in clip.variables):
-        name += "_"
-    AddVariable(variable, name, len(clip.variables)).apply(clip)
-    return variable
 
 
 def _lines(clip: Project, code: Code, lines: list[str], stack: str, added: set[str]) -> str:

@@ -27,8 +27,6 @@ from .selection import (
     chain_around,
     is_within_run,
     members,
-    page_of_block,
-    require_runs,
     run_from,
     runs,
 )
@@ -179,7 +177,21 @@ def why_not_land(editor: Editor, load: Load, place: Place, *, wrap: bool) -> Tex
         return Text("Only one block goes into a slot.")
     below = blocks_below(editor.project, load, place)
     if below and (mouth(editor, load, wrap=wrap) or is_cut(editor, load, place)):
-        return _why_not_cut(editor, load, place, below, wrap=wrap)
+        # The same question when the blocks below go away, or into the mouth of the new block
+        project, definitions = editor.project, editor.language.definitions
+        moved = load.ids
+        left = [block for block in chain_at(project, place) if block not in moved]
+        over = project.blocks[left[-len(below) - 1]] if len(below) < len(left) else None
+        first = definitions.get(load.chain[0].type)
+        is_top = over is None and isinstance(place, InStack)
+        reason = editor.why_not(load.edit(editor.new_stack(page_at(project, place), 0, 0)))
+        reason = reason or why_not_chained(first, first_in_stack=is_top)
+        if reason is None and over is not None:
+            reason = why_not_below(definitions.get(over.type))
+        if reason is None and mouth(editor, load, wrap=wrap):
+            top = definitions.get(project.blocks[below[0]].type)
+            reason = why_not_chained(top, first_in_stack=False)
+        return reason
     return editor.why_not(load.edit(place))
 
 
@@ -228,27 +240,7 @@ def page_at(project: Project, place: Place) -> str:
         return place.page
     if isinstance(place, InStack):
         return project.page_of(place.stack)
-    return page_of_block(project, place.block)
-
-
-def _why_not_cut(
-    editor: Editor, load: Load, place: Place, below: list[str], *, wrap: bool
-) -> Text | None:
-    """The same question when the blocks below go away, or into the mouth of the new block."""
-    project, definitions = editor.project, editor.language.definitions
-    moved = load.ids
-    left = [block for block in chain_at(project, place) if block not in moved]
-    over = project.blocks[left[-len(below) - 1]] if len(below) < len(left) else None
-    first = definitions.get(load.chain[0].type)
-    is_top = over is None and isinstance(place, InStack)
-    reason = editor.why_not(load.edit(editor.new_stack(page_at(project, place), 0, 0)))
-    reason = reason or why_not_chained(first, first_in_stack=is_top)
-    if reason is None and over is not None:
-        reason = why_not_below(definitions.get(over.type))
-    if reason is None and mouth(editor, load, wrap=wrap):
-        top = definitions.get(project.blocks[below[0]].type)
-        reason = why_not_chained(top, first_in_stack=False)
-    return reason
+    return project.page_of(place.block)
 
 
 Point = tuple[float, float]
@@ -318,7 +310,13 @@ def drop(
         return
     with editor.transaction("move blocks"):
         if isinstance(place, InInput):
-            _plug(editor, run, place, beside)
+            owner = editor.project.blocks[place.block]
+            pushed = owner.inputs.get(place.slot)
+            if pushed is not None:
+                set_aside(editor, Run(pushed, 1), beside)
+            editor.apply(MoveBlocks(run.first, 1, place))
+            if pushed is not None and (slot := _only_slot_for(editor, pushed, run.first)):
+                editor.apply(MoveBlocks(pushed, 1, InInput(run.first, slot)))
         else:
             _chain(editor, run, place, wrap, beside)
         if at is not None:
@@ -357,15 +355,17 @@ def why_not_create(editor: Editor, clip: Clip, place: Place, *, wrap: bool = Fal
     return why_not_land(editor, load_of_clip(clip), place, wrap=wrap)
 
 
-def move_by(editor: Editor, ids: Iterable[str], dx: float, dy: float, at: Points = UNKNOWN) -> None:
-    """Move selected blocks on their page, as one step.
+def move_by(
+    editor: Editor, moved: Iterable[Run], dx: float, dy: float, at: Points = UNKNOWN
+) -> None:
+    """Move runs of blocks on their page, as one step.
 
     Whole stacks move; runs of blocks inside others come out and become stacks. ``at`` says where
     those lie now (by their first block).
     """
     project = editor.project
     with editor.transaction("move blocks"):
-        for run in require_runs(project, ids):
+        for run in moved:
             stack = project.stack_of(run.first)
             if stack.body[0] == run.first and len(stack.body) == run.count:
                 editor.apply(MoveStack(stack.id, stack.x + dx, stack.y + dy))
@@ -381,16 +381,6 @@ def set_aside(editor: Editor, run: Run, beside: Point | None = None) -> None:
     x, y = beside or (stack.x + 2 * STEP, stack.y + 2 * STEP)
     place = editor.new_stack(editor.project.page_of(stack.id), x, y)
     editor.apply(MoveBlocks(run.first, run.count, place))
-
-
-def _plug(editor: Editor, run: Run, place: InInput, beside: Point | None) -> None:
-    owner = editor.project.blocks[place.block]
-    pushed = owner.inputs.get(place.slot)
-    if pushed is not None:
-        set_aside(editor, Run(pushed, 1), beside)
-    editor.apply(MoveBlocks(run.first, 1, place))
-    if pushed is not None and (slot := _only_slot_for(editor, pushed, run.first)):
-        editor.apply(MoveBlocks(pushed, 1, InInput(run.first, slot)))
 
 
 def _only_slot_for(editor: Editor, block: str, owner: str) -> str:
@@ -494,7 +484,7 @@ def enclose(editor: Editor, block: str, run: Run) -> None:
         )
     with editor.transaction("put a block around"):
         if not isinstance(place_of(project, block, 1), NewStack):
-            stack, page = project.stack_of(run.first), page_of_block(project, run.first)
+            stack, page = project.stack_of(run.first), project.page_of(run.first)
             editor.apply(MoveBlocks(block, 1, editor.new_stack(page, stack.x, stack.y)))
         place = place_of(project, run.first, run.count)
         editor.apply(MoveBlocks(run.first, run.count, InBody(block, body, 0)))
@@ -517,7 +507,9 @@ def reporter_of(project: Project, language: Language, block_id: str, slot: str) 
         return None
     if there.kind.name == "variable":
         variable = project.variable(str(definition.value(block, slot)))
-        getter = _getter(language)
+        # The type of the block that gives the value of a variable
+        getters = (d.id for d in language.definitions.values() if d.generator == "variable")
+        getter = next(getters, "")
         if variable is None or not getter:
             return None
         clip = clip_of(language, getter, variable=variable.id)
@@ -535,9 +527,3 @@ def _parameter(project: Project, language: Language, block_type: str) -> Clip | 
     procedure = project.procedures[procedure_of(block_type)]
     AddProcedure(procedure, 0).apply(clip.project)
     return clip
-
-
-def _getter(language: Language) -> str:
-    """The type of the block that gives the value of a variable."""
-    getters = (d.id for d in language.definitions.values() if d.generator == "variable")
-    return next(getters, "")

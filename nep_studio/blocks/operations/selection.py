@@ -26,7 +26,8 @@ def runs(project: Project, ids: Iterable[str]) -> tuple[Run, ...]:
     selected = {block for block in ids if block in project.blocks}
     outer = {block for block in selected if not is_inside(project, block, selected)}
     found = {run.first: run for run in _in_chains(project, outer)}
-    return tuple(found[start] for start in in_page_order(project, found))
+    order = in_page_order(project, found) if len(found) > 1 else found
+    return tuple(found[start] for start in order)
 
 
 def require_runs(project: Project, ids: Iterable[str]) -> tuple[Run, ...]:
@@ -77,8 +78,6 @@ def is_inside(project: Project, block: str, others: Collection[str]) -> bool:
 def in_page_order(project: Project, ids: Collection[str]) -> list[str]:
     """Blocks as they come on the pages: page by page, stack by stack, from top to bottom."""
     wanted = set(ids)
-    if len(wanted) < 2:
-        return list(wanted)
     touched = {project.stack_of(block).id for block in wanted}
     return [
         block.id
@@ -88,11 +87,6 @@ def in_page_order(project: Project, ids: Collection[str]) -> list[str]:
         for block in project.within(stack.body)
         if block.id in wanted
     ]
-
-
-def page_of_block(project: Project, block: str) -> str:
-    """The page that a block is on."""
-    return project.page_of(project.stack_of(block).id)
 
 
 def is_within_run(project: Project, place: Place, run: Run) -> bool:
@@ -106,7 +100,11 @@ def is_within_run(project: Project, place: Place, run: Run) -> bool:
 
 def _in_chains(project: Project, selected: Collection[str]) -> Iterator[Run]:
     """The runs of selected blocks, chain by chain: each chain is walked once."""
-    plugged = {block for block in selected if _is_plugged(project, block)}
+    plugged = set[str]()
+    for block in selected:
+        owner, slot = project.parents[block]
+        if owner in project.blocks and project.blocks[owner].inputs.get(slot) == block:
+            plugged.add(block)
     yield from (Run(block, 1) for block in plugged)
     for parent in {project.parents[block] for block in selected if block not in plugged}:
         first, count = "", 0
@@ -118,9 +116,3 @@ def _in_chains(project: Project, selected: Collection[str]) -> Iterator[Run]:
                 first, count = "", 0
         if count:
             yield Run(first, count)
-
-
-def _is_plugged(project: Project, block: str) -> bool:
-    parent = project.parents[block]
-    owner = project.blocks.get(parent.owner)
-    return owner is not None and owner.inputs.get(parent.slot) == block

@@ -16,7 +16,7 @@ from nep_studio.blocks.program import Block
 from nep_studio.blocks.slots import FieldValue
 
 from .moving import Point, first_body, set_aside
-from .selection import Run, members, page_of_block, require_runs
+from .selection import Run, members, require_runs
 
 
 def wrap(editor: Editor, ids: Iterable[str], block_type: str) -> str:
@@ -25,7 +25,7 @@ def wrap(editor: Editor, ids: Iterable[str], block_type: str) -> str:
     A hat at the beginning stays outside. Raises EditRefused.
     """
     run = _without_hat(editor, _single(editor, ids))
-    page = page_of_block(editor.project, run.first)
+    page = editor.project.page_of(run.first)
     with editor.transaction("put a block around"):
         stack = editor.project.stack_of(run.first)
         outer = editor.create(block_type, editor.new_stack(page, stack.x, stack.y))
@@ -196,26 +196,23 @@ def move_part(editor: Editor, block_id: str, group: str, index: int, to: int) ->
     step = 1 if to > index else -1
     with editor.transaction("move a part"):
         for number in range(index, to, step):
-            _swap(editor, block, slots, number, number + step)
-
-
-def _swap(editor: Editor, block: Block, slots: tuple[str, ...], one: int, other: int) -> None:
-    """Exchange what is in two parts: fields by setting them, blocks by moving them."""
-    first = _runs_in_part(editor, block.id, slots, one)
-    second = _runs_in_part(editor, block.id, slots, other)
-    fields = {
-        slot: (block.fields.get(f"{slot}.{one}"), block.fields.get(f"{slot}.{other}"))
-        for slot in slots
-    }
-    for run in first.values():
-        set_aside(editor, run)
-    for slot, run in second.items():
-        _put_in(editor, block, f"{slot}.{one}", run)
-    for slot, run in first.items():
-        _put_in(editor, block, f"{slot}.{other}", run)
-    for slot, (here, there) in fields.items():
-        _set_groups(editor, block, f"{slot}.{one}", there)
-        _set_groups(editor, block, f"{slot}.{other}", here)
+            # Exchange what is in two parts: fields by setting them, blocks by moving them
+            other = number + step
+            first = _runs_in_part(editor, block.id, slots, number)
+            second = _runs_in_part(editor, block.id, slots, other)
+            fields = {
+                slot: (block.fields.get(f"{slot}.{number}"), block.fields.get(f"{slot}.{other}"))
+                for slot in slots
+            }
+            for run in first.values():
+                set_aside(editor, run)
+            for slot, run in second.items():
+                _put_in(editor, block, f"{slot}.{number}", run)
+            for slot, run in first.items():
+                _put_in(editor, block, f"{slot}.{other}", run)
+            for slot, (here, there) in fields.items():
+                _set_groups(editor, block, f"{slot}.{number}", there)
+                _set_groups(editor, block, f"{slot}.{other}", here)
 
 
 def _set_groups(editor: Editor, block: Block, key: str, value: FieldValue | None) -> None:

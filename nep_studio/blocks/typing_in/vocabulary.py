@@ -19,7 +19,7 @@ from nep_studio.blocks.language import Language
 from nep_studio.blocks.operations.finding import folded
 from nep_studio.blocks.slots import FieldValue
 
-from ..deployment import robot_entries, robots_used
+from ..deployment import names_used, robot_entries
 from ..from_python.values import ValueReader
 from ..generate.names import python_name
 from ..program import ALL_ROBOTS, Project
@@ -270,7 +270,7 @@ class Filler:
     def __post_init__(self) -> None:
         for entry in robot_entries(self.project, self.language):
             self.robots[folded(entry.name)] = entry.name
-        for name in robots_used(self.project, self.language):
+        for name in names_used(self.project, self.language, "robot"):
             self.robots[folded(name)] = name
         self.robots |= {"all robots": ALL_ROBOTS, "all": ALL_ROBOTS}
         self.variables = {folded(v.name): v.id for v in self.project.variables}
@@ -280,7 +280,12 @@ class Filler:
         plain = folded(text.strip())
         kind = slot.kind.name
         if kind in ("choice", "gesture"):
-            return _choice(entry, slot, plain) or self._free_gesture(slot, plain)
+            best: Filling | None = None
+            for label, value in entry.choices.get(slot.name, ()):
+                quality = _likeness(plain, label)
+                if quality and (best is None or quality > best.quality):
+                    best = Filling(value, quality)
+            return best or self._free_gesture(slot, plain)
         if kind == "robot":
             name = self.robots.get(plain)
             return Filling(name, NAMED) if name is not None else None
@@ -295,7 +300,8 @@ class Filler:
         tree = _parsed(text)
         if tree is None or isinstance(tree, ast.Name | ast.Constant):
             return None
-        if not self._knows_all(tree):
+        known = self._reader().names.variables
+        if not all(node.id in known for node in ast.walk(tree) if isinstance(node, ast.Name)):
             return None
         found = self._reader().blocks(tree)
         return next(((made, result) for made, result in found if not _has_code(made)), None)
@@ -341,10 +347,6 @@ class Filler:
             self.reader = ValueReader(self.language, names)
         return self.reader
 
-    def _knows_all(self, tree: ast.expr) -> bool:
-        known = self._reader().names.variables
-        return all(node.id in known for node in ast.walk(tree) if isinstance(node, ast.Name))
-
 
 def number_in(text: str) -> int | float | None:
     """The number that a text is, with a point or a comma, or None."""
@@ -358,15 +360,6 @@ def number_in(text: str) -> int | float | None:
 def is_quoted(text: str) -> bool:
     """Whether a text stands in quotes."""
     return len(text) > 1 and text[0] in "\"'“„«" and text[-1] in "\"'”“»"
-
-
-def _choice(entry: Entry, slot: Slot, plain: str) -> Filling | None:
-    best: Filling | None = None
-    for label, value in entry.choices.get(slot.name, ()):
-        quality = _likeness(plain, label)
-        if quality and (best is None or quality > best.quality):
-            best = Filling(value, quality)
-    return best
 
 
 def _likeness(plain: str, label: str) -> float:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import partial
 from typing import TYPE_CHECKING, cast
 
 from PySide6.QtCore import QObject, QPoint, QRect
@@ -300,7 +301,7 @@ def make_accessible(view: CanvasHost) -> None:
     if not _is_installed:
         QAccessible.installFactory(_factory)
         _is_installed = True
-    view.selection.changed.connect(lambda: _tell_focus(view))
+    view.selection.changed.connect(partial(_tell_focus, view))
 
 
 def announce(view: CanvasHost, text: str) -> None:

@@ -36,7 +36,7 @@ def picture_of(
     font = QFont(font)
     font.setHintingPreference(QFont.HintingPreference.PreferNoHinting)
     widths = TextWidths(font)
-    measures = Measures(widths.line, widths, is_mirrored=is_mirrored)
+    measures = Measures(widths.line, widths.__getitem__, is_mirrored=is_mirrored)
     layout = PageLayout(editor.project, editor.language, measures)
     layout.show("behaviour")
     pixmap = QPixmap(size * ratio)
@@ -159,7 +159,7 @@ class PictureLook:
         font = QFont(self.font)
         font.setHintingPreference(QFont.HintingPreference.PreferNoHinting)
         widths = TextWidths(font)
-        return Measures(widths.line, widths, is_mirrored=self.is_mirrored)
+        return Measures(widths.line, widths.__getitem__, is_mirrored=self.is_mirrored)
 
 
 def arrange(project: Project, language: Language, measures: Measures) -> None:
@@ -180,7 +180,16 @@ class HelpPicture:
         layout = Layout(project, self._language, self._measures)
         stacks = [stack for page in project.pages.values() for stack in page]
         self._chains = [layout.chain(stack.body) for stack in stacks]
-        self.size = _place(self._chains, self._measures)
+        # Put chains one below the other; gives the room that they take, with their tabs
+        chains = self._chains
+        measures = self._measures
+        y, width = 0.0, 1.0
+        for chain in chains:
+            chain.x, chain.y = 0.0, y
+            y += chain.height + measures.notch_depth + GAP * measures.unit
+            width = max(width, chain.width)
+        margin = 2.0 * measures.unit
+        self.size = QSizeF(width + 2 * margin, max(1.0, y - GAP * measures.unit) + 2 * margin)
 
     def paint(self, painter: QPainter) -> None:
         """Paint them with all their words, into ``size`` from the painter's origin on."""
@@ -206,17 +215,6 @@ def help_picture_of(project: Project, language: Language, look: PictureLook) -> 
 
 
 _SMALLEST = QSizeF(1, 1).toSize()
-
-
-def _place(chains: list[Chain], measures: Measures) -> QSizeF:
-    """Put chains one below the other; gives the room that they take, with their tabs."""
-    y, width = 0.0, 1.0
-    for chain in chains:
-        chain.x, chain.y = 0.0, y
-        y += chain.height + measures.notch_depth + GAP * measures.unit
-        width = max(width, chain.width)
-    margin = 2.0 * measures.unit
-    return QSizeF(width + 2 * margin, max(1.0, y - GAP * measures.unit) + 2 * margin)
 
 
 def _origin(size: QSizeF, measures: Measures) -> QPointF:

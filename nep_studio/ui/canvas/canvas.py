@@ -86,6 +86,7 @@ class Canvas(QAbstractScrollArea):
         parent: QWidget | None = None,
     ) -> None:
         super().__init__(parent)
+        self.area: QAbstractScrollArea = self
         self.editor = editor
         self.accessible: object = None
         self.news = CanvasNews(self)
@@ -119,11 +120,6 @@ class Canvas(QAbstractScrollArea):
         viewport.setAcceptDrops(True)
         viewport.setAttribute(Qt.WidgetAttribute.WA_AcceptTouchEvents)
         viewport.ungrabGesture(Qt.GestureType.PanGesture)  # two fingers are ours
-
-    @property
-    def area(self) -> QAbstractScrollArea:
-        """The widget itself."""
-        return self
 
     @property
     def page(self) -> str:
@@ -174,7 +170,7 @@ class Canvas(QAbstractScrollArea):
         project = self.editor.project
         if block_id not in project.blocks:
             return
-        self.show_page(project.page_of(project.stack_of(block_id).id))
+        self.show_page(project.page_of(block_id))
         placed = self.page_layout.placed(block_id)
         if placed is not None:
             self.sight.show_head(placed)
@@ -231,11 +227,13 @@ class Canvas(QAbstractScrollArea):
         return True
 
     def _on_changes(self, changes: Changes) -> None:
-        self.pointing.cancel()  # what is carried may not be there any more
+        if self.pointing.gesture is not None:
+            self.pointing.cancel()  # what is carried may not be there any more
         self.layers.repaint_page(self.page_layout.change(changes))
-        if self.page_layout.chains.is_waiting:
+        if self.page_layout.chains.waiting:
             self.later_layout.start()
-        self.layers.repaint_page(self.notes.change(changes))
+        if changes.notes or changes.whole:
+            self.layers.repaint_page(self.notes.change(changes))
         self.selection.keep(self.editor.project.blocks)
         self.sight.update_scroll_bars()
         self.news.layout_changed.emit()
@@ -291,6 +289,9 @@ class Canvas(QAbstractScrollArea):
         """Begin a gesture that opens the block if it stays a click."""
         self.keyboard.is_space_pressed = False
         self.pointing.double_click(event)
+        is_plain = event.button() == Qt.MouseButton.LeftButton and not event.modifiers()
+        if is_plain and self.sight.hit(event.position()) is None:
+            self.news.page_double_clicked.emit(self.sight.to_page(event.position()))
 
     def mouseMoveEvent(self, event: QMouseEvent) -> None:
         """Go on with the gesture."""
@@ -298,7 +299,7 @@ class Canvas(QAbstractScrollArea):
 
     def mouseReleaseEvent(self, event: QMouseEvent) -> None:
         """End the gesture."""
-        self.pointing.release(event)
+        self.pointing.release_at(event.position(), event.button())
 
     def wheelEvent(self, event: QWheelEvent) -> None:
         """Scroll or zoom."""

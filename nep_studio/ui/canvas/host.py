@@ -32,7 +32,8 @@ class CanvasNews(QObject):
     """What happens on a canvas, for those around it.
 
     ``refused`` says in a sentence why something did not fit; ``announced`` is for screen readers;
-    ``menu_requested`` gives a place in the viewport; ``blocks_deleted`` brings what was deleted,
+    ``menu_requested`` gives a place in the viewport, ``page_double_clicked`` one of the page where
+    no block is; ``blocks_deleted`` brings what was deleted,
     for the list of deleted blocks; ``delete_area_entered`` whether carried blocks are there now;
     ``uses_requested`` brings the Subject whose uses a person looks for, ``help_requested`` the
     name of a page of help.
@@ -45,6 +46,7 @@ class CanvasNews(QObject):
     refused = Signal(object)  # Words
     announced = Signal(str)
     menu_requested = Signal(QPoint)
+    page_double_clicked = Signal(QPointF)
     problem_opened = Signal(str)
     block_opened = Signal(str)
     blocks_deleted = Signal(object)

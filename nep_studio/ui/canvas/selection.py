@@ -17,38 +17,28 @@ class Selection(QObject):
 
     def __init__(self, parent: QObject | None = None) -> None:
         super().__init__(parent)
-        self._ids: dict[str, None] = {}
-        self._cursor = ""
+        self.ids: tuple[str, ...] = ()
+        """The selected blocks."""
+        self.cursor = ""
+        """The block that the keyboard is at; empty when there is none."""
+        self._known: frozenset[str] = frozenset()
 
     def __contains__(self, block_id: str) -> bool:
-        return block_id in self._ids
-
-    def __len__(self) -> int:
-        return len(self._ids)
-
-    @property
-    def ids(self) -> tuple[str, ...]:
-        """The selected blocks."""
-        return tuple(self._ids)
-
-    @property
-    def cursor(self) -> str:
-        """The block that the keyboard is at; empty when there is none."""
-        return self._cursor
+        return block_id in self._known
 
     def set(self, ids: Iterable[str], cursor: str | None = None) -> None:
         """Select these blocks and no others; the cursor goes to the last, or where it is said."""
-        new = dict.fromkeys(ids)
-        at = cursor if cursor is not None else next(reversed(new), "")
-        if list(new) == list(self._ids) and at == self._cursor:
+        new = tuple(dict.fromkeys(ids))
+        at = cursor if cursor is not None else (new[-1] if new else "")
+        if new == self.ids and at == self.cursor:
             return
-        self._ids, self._cursor = new, at
+        self.ids, self.cursor, self._known = new, at, frozenset(new)
         self.changed.emit()
 
     def toggle(self, block_id: str) -> None:
         """Add a block to the selection, or take it out."""
-        ids = [i for i in self._ids if i != block_id]
-        self.set(ids if block_id in self._ids else [*ids, block_id], block_id)
+        ids = [i for i in self.ids if i != block_id]
+        self.set(ids if block_id in self.ids else [*ids, block_id], block_id)
 
     def clear(self) -> None:
         """Select nothing."""
@@ -56,6 +46,6 @@ class Selection(QObject):
 
     def keep(self, known: Container[str]) -> None:
         """Drop the blocks that are not there any more."""
-        if self._ids or self._cursor:
-            cursor = self._cursor if self._cursor in known else ""
-            self.set([i for i in self._ids if i in known], cursor)
+        if self.ids or self.cursor:
+            cursor = self.cursor if self.cursor in known else ""
+            self.set([i for i in self.ids if i in known], cursor)

@@ -5,7 +5,6 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QPoint, QPointF, QRectF
-from PySide6.QtWidgets import QScrollBar
 
 from .layout.boxes import Measures
 from .layout.index import Camera, Rect
@@ -125,8 +124,15 @@ class Sight:
         bounds, seen = self._host.page_layout.bounds(), self.visible_page_rect()
         whole = seen if bounds is None else bounds.grown(MARGIN / scale).united(seen)
         self._is_scrolling = True
-        _set(area.horizontalScrollBar(), whole.x, whole.width, seen.x, view.width(), scale)
-        _set(area.verticalScrollBar(), whole.y, whole.height, seen.y, view.height(), scale)
+        for bar, start, length, value, page in (
+            (area.horizontalScrollBar(), whole.x, whole.width, seen.x, view.width()),
+            (area.verticalScrollBar(), whole.y, whole.height, seen.y, view.height()),
+        ):
+            first = int(start * scale)
+            bar.setRange(first, max(first, int((start + length) * scale) - page))
+            bar.setPageStep(page)
+            bar.setSingleStep(40)
+            bar.setValue(round(value * scale))
         self._is_scrolling = False
 
     def follow_scroll_bars(self) -> None:
@@ -147,16 +153,6 @@ class Sight:
     def _tell(self) -> None:
         self._viewport.update()
         self._host.news.view_changed.emit()
-
-
-def _set(
-    bar: QScrollBar, start: float, length: float, value: float, page: int, scale: float
-) -> None:
-    first = int(start * scale)
-    bar.setRange(first, max(first, int((start + length) * scale) - page))
-    bar.setPageStep(page)
-    bar.setSingleStep(40)
-    bar.setValue(round(value * scale))
 
 
 def _shift(low: float, high: float, start: float, end: float) -> float:

@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING
 from PySide6.QtCore import QObject, Signal
 
 from nep_core.errors import NepError
-from nep_studio.blocks.checks.diagnostic import Diagnostic, page_of
-from nep_studio.blocks.deployment import gestures_used, node_entries, robot_entries
+from nep_studio.blocks.checks.diagnostic import Diagnostic
+from nep_studio.blocks.deployment import names_used, node_entries, robot_entries
 from nep_studio.blocks.errors import BlocksError, CodeRefused
 from nep_studio.blocks.generate.source_map import Code
 from nep_studio.blocks.program import Changes, Project
@@ -26,6 +26,7 @@ from nep_studio.run.controller import (
     Subject,
 )
 from nep_studio.run.plan import Choices, PlannedNode
+from nep_studio.ui.edits import edits_of
 from nep_studio.ui.messages import Answer, Message
 from nep_studio.ui.words import tr
 
@@ -35,7 +36,8 @@ from .stage import Breakpoints, Stage, statement_at
 
 if TYPE_CHECKING:
     from nep_studio.ui.documents import Document
-    from nep_studio.ui.host import Host
+    from nep_studio.ui.edits import edits_of
+from nep_studio.ui.host import Host
 
 
 class RunControl(QObject):
@@ -82,11 +84,13 @@ class RunControl(QObject):
         if document is self._document:
             return
         if self._document is not None:
-            self._document.edited.disconnect(self._on_edited)
-            self._document.settled.disconnect(self._on_settled)
+            edits = edits_of(self._document.editor)
+            edits.edited.disconnect(self._on_edited)
+            edits.settled.disconnect(self._on_settled)
         if document is not None:
-            document.edited.connect(self._on_edited)
-            document.settled.connect(self._on_settled)
+            edits = edits_of(document.editor)
+            edits.edited.connect(self._on_edited)
+            edits.settled.connect(self._on_settled)
         self._document = document
         self._virtual = frozenset()
         self._wanted = self._needs()
@@ -181,12 +185,12 @@ class RunControl(QObject):
         """What the nodes of the open project follow from, but for what it keeps."""
         if (document := self._document) is None:
             return None
-        project, language = document.project, self._host.services.language
+        project, language = document.project, document.editor.language
         return (
             document.folder,
             node_entries(project, language),
             robot_entries(project, language),
-            list(gestures_used(project, language)),
+            list(names_used(project, language, "gesture")),
         )
 
     def _on_watching_changed(self) -> None:
@@ -260,7 +264,7 @@ class RunControl(QObject):
     def _mark(self, block: str, problem: Problem) -> None:
         """Show the sentence at the block that failed."""
         workbench = self._host.workbench
-        page = page_of(workbench.canvas.editor.project, block)
+        page = workbench.canvas.editor.project.page_of(block)
         sentence, steps = problem.sentence, problem.checklist
         shown = Diagnostic("error", "run", page, block, sentence, steps)
         workbench.show_run_problem(shown)

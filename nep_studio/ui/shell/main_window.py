@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from functools import partial
 from importlib import import_module
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -29,6 +30,7 @@ from .menus import (
     add_menu,
     add_toolbar,
     add_view_menu,
+    dress_toolbar,
     size_toolbar,
     style_check,
     update_edit_actions,
@@ -103,14 +105,6 @@ class LazyInitialiser(QObject):
         """Whether it looks for something to make at each turn of the event loop."""
         return self._turns.isActive()
 
-    @property
-    def workbench(self) -> Workbench:
-        """The workbench; when it is not there yet, all is made now."""
-        if self.made_workbench is None:
-            self.finish()
-        assert self.made_workbench is not None
-        return self.made_workbench
-
     def go_on_after_paint(self) -> None:
         """Make a step at each turn of the event loop, once the window has been painted."""
         self._window.installEventFilter(self)
@@ -130,7 +124,7 @@ class LazyInitialiser(QObject):
         if not self.is_done:
             return
         self._window.actions_by_name.enable(is_open, *self._window.host.with_a_project)
-        for panel in self.workbench.panels.all:
+        for panel in self._window.workbench.panels.all:
             panel.action.setEnabled(is_open)
 
     def stop(self) -> None:
@@ -242,7 +236,10 @@ class MainWindow(QMainWindow):
     @property
     def workbench(self) -> Workbench:
         """Where the project is worked on; made when it is first asked for."""
-        return self.lazy.workbench
+        if self.lazy.made_workbench is None:
+            self.lazy.finish()
+        assert self.lazy.made_workbench is not None
+        return self.lazy.made_workbench
 
     @property
     def running(self) -> RunControl:
@@ -280,10 +277,10 @@ class MainWindow(QMainWindow):
     def follow_workbench(self) -> None:
         """Follow the workbench, now that it and all around it are made."""
         workbench = self.workbench
-        workbench.problems_found.connect(self._on_problems_found)
+        workbench.checks.found.connect(self._on_problems_found)
         workbench.canvas.news.picture_requested.connect(lambda: self.host.ask("exporting.picture"))
-        workbench.canvas.news.layout_changed.connect(self._on_canvas_changed)
-        workbench.canvas.selection.changed.connect(self._on_canvas_changed)
+        workbench.canvas.news.layout_changed.connect(partial(update_edit_actions, self))
+        workbench.canvas.selection.changed.connect(partial(update_edit_actions, self))
         self.update_actions()
         self.start_page.gallery.paint_pictures()
 
@@ -331,9 +328,6 @@ class MainWindow(QMainWindow):
         update_edit_actions(self)
 
     # What happens
-
-    def _on_canvas_changed(self) -> None:
-        update_edit_actions(self)
 
     def _on_document_changed(self, document: Document | None) -> None:
         self.lazy.finish()
@@ -383,7 +377,7 @@ class MainWindow(QMainWindow):
 
     def _show_check(self) -> None:
         self._on_problems_found(self.workbench.checks.problems if self.lazy.is_done else [])
-        size_toolbar(self.toolbar)
+        dress_toolbar(self.toolbar)
 
     def _say(self) -> None:
         """Tell what depends on more than the language."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, cast
 
 from PySide6.QtCore import QSize, Qt
 from PySide6.QtGui import QAction, QActionGroup, QGuiApplication, QKeySequence, QPalette
@@ -180,7 +180,7 @@ def update_edit_actions(window: MainWindow) -> None:
     """Enable what can be done, and say what undo and redo would do."""
     actions, document = window.actions_by_name, window.files.document
     is_open = document is not None
-    selected = len(window.workbench.canvas.selection) if is_open else 0
+    selected = len(window.workbench.canvas.selection.ids) if is_open else 0
     data = QGuiApplication.clipboard().mimeData()
     actions.enable(bool(selected), *NEEDS_SELECTION)
     actions.enable(is_open and data is not None and bool(data.formats()), "paste")
@@ -191,7 +191,7 @@ def update_edit_actions(window: MainWindow) -> None:
 
 
 def _label(window: MainWindow, name: str, step: Words, plain: str, with_step: str) -> None:
-    action = window.actions_by_name[name]
+    action = window.actions_by_name.by_name[name]
     words = tr(with_step, step=tr(step)) if step else tr(plain)
     action.setEnabled(bool(step))
     action.setText(words)
@@ -429,25 +429,34 @@ def add_toolbar(window: MainWindow) -> QToolBar:
     bar.addActions([window.actions_by_name[name] for name in LAST_BUTTONS])
     window.addToolBar(bar)
     style_buttons(bar, window.look)
-    size_toolbar(bar)
+    dress_toolbar(bar)
     return bar
 
 
-def size_toolbar(bar: QToolBar) -> None:
-    """Let the icons be as large as the text asks for, with words where there is room for them."""
+def dress_toolbar(bar: QToolBar) -> None:
+    """Let the icons be as large as the text asks for."""
     side = round(bar.fontMetrics().height() * 1.25)
     bar.setIconSize(icon_room(side))
     _dress_rest(bar, side)
-    names = [action.objectName() for action in bar.actions() if action.objectName()]
-    all_words = [name for name in names if name not in ICON_ONLY]
+    size_toolbar(bar)
+
+
+def size_toolbar(bar: QToolBar) -> None:
+    """Show words beside the icons where there is room for them."""
+    buttons = {
+        action.objectName(): cast(QToolButton, bar.widgetForAction(action))
+        for action in bar.actions()
+        if action.objectName()
+    }
+    all_words = [name for name in buttons if name not in ICON_ONLY]
     for kept in (all_words, *WORDS_KEPT):
-        for name in names:
+        for name, button in buttons.items():
             style = Qt.ToolButtonStyle.ToolButtonTextBesideIcon
             if name not in kept:
                 style = Qt.ToolButtonStyle.ToolButtonIconOnly
-            _button(bar, name).ensurePolished()  # else it has not its size yet
-            _button(bar, name).setToolButtonStyle(style)
-        keep_width(_button(bar, "run"))
+            button.ensurePolished()  # else it has not its size yet
+            button.setToolButtonStyle(style)
+        keep_width(buttons["run"])
         for sign in bar.findChildren(RunState):
             sign.be_tight(kept == WORDS_KEPT[-1])
         if (layout := bar.layout()) is not None:
@@ -463,13 +472,6 @@ def _dress_rest(bar: QToolBar, side: int) -> None:
         more.setIcon(icon("chevron-down", bar.palette().color(QPalette.ColorRole.WindowText)))
         more.setIconSize(QSize(side, side))  # Qt makes it as narrow as it likes
         labelled(more, tip="More", name="More")
-
-
-def _button(bar: QToolBar, name: str) -> QToolButton:
-    action = next(action for action in bar.actions() if action.objectName() == name)
-    button = bar.widgetForAction(action)
-    assert isinstance(button, QToolButton)
-    return button
 
 
 def _themes() -> list[tuple[str, Words]]:

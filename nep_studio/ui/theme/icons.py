@@ -98,7 +98,7 @@ def paint_icon(painter: QPainter, rect: QRectF, name: str, colour: QColor) -> No
 
 def recoloured(name: str, colour: QColor) -> str:
     """Return the drawing of an icon, as SVG text, in one colour."""
-    return _drawing(name, colour.name())
+    return _source(name).replace("currentColor", colour.name())
 
 
 def application_icon() -> QIcon:
@@ -113,15 +113,11 @@ def _source(name: str) -> str:
     return icon_path(name).read_text(encoding="utf-8")
 
 
-@cache
-def _drawing(name: str, colour: str) -> str:
-    return _source(name).replace("currentColor", colour)
-
-
 @lru_cache(maxsize=256)
 def _renderer(name: str, colour: str) -> QSvgRenderer:
     """What draws an icon: to read it takes longer than to draw it."""
-    return QSvgRenderer(QByteArray(_drawing(name, colour).encode()))
+    drawing = _source(name).replace("currentColor", colour)
+    return QSvgRenderer(QByteArray(drawing.encode()))
 
 
 class _DrawnIcon(QIconEngine):
@@ -132,11 +128,9 @@ class _DrawnIcon(QIconEngine):
         _source(name)  # a name that does not exist is told where it is written
         self._name, self._colour, self._disabled = name, colour, disabled
 
-    def _colour_in(self, mode: QIcon.Mode) -> QColor:
-        return self._disabled if mode == QIcon.Mode.Disabled else self._colour
-
     def paint(self, painter: QPainter, rect: QRect, mode: QIcon.Mode, state: QIcon.State) -> None:
-        paint_icon(painter, QRectF(rect), self._name, self._colour_in(mode))
+        colour = self._disabled if mode == QIcon.Mode.Disabled else self._colour
+        paint_icon(painter, QRectF(rect), self._name, colour)
 
     def pixmap(self, size: QSize, mode: QIcon.Mode, state: QIcon.State) -> QPixmap:
         return self.scaledPixmap(size, mode, state, 1.0)
@@ -147,14 +141,15 @@ class _DrawnIcon(QIconEngine):
         pixels = size * scale
         if pixels.isEmpty():  # of a widget that has no room just now
             return QPixmap()
-        colour = self._colour_in(mode).name(QColor.NameFormat.HexArgb)
-        key = f"{self._name} {colour} {pixels.width()} x {pixels.height()} at {scale}"
+        colour = self._disabled if mode == QIcon.Mode.Disabled else self._colour
+        name = colour.name(QColor.NameFormat.HexArgb)
+        key = f"{self._name} {name} {pixels.width()} x {pixels.height()} at {scale}"
         pixmap = QPixmap()
         if not QPixmapCache.find(key, pixmap):  # many widgets show the same icon
             pixmap = QPixmap(pixels)
             pixmap.fill(Qt.GlobalColor.transparent)
             painter = QPainter(pixmap)
-            self.paint(painter, pixmap.rect(), mode, state)
+            paint_icon(painter, QRectF(pixmap.rect()), self._name, colour)
             painter.end()
             pixmap.setDevicePixelRatio(scale)
             QPixmapCache.insert(key, pixmap)

@@ -297,18 +297,14 @@ class Look(QObject):
         hints = app.styleHints()
         hints.colorSchemeChanged.connect(self._on_system_changed)
         hints.accessibility().contrastPreferenceChanged.connect(self._on_system_changed)
-        self._theme = load_theme(LIGHT)
+        self.theme = load_theme(LIGHT)
+        """The theme in use."""
         self.choose(choice)
 
     @property
     def choice(self) -> str:
         """What the person chose: a theme's name, or "system"."""
         return self._choice
-
-    @property
-    def theme(self) -> Theme:
-        """The theme in use."""
-        return self._theme
 
     @property
     def scale(self) -> float:
@@ -328,7 +324,7 @@ class Look(QObject):
 
     def refresh(self) -> None:
         """Dress the windows again after a change of the direction of writing; no colour changes."""
-        apply_theme(self._app, self._theme, self._scale)
+        apply_theme(self._app, self.theme, self._scale)
 
     def _tell_the_system(self) -> None:
         """Let title bars and the system's own dialogs be as light or dark as we are."""
@@ -346,6 +342,6 @@ class Look(QObject):
     def _apply(self) -> None:
         is_left = self._choice == SYSTEM
         name = self._read_system(self._app.styleHints()) if is_left else self._choice
-        self._theme = load_theme(name)
-        apply_theme(self._app, self._theme, self._scale)
-        self.theme_changed.emit(self._theme)
+        self.theme = load_theme(name)
+        apply_theme(self._app, self.theme, self._scale)
+        self.theme_changed.emit(self.theme)

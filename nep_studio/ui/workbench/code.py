@@ -17,6 +17,7 @@ from nep_studio.blocks.generate.program import ProgramGenerator, generate_launch
 from nep_studio.blocks.generate.source_map import Code
 from nep_studio.blocks.program import Changes
 from nep_studio.blocks.slices import Sliced, Steps
+from nep_studio.ui.canvas.selection import Selection
 from nep_studio.ui.edits import edits_of
 from nep_studio.ui.labels import follow_words, labelled
 from nep_studio.ui.message_cards import MessageText
@@ -179,10 +180,10 @@ class CodePane(QWidget):
     block_asked = Signal(str)
     applied = Signal()
 
-    def __init__(self, editor: Editor, look: Look) -> None:
+    def __init__(self, editor: Editor, look: Look, selection: Selection) -> None:
         super().__init__()
         self._editor, self._look = editor, look
-        self._selected: tuple[str, ...] = ()
+        self._selection = selection
         self._kind = "behaviour"
         self.is_editing = False
         self.live = LiveCode(editor, self)
@@ -228,6 +229,7 @@ class CodePane(QWidget):
         self.apply_button.clicked.connect(self.apply)
         self.discard_button.clicked.connect(self.discard)
         self._look.theme_changed.connect(self._on_theme_changed)
+        self._selection.changed.connect(self._mark)
 
     # What is shown
 
@@ -238,7 +240,7 @@ class CodePane(QWidget):
 
     def set_editor(self, editor: Editor) -> None:
         """Show the code of another project."""
-        self._editor, self._selected = editor, ()
+        self._editor = editor
         self._end_editing()
         self.live.set_editor(editor)
 
@@ -250,12 +252,6 @@ class CodePane(QWidget):
         self._kind = kind
         self.live.show_page(page)
         self._show_buttons()
-
-    def mark_blocks(self, ids: Iterable[str]) -> None:
-        """Mark the lines of the selected blocks."""
-        self._selected = tuple(ids)
-        if self.isVisible():
-            self._mark()
 
     def showEvent(self, event: QShowEvent) -> None:
         """Work while somebody looks."""
@@ -269,10 +265,11 @@ class CodePane(QWidget):
         self.live.set_awake(False)
 
     def _mark(self) -> None:
+        """Mark the lines of the selected blocks."""
         code = self.live.code
-        if code is None or self.is_editing:
+        if code is None or self.is_editing or not self.isVisible():
             return
-        lines = {line for block in self._selected for line in self._lines_of(code, block)}
+        lines = {line for block in self._selection.ids for line in self._lines_of(code, block)}
         self.text.mark_lines(sorted(lines))
 
     def _lines_of(self, code: Code, block: str) -> Iterable[int]:

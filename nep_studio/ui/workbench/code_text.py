@@ -38,7 +38,17 @@ def press_code_key(text: QPlainTextEdit, event: QKeyEvent) -> bool:
     key, held = event.key(), event.modifiers() & ~Qt.KeyboardModifier.KeypadModifier
     plain, control = Qt.KeyboardModifier.NoModifier, Qt.KeyboardModifier.ControlModifier
     if key in (Qt.Key.Key_Return, Qt.Key.Key_Enter) and held == plain:
-        _break_line(text)
+        # Begin a line as deep as this one, after a colon deeper
+        cursor = text.textCursor()
+        cursor.beginEditBlock()
+        cursor.removeSelectedText()
+        before = cursor.block().text()[: cursor.positionInBlock()]
+        code = before.partition("#")[0] if not before.lstrip().startswith("#") else ""
+        deeper = INDENT if code.rstrip().endswith(":") else ""
+        cursor.insertText("\n" + before[: len(before) - len(before.lstrip())] + deeper)
+        cursor.endEditBlock()
+        text.setTextCursor(cursor)
+        text.ensureCursorVisible()
     elif key == Qt.Key.Key_Tab and held == plain:
         _indent(text)
     elif key == Qt.Key.Key_Backtab:
@@ -48,20 +58,6 @@ def press_code_key(text: QPlainTextEdit, event: QKeyEvent) -> bool:
     else:
         return False
     return True
-
-
-def _break_line(text: QPlainTextEdit) -> None:
-    """Begin a line as deep as this one, after a colon deeper."""
-    cursor = text.textCursor()
-    cursor.beginEditBlock()
-    cursor.removeSelectedText()
-    before = cursor.block().text()[: cursor.positionInBlock()]
-    code = before.partition("#")[0] if not before.lstrip().startswith("#") else ""
-    deeper = INDENT if code.rstrip().endswith(":") else ""
-    cursor.insertText("\n" + before[: len(before) - len(before.lstrip())] + deeper)
-    cursor.endEditBlock()
-    text.setTextCursor(cursor)
-    text.ensureCursorVisible()
 
 
 def _indent(text: QPlainTextEdit) -> None:

@@ -214,7 +214,7 @@ class InsertBar(QFrame):
         for widget in (self.line, self.area, self.hint):
             column.addWidget(widget)
         canvas.keyboard.type_letter = self._on_letter
-        canvas.viewport().installEventFilter(self)
+        canvas.news.page_double_clicked.connect(self.open)
         canvas.news.page_changed.connect(self.hide)
         self.refresh()
         follow_words(self, self._suggest_again)
@@ -264,22 +264,13 @@ class InsertBar(QFrame):
         return True
 
     def eventFilter(self, watched: QObject, event: QEvent) -> bool:
-        """Take the keys of the line, and double clicks on the empty page."""
+        """Take the keys of the line, and see that the person leaves it."""
         if watched is self.line and isinstance(event, QKeyEvent):
             return event.type() == QEvent.Type.KeyPress and self._press(event)
         is_left = watched is self.line and event.type() == QEvent.Type.FocusOut
         if is_left and not self._holds_focus():
             self.hide()
-        if event.type() == QEvent.Type.MouseButtonDblClick and isinstance(event, QMouseEvent):
-            return watched is self.canvas.viewport() and self._double_click(event)
         return super().eventFilter(watched, event)
-
-    def _double_click(self, event: QMouseEvent) -> bool:
-        is_left = event.button() == Qt.MouseButton.LeftButton
-        if not is_left or event.modifiers() or self.canvas.sight.hit(event.position()) is not None:
-            return False
-        self.open(self.canvas.sight.to_page(event.position()))
-        return True
 
     def _press(self, event: QKeyEvent) -> bool:
         key = event.key()

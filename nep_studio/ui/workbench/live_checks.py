@@ -2,15 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from pathlib import Path
-
 from PySide6.QtCore import QObject, QTimer, Signal
 
 from nep_studio.blocks.checks.diagnostic import Diagnostic
-from nep_studio.blocks.editor import Editor
 from nep_studio.blocks.slices import Sliced
 from nep_studio.run.installation import KnownProblems, problem_steps
+from nep_studio.ui.documents import Document
 from nep_studio.ui.edits import Edits, edits_of
 
 SLICE_S = 0.006
@@ -26,25 +23,24 @@ class LiveChecks(QObject):
 
     def __init__(self, parent: QObject) -> None:
         super().__init__(parent)
-        self._editor: Editor | None = None
+        self._document: Document | None = None
         self._edits: Edits | None = None
-        self._folder: Callable[[], Path] = Path.cwd
         self._known = KnownProblems()
         self._check: Sliced[list[Diagnostic]] | None = None
         self._next = QTimer(self, singleShot=True, interval=BETWEEN_SLICES_MS)
         self._next.timeout.connect(self._on_next_slice)
         self.problems: list[Diagnostic] = []
 
-    def follow(self, editor: Editor | None, folder: Callable[[], Path] = Path.cwd) -> None:
+    def follow(self, document: Document | None) -> None:
         """Check another project; None checks nothing."""
         self.cancel()
         if self._edits is not None:
             self._edits.edited.disconnect(self.cancel)
             self._edits.settled.disconnect(self.start)
-        self._editor, self._folder, self._known = editor, folder, KnownProblems()
-        self._edits = None if editor is None else edits_of(editor)
+        self._document, self._known = document, KnownProblems()
+        self._edits = None if document is None else edits_of(document.editor)
         if self._edits is None:
-            self._tell([])
+            self.take([])
             return
         self._edits.edited.connect(self.cancel)
         self._edits.settled.connect(self.start)
@@ -53,11 +49,11 @@ class LiveChecks(QObject):
     def start(self) -> None:
         """Check now."""
         self.cancel()
-        if self._editor is None:
+        if (document := self._document) is None:
             return
-        editor = self._editor
+        editor = document.editor
         self._check = Sliced(
-            problem_steps(editor.project, editor.language, self._folder(), self._known)
+            problem_steps(editor.project, editor.language, document.folder, self._known)
         )
         self._on_next_slice()
 
@@ -69,7 +65,8 @@ class LiveChecks(QObject):
     def take(self, problems: list[Diagnostic]) -> None:
         """Take what somebody else has just found: it need not be looked for again."""
         self.cancel()
-        self._tell(problems)
+        self.problems = problems
+        self.found.emit(problems)
 
     def cancel(self) -> None:
         """Give up the check that is under way."""
@@ -83,11 +80,7 @@ class LiveChecks(QObject):
         if check is None:
             self.start()  # of what was just opened
         elif check.run(SLICE_S):
-            self._check = None
-            self._tell(check.result)
+            self._check, self.problems = None, check.result
+            self.found.emit(self.problems)
         else:
             self._next.start()
-
-    def _tell(self, problems: list[Diagnostic]) -> None:
-        self.problems = problems
-        self.found.emit(problems)

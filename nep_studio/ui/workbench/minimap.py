@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from bisect import bisect_right
+
 from PySide6.QtCore import QPointF, QRectF, QSize, Qt, QTimer
 from PySide6.QtGui import QMouseEvent, QPainter, QPaintEvent, QPen, QPixmap, QShowEvent, QWheelEvent
 from PySide6.QtWidgets import QLabel, QWidget
@@ -82,17 +84,17 @@ class Minimap(QWidget):
 
     def _draw_chain(self, painter: QPainter, chain: Chain, x: float, y: float) -> None:
         """One bar for each row of pixels at most, in the colour of the block that is there."""
-        scale, colours = self._scale, self.canvas.look.block_painter.colours
+        scale, painted = self._scale, self.canvas.look.block_painter
         least = 1.0 / scale
         height = 0.0
         while height < chain.height:
-            number = chain.index_at(height)
+            number = min(bisect_right(chain.ys, height), len(chain.boxes)) - 1
             box, top = chain.boxes[number], chain.ys[number]
             end = max(chain.ys[number + 1], height + least)
             if box.block:
                 left = x - box.width * scale if chain.is_mirrored else x
                 rect = QRectF(left, y + top * scale, box.width * scale, (end - top) * scale)
-                painter.fillRect(rect, colours(box).fill)
+                painter.fillRect(rect, painted.look_of(box)[0].fill)
                 if scale >= INDENT_SCALE:
                     for mouth in box.mouths:
                         inner = left + mouth.x * scale
@@ -232,7 +234,7 @@ class EmptyHint(QLabel):
 
     def refresh(self) -> None:
         """Take the words for the page that is shown."""
-        project, page = self._canvas.editor.project, self._canvas.page
+        project, page = self._canvas.editor.project, self._canvas.page_layout.page
         belongs = {
             "robots": tr("Here you say which robots take part."),
             "nodes": tr("Here you say which nodes run. The program finds most by itself."),
@@ -243,7 +245,7 @@ class EmptyHint(QLabel):
         self._show_or_hide()
 
     def _show_or_hide(self) -> None:
-        project, page = self._canvas.editor.project, self._canvas.page
+        project, page = self._canvas.editor.project, self._canvas.page_layout.page
         has_notes = any(note.page == page for note in project.notes.values())
         is_empty = not project.pages.get(page) and not has_notes
         self.setVisible(is_empty)

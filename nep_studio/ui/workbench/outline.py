@@ -76,7 +76,7 @@ class OutlineModel(QAbstractItemModel):
         project = self._editor.project
         if block_id not in project.blocks or not self.is_awake:
             return QModelIndex()
-        if project.page_of(project.stack_of(block_id).id) != self._page:
+        if project.page_of(block_id) != self._page:
             return QModelIndex()
         while block_id in project.blocks:
             owner = self._owner_of(block_id)

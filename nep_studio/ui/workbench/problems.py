@@ -63,7 +63,8 @@ class ProblemsPanel(QScrollArea):
     def __init__(self, look: Look, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self._look = look
-        self._problems: Sequence[Diagnostic] = ()
+        self.shown: Sequence[Diagnostic] = ()
+        """What is not right, and why the program stopped."""
         self.rows: list[ProblemRow] = []
         self.setWidgetResizable(True)
         self.setFrameShape(QFrame.Shape.NoFrame)
@@ -73,8 +74,8 @@ class ProblemsPanel(QScrollArea):
 
     def show_problems(self, problems: Sequence[Diagnostic]) -> None:
         """Show these; nothing is drawn again when they are the same."""
-        if list(problems) != list(self._problems):
-            self._problems = tuple(problems)
+        if list(problems) != list(self.shown):
+            self.shown = tuple(problems)
             self._refresh()
 
     def showEvent(self, event: QShowEvent) -> None:
@@ -97,14 +98,14 @@ class ProblemsPanel(QScrollArea):
         self._is_old = False
         inner = QWidget()
         box = QVBoxLayout(inner)
-        shown = self._problems[:MOST_ROWS]
+        shown = self.shown[:MOST_ROWS]
         self.rows = [ProblemRow(problem, self._look, self) for problem in shown]
         for row in self.rows:
             box.addWidget(row)
-        hidden = len(self._problems) - len(shown)
+        hidden = len(self.shown) - len(shown)
         if hidden:
             box.addWidget(hint("and 1 more" if hidden == 1 else text_of("and {n} more", n=hidden)))
-        if not self._problems:
+        if not self.shown:
             box.addWidget(_all_well(self._look))
         box.addStretch(1)
         self.setWidget(inner)

@@ -2,10 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from pathlib import Path
-
-from PySide6.QtCore import QObject, QRect, QSignalBlocker, Signal
+from PySide6.QtCore import QObject, QRect, QSignalBlocker
 from PySide6.QtGui import QFont, QFontInfo
 from PySide6.QtWidgets import QFrame, QVBoxLayout, QWidget
 
@@ -86,9 +83,7 @@ NARROW_PALETTE = "NarrowPalette"
 
 
 class Workbench(QWidget):
-    """Where a project is worked on. ``problems_found`` gives what is not right yet."""
-
-    problems_found = Signal(list)
+    """Where a project is worked on."""
 
     def __init__(self, studio: Studio, messages: Messages, parent: QWidget) -> None:
         super().__init__(parent)
@@ -99,7 +94,7 @@ class Workbench(QWidget):
         )
         make_accessible(self.canvas)
         self.pages_bar = PagesBar(editor, studio.look, self.canvas.attempt)
-        self.code = CodePane(editor, studio.look)
+        self.code = CodePane(editor, studio.look, self.canvas.selection)
         self.outline = Outline(self.canvas)
         self.problems = ProblemsPanel(studio.look)
         self.checks = LiveChecks(self)
@@ -107,14 +102,6 @@ class Workbench(QWidget):
         self.bubble: ProblemBubble | None = None
         self._run_problem: Diagnostic | None = None
         self._usual_scale = usual_scale(studio)
-        self.panels = Panels(self._middle(), studio.look, studio.settings, self)
-        self.add_side_panel(self.helpers.palette, "Blocks", "blocks", "left")
-        self.add_side_panel(self.code, "Code", "code", "right")
-        self.add_side_panel(self.outline, "Outline", "list-tree", "right")
-        self.add_side_panel(self.problems, "Problems", "circle-check", "bottom", is_shown=False)
-        self._connect()
-
-    def _middle(self) -> QWidget:
         middle = QFrame()
         box = QVBoxLayout(middle)
         box.setContentsMargins(0, 0, 0, 0)
@@ -122,20 +109,24 @@ class Workbench(QWidget):
         box.addWidget(self.pages_bar)
         box.addWidget(self.helpers.find_bar)
         box.addWidget(self.canvas, 1)
-        return middle
+        self.panels = Panels(middle, studio.look, studio.settings, self)
+        self.add_side_panel(self.helpers.palette, "Blocks", "blocks", "left")
+        self.add_side_panel(self.code, "Code", "code", "right")
+        self.add_side_panel(self.outline, "Outline", "list-tree", "right")
+        self.add_side_panel(self.problems, "Problems", "circle-check", "bottom", is_shown=False)
+        self._connect()
 
     def _connect(self) -> None:
         canvas = self.canvas
         self.pages_bar.page_chosen.connect(canvas.show_page)
         canvas.news.page_changed.connect(self.pages_bar.show_page)
         canvas.news.page_changed.connect(self.code.show_page)
-        canvas.selection.changed.connect(self._on_selection_changed)
         canvas.news.refused.connect(self._messages.refuse)
         canvas.news.announced.connect(self._on_announced)
         canvas.news.problem_opened.connect(self.open_bubble)
         canvas.news.layout_changed.connect(self._messages.clear_passing)
         self.code.block_asked.connect(self.show_block)
-        self.checks.found.connect(self._on_problems_found)
+        self.checks.found.connect(self._show_problems)
         self.problems.opened.connect(self._on_problem_opened)
         self.problems.fix_asked.connect(self.fix)
         self._studio.look.theme_changed.connect(self._on_theme_changed)
@@ -157,10 +148,16 @@ class Workbench(QWidget):
     def show_document(self, document: Document | None) -> None:
         """Work on another project; on none, the canvas is empty."""
         self._run_problem = None
-        editor = self._no_editor() if document is None else document.editor
-        folder: Callable[[], Path] = Path.cwd if document is None else lambda: document.folder
-        self._set_editor(editor)
-        self.checks.follow(None if document is None else editor, folder)
+        editor = Editor(Project(), self._studio.language) if document is None else document.editor
+        self.canvas.set_editor(editor)
+        self.pages_bar.set_editor(editor)
+        self.code.set_editor(editor)
+        self.outline.refresh()
+        self.helpers.refresh()
+        # Look at the corner of the page where reading begins, at the usual size
+        self.zoom_usual()
+        self.canvas.sight.show_beginning()
+        self.checks.follow(document)
 
     def restore(self, line: int) -> None:
         """Lay the panels out as the person left them; ``line`` is a line of text.
@@ -186,25 +183,9 @@ class Workbench(QWidget):
             self.show_document(None)
         self.checks.cancel()
 
-    def _no_editor(self) -> Editor:
-        return Editor(Project(), self._studio.language)
-
-    def _set_editor(self, editor: Editor) -> None:
-        self.canvas.set_editor(editor)
-        self.pages_bar.set_editor(editor)
-        self.code.set_editor(editor)
-        self.outline.refresh()
-        self.helpers.refresh()
-        self._show_corner()
-
     def zoom_usual(self) -> None:
         """Show the blocks with words as large as those of the window."""
         self.canvas.sight.zoom(usual_scale(self._studio))
-
-    def _show_corner(self) -> None:
-        """Look at the corner of the page where reading begins, at the usual size."""
-        self.zoom_usual()
-        self.canvas.sight.show_beginning()
 
     # Blocks and problems
 
@@ -232,7 +213,7 @@ class Workbench(QWidget):
 
     def open_bubble(self, block: str) -> None:
         """Show what is not right at a block, beside its badge."""
-        there = [problem for problem in self._all_problems() if problem.block == block]
+        there = [problem for problem in self.problems.shown if problem.block == block]
         placed = self.canvas.page_layout.placed(block)
         if not there or placed is None:
             return
@@ -244,19 +225,10 @@ class Workbench(QWidget):
         bubble.fix_asked.connect(self.fix)
         bubble.show_at(QRect(viewport.mapToGlobal(corner), size))
 
-    def _on_problems_found(self, problems: list[Diagnostic]) -> None:
-        self._show_problems()
-        self.problems_found.emit(problems)
-
-    def _all_problems(self) -> list[Diagnostic]:
-        """What is not right, and why the program stopped."""
-        stopped = self._run_problem
-        if stopped is None or stopped.block not in self.canvas.editor.project.blocks:
-            return self.checks.problems
-        return [stopped, *self.checks.problems]
-
     def _show_problems(self) -> None:
-        problems = self._all_problems()
+        problems, stopped = self.checks.problems, self._run_problem
+        if stopped is not None and stopped.block in self.canvas.editor.project.blocks:
+            problems = [stopped, *problems]
         self.problems.show_problems(problems)
         before = self.canvas.problems.problems
         self.canvas.problems.show(problems)
@@ -268,9 +240,6 @@ class Workbench(QWidget):
             self.show_block(problem.block)
         elif problem.page in self.canvas.editor.project.pages:
             self.canvas.show_page(problem.page)
-
-    def _on_selection_changed(self) -> None:
-        self.code.mark_blocks(self.canvas.selection.ids)
 
     def _on_announced(self, words: str) -> None:
         announce(self.canvas, words)

@@ -16,7 +16,7 @@ from nep_studio.blocks.operations.moving import (
     why_not_create,
     why_not_drop,
 )
-from nep_studio.blocks.operations.selection import Run
+from nep_studio.blocks.operations.selection import Run, runs
 from nep_studio.blocks.places import InBody, InInput, InStack
 
 
@@ -227,7 +227,7 @@ def test_several_stacks_move_together_and_inner_blocks_come_out(language):
     b, c = first.body[1], second.body[0]
 
     with one_step(editor):
-        move_by(editor, [b, c], 10, -5, {b: (100, 100)})
+        move_by(editor, runs(editor.project, [b, c]), 10, -5, {b: (100, 100)})
 
     assert [(s.x, s.y) for s in stacks(editor)] == [(40, 40), (50, 235), (110, 95)]
     assert texts(editor.project, stacks(editor)[2].body) == ["b"]

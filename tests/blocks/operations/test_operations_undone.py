@@ -11,6 +11,7 @@ from nep_studio.blocks.errors import EditRefused
 from nep_studio.blocks.files import to_bytes
 from nep_studio.blocks.operations.copying import clip_of, copy, delete, duplicate, paste
 from nep_studio.blocks.operations.moving import create_and_drop, drop, move_by, pick_up
+from nep_studio.blocks.operations.selection import require_runs
 from nep_studio.blocks.operations.wrapping import (
     add_part,
     move_part,
@@ -80,7 +81,7 @@ def operate(draw, editor, language):
         carried = pick_up(project, block, alone=draw(st.booleans()))
         drop(editor, carried, draw_place(draw, editor), wrap=wraps)
     elif kind == 6:
-        move_by(editor, ids, 5, 5)
+        move_by(editor, require_runs(editor.project, ids), 5, 5)
     elif kind == 7:
         wrap(editor, ids, draw(st.sampled_from(["control.repeat", "control.forever"])))
         return 1

@@ -47,7 +47,7 @@ def test_a_project_without_a_watch_gets_a_block_on_the_nodes_page(language) -> N
         block = use_watch(editor, PHONE, "connect a watch")
 
     assert entries(editor) == [(WATCH, "watch", PHONE)]
-    assert editor.project.page_of(editor.project.stack_of(block).id) == "nodes"
+    assert editor.project.page_of(block) == "nodes"
 
 
 def test_the_block_of_the_watch_is_changed_and_keeps_its_name(language) -> None:

@@ -129,9 +129,9 @@ def test_shift_and_down_select_what_is_on_the_way(canvas, qtbot) -> None:
 
     press(qtbot, canvas, Key.Key_Down, Key.Key_Down, held=Modifier.ShiftModifier)
 
-    assert len(canvas.selection) == 3
+    assert len(canvas.selection.ids) == 3
     press(qtbot, canvas, Key.Key_Up, held=Modifier.ShiftModifier)
-    assert len(canvas.selection) == 2
+    assert len(canvas.selection.ids) == 2
 
 
 def test_delete_takes_the_block_away_and_control_z_brings_it_back(canvas, qtbot) -> None:

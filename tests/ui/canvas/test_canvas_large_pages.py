@@ -57,7 +57,7 @@ def test_a_key_lays_out_no_more_than_it_shows(waiting) -> None:
     QTest.keyClick(waiting.canvas, Qt.Key.Key_Down)
 
     assert waiting.canvas.selection.cursor == waiting.body(0)[0]
-    assert far_chains(waiting).is_waiting
+    assert far_chains(waiting).waiting
 
 
 def test_a_change_to_all_stacks_is_shown_at_once_and_finished_later(waiting, qtbot) -> None:
@@ -67,10 +67,10 @@ def test_a_change_to_all_stacks_is_shown_at_once_and_finished_later(waiting, qtb
     QTest.keyClick(waiting.canvas, Qt.Key.Key_E, CONTROL)
     shown = picture(waiting)
 
-    assert far_chains(waiting).is_waiting
+    assert far_chains(waiting).waiting
     waiting.canvas.repaint_all()
     assert picture(waiting) == shown
-    qtbot.waitUntil(lambda: not far_chains(waiting).is_waiting)
+    qtbot.waitUntil(lambda: not far_chains(waiting).waiting)
 
 
 def test_undoing_the_deletion_of_everything_brings_everything_back(waiting, qtbot) -> None:
@@ -82,7 +82,7 @@ def test_undoing_the_deletion_of_everything_brings_everything_back(waiting, qtbo
     QTest.keyClick(waiting.canvas, Qt.Key.Key_Delete)
     empty = waiting.canvas.page_layout.bounds()
     QTest.keyClick(waiting.canvas, Qt.Key.Key_Z, CONTROL)
-    qtbot.waitUntil(lambda: not far_chains(waiting).is_waiting)
+    qtbot.waitUntil(lambda: not far_chains(waiting).waiting)
 
     assert empty is None
     assert waiting.canvas.page_layout.bounds() == bounds
@@ -100,7 +100,7 @@ def test_blocks_deeper_than_was_assumed_are_shown_in_the_end(monkeypatch, desk, 
     shown.canvas.later_layout.stop()
     early = picture(shown)
     shown.canvas.later_layout.start()
-    qtbot.waitUntil(lambda: not far_chains(shown).is_waiting)
+    qtbot.waitUntil(lambda: not far_chains(shown).waiting)
     QApplication.processEvents()
 
     late = picture(shown)
@@ -118,11 +118,11 @@ def test_carried_blocks_come_before_the_layout_of_what_is_out_of_view(waiting) -
     waiting.canvas.later_layout.start()
     waiting.canvas.lay_out_more()
 
-    assert far_chains(waiting).is_waiting
+    assert far_chains(waiting).waiting
     waiting.mouse.release()
     for _ in range(50):  # each makes what there is time for
         waiting.canvas.lay_out_more()
-    assert not far_chains(waiting).is_waiting
+    assert not far_chains(waiting).waiting
 
 
 def test_dropped_blocks_are_not_pushed_away_by_stacks_that_only_seem_large(waiting) -> None:

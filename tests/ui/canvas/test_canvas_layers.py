@@ -153,7 +153,7 @@ def test_a_sprite_is_drawn_exactly_over_the_blocks_that_it_shows(view, scale) ->
     inside = view.sight.camera.view_rect(placed.rect).toAlignedRect().adjusted(3, 3, -3, -3)
     before = view.viewport().grab(inside).toImage()
 
-    view.layers.set_sprite(make_sprite(view, [chain], view.page_layout.index.rect(stack)))
+    view.layers.set_sprite(make_sprite(view, [chain], view.page_layout.index.rects[stack]))
 
     assert is_same(view.viewport().grab(inside).toImage(), before)
 

@@ -122,11 +122,11 @@ def test_carried_blocks_leave_no_hole_and_a_gap_is_as_high_as_they_are(language)
     before = layout.chains[stack.id].height
     carried = layout.layout.box(repeat).height
 
-    layout.preview(frozenset({repeat}), None)
+    layout.update(layout.layout.preview(frozenset({repeat}), None))
     closed = layout.chains[stack.id].height
-    layout.preview(frozenset({repeat}), Gap(stack.id, "", 2, 100.0, carried))
+    layout.update(layout.layout.preview(frozenset({repeat}), Gap(stack.id, "", 2, 100.0, carried)))
     open_again = layout.chains[stack.id].height
-    layout.preview(frozenset(), None)
+    layout.update(layout.layout.preview(frozenset(), None))
 
     assert closed == before - carried
     assert open_again == before

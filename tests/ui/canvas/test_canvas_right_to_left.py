@@ -21,7 +21,7 @@ def mirrored(desk):
 def rects(shown) -> list:
     layout = shown.canvas.page_layout
     layout.chains.lay_out_all()
-    return [layout.index.rect(stack) for stack in layout.chains]
+    return [layout.index.rects[stack] for stack in layout.chains]
 
 
 @pytest.mark.parametrize("scale", [0.5, 1.0, 2.0])
@@ -58,7 +58,7 @@ def test_columns_go_from_right_to_left(mirrored) -> None:
     stacks = mirrored.editor.project.stacks
     assert stacks[second].y == stacks[first].y
     index = mirrored.canvas.page_layout.index
-    assert index.rect(second).right < index.rect(first).x
+    assert index.rects[second].right < index.rects[first].x
 
 
 def test_a_copy_lies_beside_its_block(mirrored) -> None:

@@ -29,7 +29,7 @@ LOOKS = {"light": (11.0, False), "mirrored": (11.0, True), "large": (24.0, False
 def measures(points: float, *, is_mirrored: bool) -> Measures:
     assert QApplication.instance() is not None
     widths = TextWidths(text_font(points))
-    return Measures(widths.line, widths, is_mirrored=is_mirrored)
+    return Measures(widths.line, widths.__getitem__, is_mirrored=is_mirrored)
 
 
 def editor_with(block_type: str) -> tuple[Editor, str]:

@@ -170,7 +170,7 @@ def test_the_gap_that_is_shown_does_not_move_the_places(page):
     before = search(ground, ends, fits)
     ground.remember(stack_id)
 
-    page.preview(frozenset(), Gap(stack_id, "", 1, 100.0, 300.0))
+    page.update(page.layout.preview(frozenset(), Gap(stack_id, "", 1, 100.0, 300.0)))
 
     assert search(ground, ends, fits) == before
 
@@ -179,7 +179,7 @@ def test_carried_blocks_are_no_place_for_themselves(page):
     repeat, last = stack(page).body[1:]
     placed = page.placed(repeat)
 
-    page.preview(frozenset({repeat, last}), None)
+    page.update(page.layout.preview(frozenset({repeat, last}), None))
 
     mouth = placed.box.mouths[0]
     ends = Ends(top=(placed.x + mouth.x, placed.y + mouth.y))

@@ -110,7 +110,7 @@ def test_bump_loose_near_miss_blocks_away(person: Person) -> None:
     person.put(number, person.foot(person.body()[-1]) + QPoint(3, -6))
 
     stack, loose = (
-        person.canvas.page_layout.index.rect(s.id) for s in person.project.stacks.values()
+        person.canvas.page_layout.index.rects[s.id] for s in person.project.stacks.values()
     )
     assert not stack.touches(loose)
     assert person.undo() == before

@@ -233,7 +233,7 @@ def test_tidy_up_pushes_stacks_apart_and_keeps_their_order(person: Person) -> No
     person.window.actions_by_name["tidy"].trigger()
 
     stacks = list(person.project.pages["behaviour"])
-    rects = [index.rect(stack.id) for stack in stacks]
+    rects = [index.rects[stack.id] for stack in stacks]
     assert not any(a.touches(b) for n, a in enumerate(rects) for b in rects[n + 1 :])
     assert [rect.y for rect in rects] == sorted(rect.y for rect in rects)
     assert rects[0].x == 40 and rects[0].y == 40

@@ -58,8 +58,9 @@ def test_a_button_puts_the_example_on_the_page_in_one_step(panel, canvas, qtbot)
     qtbot.mouseClick(panel.example.insert, LEFT)
 
     assert types(canvas).count("goal.when_goal") == 1
-    assert len(canvas.selection) == 2
-    stacks = [canvas.page_layout.index.rect(s.id) for s in canvas.editor.project.pages["behaviour"]]
+    assert len(canvas.selection.ids) == 2
+    rects = canvas.page_layout.index.rects
+    stacks = [rects[stack.id] for stack in canvas.editor.project.pages["behaviour"]]
     assert stacks[0].bottom <= stacks[1].y
     canvas.editor.history.undo()
     assert types(canvas) == []

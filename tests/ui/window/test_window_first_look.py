@@ -88,7 +88,7 @@ def test_blocks_that_leave_the_view_can_be_scrolled_to(fresh: MainWindow, qtbot)
 
 def test_an_empty_project_has_no_problems_to_tell_of(fresh: MainWindow, qtbot) -> None:
     check = fresh.actions_by_name["check"]
-    with qtbot.waitSignal(fresh.workbench.problems_found):
+    with qtbot.waitSignal(fresh.workbench.checks.found):
         fresh.workbench.checks.start()
 
     assert check.iconText() == "Check"

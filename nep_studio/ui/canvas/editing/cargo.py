@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Collection
+from functools import cached_property, reduce
 from typing import TYPE_CHECKING
 
 from faults import Text
@@ -23,6 +24,7 @@ from nep_studio.blocks.operations.selection import members
 from nep_studio.ui.canvas.layout.boxes import Chain
 from nep_studio.ui.canvas.layout.index import Rect
 from nep_studio.ui.canvas.layout.layout import Layout
+from nep_studio.ui.canvas.layout.page import bounds_of
 
 from .snapping import Ends, Point, Target, ends_of
 
@@ -40,15 +42,13 @@ class Cargo(ABC):
     chains: list[Chain]
     hidden: frozenset[str] = frozenset()
 
-    @property
+    @cached_property
     def bounds(self) -> Rect:
         """The rectangle around all of it, where it was picked up."""
-        rect = bounds_of(self.chains[0])
-        for chain in self.chains[1:]:
-            rect = rect.united(bounds_of(chain))
-        return rect
+        rects = (bounds_of(chain, chain.x, chain.y) for chain in self.chains)
+        return reduce(Rect.united, rects)
 
-    @property
+    @cached_property
     def ends(self) -> Ends:
         """Where it can be joined to others: nowhere when it is several stacks."""
         return ends_of(self.chains[0]) if len(self.chains) == 1 else Ends()
@@ -125,7 +125,7 @@ class PickedUp(Cargo):
 
     def put(self, canvas: CanvasHost, dx: float, dy: float) -> list[str]:
         """Move the blocks on their page."""
-        move_by(canvas.editor, self.hidden, dx, dy, self._at)
+        move_by(canvas.editor, self._carried.runs, dx, dy, self._at)
         return self._selected
 
     def throw_away(self, canvas: CanvasHost) -> Clip | None:
@@ -207,12 +207,6 @@ def lift(canvas: CanvasHost, block: str, *, alone: bool = False) -> PickedUp:
         selected = ()
     carried = pick_up(canvas.editor.project, block, alone=alone, selected=selected)
     return PickedUp(canvas, carried, selected)
-
-
-def bounds_of(chain: Chain) -> Rect:
-    """The rectangle around a chain whose x and y are on the page."""
-    left = chain.x - chain.width if chain.is_mirrored else chain.x
-    return Rect(left, chain.y, chain.width, chain.height)
 
 
 def _corner(canvas: CanvasHost, block: str) -> Point:

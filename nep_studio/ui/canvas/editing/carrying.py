@@ -41,7 +41,8 @@ class KeyboardCarry:
         canvas.layers.set_sprite(sprite)
         self._inset = sprite.x - cargo.bounds.x, sprite.y - cargo.bounds.y
         self._targets = self._reading_order(canvas)
-        self._index = self._index_of(origin)
+        places = [target.place for target in self._targets]
+        self._index = places.index(origin) if origin in places else -1
         canvas.news.announced.emit(
             tr("Picked up. Arrow keys choose a place, Enter puts down, Escape puts back.")
         )
@@ -128,10 +129,6 @@ class KeyboardCarry:
     def _move_sprite(self, canvas: CanvasHost, x: float, y: float) -> None:
         """Show the corner of the blocks there; their picture has a margin."""
         canvas.layers.move_sprite(x + self._inset[0], y + self._inset[1])
-
-    def _index_of(self, origin: Place | None) -> int:
-        places = [target.place for target in self._targets]
-        return places.index(origin) if origin in places else -1
 
     def _show(self, canvas: CanvasHost, target: Target) -> None:
         self._target = target

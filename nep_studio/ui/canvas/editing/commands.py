@@ -180,7 +180,7 @@ class Commands:
         """Push stacks apart that overlap, or put all into columns; their order stays."""
         canvas = self._canvas
         sizes = {
-            stack: (canvas.page_layout.index.rect(stack).width, chain.height)
+            stack: (canvas.page_layout.index.rects[stack].width, chain.height)
             for stack, chain in canvas.page_layout.chains.items()
         }
         align: Literal["", "columns"] = "columns" if columns else ""

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QEvent, QMimeData, QObject, QPoint, QPointF, Qt
@@ -10,7 +9,7 @@ from PySide6.QtGui import QMouseEvent
 from PySide6.QtWidgets import QWidget
 
 from faults import Text
-from nep_studio.blocks.errors import ProjectFileError
+from nep_studio.blocks.errors import EditRefused, ProjectFileError
 from nep_studio.blocks.operations.copying import Clip, copy, from_text
 from nep_studio.blocks.operations.moving import GAP, bumped, reporter_of, without_hat
 from nep_studio.blocks.operations.moving import Box as PageBox
@@ -24,7 +23,7 @@ from nep_studio.ui.canvas.layout.page import Hit
 from nep_studio.ui.canvas.painting.layers import make_sprite
 from nep_studio.ui.words import count_words, tr
 
-from .cargo import Cargo, NewBlocks, bounds_of
+from .cargo import Cargo, NewBlocks
 from .gesture import TOUCH_DRAG_PX, AutoScroll, Pointer
 from .snapping import Ground, Point, Snap, Target, search
 
@@ -43,24 +42,37 @@ BESIDE = 30.0
 
 def land(canvas: CanvasHost, cargo: Cargo, snap: Snap, dx: float, dy: float) -> None:
     """Drop the blocks, as one step, and select them; the canvas says it when that is refused."""
-    if (target := snap.target) is not None:
-        beside, at = _beside(cargo, dx, dy), _new_top(cargo, target)
-        _do(canvas, lambda: cargo.join(canvas, target, beside, at))
-        return
-    dx, dy = _into_view(canvas, cargo.bounds, dx, dy)
-    if snap.reason or _lies_on_blocks(canvas, cargo.chains[0], dx, dy):
-        dx, dy = _bumped(canvas, cargo.bounds, dx, dy)
-    if dx or dy or not cargo.hidden:
-        _do(canvas, lambda: cargo.put(canvas, dx, dy))
-    if snap.reason:
+    target, dropped = snap.target, list[str]()
+    if target is None:
+        dx, dy = _into_view(canvas, cargo.bounds, dx, dy)
+        if snap.reason or _lies_on_blocks(canvas, cargo.chains[0], dx, dy):
+            dx, dy = _bumped(canvas, cargo.bounds, dx, dy)
+    try:
+        if target is not None:
+            beside, at = _beside(cargo, dx, dy), _new_top(cargo, target)
+            dropped = cargo.join(canvas, target, beside, at)
+        elif dx or dy or not cargo.hidden:
+            dropped = cargo.put(canvas, dx, dy)
+    except EditRefused as refusal:
+        canvas.news.refused.emit(refusal.sentence)
+    if dropped:
+        canvas.selection.set(dropped, dropped[0])
+    if target is None and snap.reason:
         canvas.news.refused.emit(snap.reason)
 
 
-def _do(canvas: CanvasHost, drop: Callable[[], list[str]]) -> None:
-    """Drop, and select what was dropped."""
-    dropped: list[str] = []
-    if canvas.attempt(lambda: dropped.extend(drop())):
-        canvas.selection.set(dropped, dropped[0])
+def _into_view(canvas: CanvasHost, bounds: Rect, dx: float, dy: float) -> Point:
+    """The way, changed so that the beginning of the blocks is in the view, and on the page."""
+    seen = canvas.sight.visible_page_rect()
+    right, bottom = seen.x + seen.width, seen.y + seen.height
+    least = LEAST_SEEN_PX / canvas.sight.camera.scale
+    if canvas.look.measures.is_mirrored:
+        x = min(max(bounds.right + dx, seen.x + least), right) - bounds.width
+    else:
+        x = min(max(bounds.x + dx, seen.x), right - least)
+    y = min(max(bounds.y + dy, seen.y), bottom - least)
+    x, y = (min(max(length, -FARTHEST), FARTHEST) for length in (x, y))
+    return x - bounds.x, y - bounds.y
 
 
 def _beside(cargo: Cargo, dx: float, dy: float) -> Point:
@@ -82,21 +94,8 @@ def _new_top(cargo: Cargo, target: Target) -> Point | None:
         mouth = cargo.ends.mouth
         assert mouth is not None
         x, y = x - (mouth[0] - chain.x), y - (mouth[1] - chain.y)
-    return _within(x), _within(y)
-
-
-def _into_view(canvas: CanvasHost, bounds: Rect, dx: float, dy: float) -> Point:
-    """The way, changed so that the beginning of the blocks is in the view, and on the page."""
-    seen = canvas.sight.visible_page_rect()
-    least = LEAST_SEEN_PX / canvas.sight.camera.scale
-    x, y = bounds.x + dx, bounds.y + dy
-    if canvas.look.measures.is_mirrored:
-        right = min(max(bounds.right + dx, seen.x + least), seen.right)
-        x = right - bounds.width
-    else:
-        x = min(max(x, seen.x), seen.right - least)
-    y = min(max(y, seen.y), seen.bottom - least)
-    return _within(x) - bounds.x, _within(y) - bounds.y
+    x, y = (min(max(length, -FARTHEST), FARTHEST) for length in (x, y))
+    return x, y
 
 
 def _lies_on_blocks(canvas: CanvasHost, chain: Chain, dx: float, dy: float) -> bool:
@@ -115,14 +114,10 @@ def _bumped(canvas: CanvasHost, bounds: Rect, dx: float, dy: float) -> Point:
     box = PageBox(bounds.x + dx, bounds.y + dy, bounds.width, bounds.height)
     while True:  # each round goes right or down past the stacks that are near, and never back
         near = layout.near(Rect(*box).grown(GAP))  # laid out: where they wait they seem larger
-        clear = bumped(box, {stack: PageBox(*layout.index.rect(stack)) for stack in near})
+        clear = bumped(box, {stack: PageBox(*layout.index.rects[stack]) for stack in near})
         if clear is None:
             return box.x - bounds.x, box.y - bounds.y
         box = box._replace(x=clear[0], y=clear[1])
-
-
-def _within(length: float) -> float:
-    return min(max(length, -FARTHEST), FARTHEST)
 
 
 LARGEST_GAP = 0.35
@@ -153,13 +148,19 @@ class DragBlocks:
     def move(self, canvas: CanvasHost, pointer: Pointer) -> None:
         """Bring the blocks along, and show where they would go."""
         self._last = pointer
-        dx, dy = self._way(pointer)
+        way = pointer.page - self._grabbed
+        dx, dy = way.x(), way.y()
         canvas.layers.move_sprite(self._corner[0] + dx, self._corner[1] + dy)
         place = canvas.area.viewport().mapToGlobal(pointer.view.toPoint())
         self._show_delete_area(canvas, canvas.marks.delete_area(place))
         snap = Snap() if self.is_over_delete_area else self._search(canvas, dx, dy)
         if snap != self.snap:
-            self._show(canvas, snap)
+            self.snap = snap
+            gap = self._gap(canvas, snap.target) if snap.target is not None else None
+            if gap is not None:
+                self._ground.remember(_stack_of(canvas, gap.owner))
+            canvas.layers.set_preview(self.cargo.hidden, gap)
+            canvas.marks.drop_overlay.show(canvas, snap.target)
         canvas.marks.bubble.say(self._words(), pointer.view.toPoint())
         canvas.marks.floating.follow(canvas, pointer.view)
         self._scroll.follow(pointer.view, is_resting=self.is_over_delete_area)
@@ -168,7 +169,8 @@ class DragBlocks:
         """Drop the blocks where they are shown."""
         if pointer.view != self._last.view:
             self.move(canvas, pointer)
-        dx, dy = self._way(pointer)
+        way = pointer.page - self._grabbed
+        dx, dy = way.x(), way.y()
         self._end(canvas)
         is_inside = canvas.area.viewport().rect().contains(pointer.view.toPoint())
         if self.is_over_delete_area or not (is_inside or self.cargo.hidden):
@@ -199,22 +201,14 @@ class DragBlocks:
             self._reasons[key] = self.cargo.why_not(canvas, target)
         return self._reasons[key]
 
-    def _show(self, canvas: CanvasHost, snap: Snap) -> None:
-        self.snap = snap
-        gap = self._gap(canvas, snap.target) if snap.target is not None else None
-        if gap is not None:
-            self._ground.remember(_stack_of(canvas, gap.owner))
-        canvas.layers.set_preview(self.cargo.hidden, gap)
-        canvas.marks.drop_overlay.show(canvas, snap.target)
-
     def _gap(self, canvas: CanvasHost, target: Target) -> Gap | None:
         """Room in the chain, for blocks that go between others."""
         place = target.place
         if target.join != "below" or isinstance(place, InInput):
             return None
-        rect = bounds_of(self.cargo.chains[0])
+        chain = self.cargo.chains[0]
         highest = canvas.sight.visible_page_rect().height * LARGEST_GAP
-        size = min(rect.width, canvas.look.measures.widest), min(rect.height, highest)
+        size = min(chain.width, canvas.look.measures.widest), min(chain.height, highest)
         if isinstance(place, InStack):
             return Gap(place.stack, "", place.index, *size)
         assert isinstance(place, InBody)
@@ -240,12 +234,11 @@ class DragBlocks:
             "" if self.snap.target is not None else tr(self.snap.reason or self._page_reason or "")
         )
 
-    def _way(self, pointer: Pointer) -> tuple[float, float]:
-        return pointer.page.x() - self._grabbed.x(), pointer.page.y() - self._grabbed.y()
-
     def _end(self, canvas: CanvasHost) -> None:
         self._scroll.end()
-        canvas.marks.hide(canvas)
+        canvas.marks.bubble.hide()
+        canvas.marks.floating.hide()
+        canvas.marks.drop_overlay.show(canvas, None)
         canvas.layers.set_sprite(None)
         canvas.layers.set_preview(frozenset(), None)
         canvas.area.viewport().unsetCursor()
@@ -301,7 +294,10 @@ class ExternalDrag(QObject):
             if event.type() == QEvent.Type.MouseButtonRelease:
                 watched.removeEventFilter(self)
                 self.deleteLater()
-                return self._release(event.globalPosition().toPoint())
+                place = event.globalPosition().toPoint()
+                if self._gesture is not None and self._canvas.pointing.gesture is self._gesture:
+                    self._canvas.pointing.release_at(_in_view(self._canvas, place))
+                return self._gesture is not None
         return False
 
     def _move(self, place: QPoint) -> bool:
@@ -313,11 +309,6 @@ class ExternalDrag(QObject):
         if self._canvas.pointing.gesture is self._gesture:
             self._canvas.pointing.move_to(_in_view(self._canvas, place))
         return True
-
-    def _release(self, place: QPoint) -> bool:
-        if self._gesture is not None and self._canvas.pointing.gesture is self._gesture:
-            self._canvas.pointing.release_at(_in_view(self._canvas, place))
-        return self._gesture is not None
 
 
 def carry_in(canvas: CanvasHost, clip: Clip, place: QPoint) -> DragBlocks:

@@ -76,7 +76,7 @@ class Walk:
         canvas, cursor = self._canvas, self.cursor()
         if not cursor:
             return
-        if len(canvas.selection) <= 1 or self._anchor not in canvas.selection:
+        if len(canvas.selection.ids) <= 1 or self._anchor not in canvas.selection:
             self._anchor = navigation.statement_of(canvas.editor.project, cursor)
         stacks = reading_order(canvas)
         target = way(canvas.editor.project, stacks, cursor)
@@ -115,7 +115,22 @@ class Keyboard:
         """Whether the space bar is down and has only been pressed: the mouse pans with it too."""
         self.type_letter: Callable[[str], None] = lambda letter: None
         self._rules = self._resting_rules()
-        self._carrying_rules = self._rules_while_carrying()
+        plain, control = (False, False, False), (False, True, False)
+        forward, back = (lambda: self._step(1)), (lambda: self._step(-1))
+        self._carrying_rules = {
+            (Key.Key_Down, *plain): forward,
+            (Key.Key_Right, *plain): forward,
+            (Key.Key_Up, *plain): back,
+            (Key.Key_Left, *plain): back,
+            (Key.Key_Down, *control): lambda: self._shift(0, 1),
+            (Key.Key_Up, *control): lambda: self._shift(0, -1),
+            (Key.Key_Right, *control): lambda: self._shift(1, 0),
+            (Key.Key_Left, *control): lambda: self._shift(-1, 0),
+            (Key.Key_Return, *plain): self._drop,
+            (Key.Key_Enter, *plain): self._drop,
+            (Key.Key_Space, *plain): self._drop,
+            (Key.Key_Escape, *plain): self._put_back,
+        }
 
     def press(self, event: QKeyEvent) -> bool:
         """Do what a key means; False when it means nothing here."""
@@ -129,9 +144,8 @@ class Keyboard:
             bool(held & Modifier.AltModifier),
         )
         if isinstance(self._canvas.pointing.gesture, KeyboardCarry):
-            rule = self._carrying_rules.get(press)
-            if rule is not None:
-                rule()
+            if press in self._carrying_rules:
+                self._carrying_rules[press]()
             return True
         rule = self._rules.get(press)
         if rule is not None:
@@ -198,24 +212,6 @@ class Keyboard:
             (Key.Key_Escape, *plain): self._escape,
         }
         return rules
-
-    def _rules_while_carrying(self) -> dict[Press, Rule]:
-        plain, control = (False, False, False), (False, True, False)
-        forward, back = (lambda: self._step(1)), (lambda: self._step(-1))
-        return {
-            (Key.Key_Down, *plain): forward,
-            (Key.Key_Right, *plain): forward,
-            (Key.Key_Up, *plain): back,
-            (Key.Key_Left, *plain): back,
-            (Key.Key_Down, *control): lambda: self._shift(0, 1),
-            (Key.Key_Up, *control): lambda: self._shift(0, -1),
-            (Key.Key_Right, *control): lambda: self._shift(1, 0),
-            (Key.Key_Left, *control): lambda: self._shift(-1, 0),
-            (Key.Key_Return, *plain): self._drop,
-            (Key.Key_Enter, *plain): self._drop,
-            (Key.Key_Space, *plain): self._drop,
-            (Key.Key_Escape, *plain): self._put_back,
-        }
 
     def _edit(self) -> None:
         """Edit the first field of the block; unfold it when it is folded."""

@@ -13,6 +13,7 @@ from nep_studio.blocks.places import InBody, InInput, InStack, Place
 from nep_studio.ui.canvas.layout.boxes import Chain
 from nep_studio.ui.canvas.layout.index import Rect
 from nep_studio.ui.canvas.layout.page import Placed
+from nep_studio.ui.canvas.painting.shapes import slot_path
 from nep_studio.ui.theme.colours import Theme
 
 from .snapping import Target, slots
@@ -33,12 +34,6 @@ class DragMarks:
         self.floating = FloatingPicture(host)
         self.drop_overlay = DropOverlay()
         self.delete_area: Callable[[QPoint], bool] = lambda point: False
-
-    def hide(self, host: CanvasHost) -> None:
-        """Nothing is carried any more."""
-        self.bubble.hide()
-        self.floating.hide()
-        self.drop_overlay.show(host, None)
 
 
 # Shows where carried blocks would go: the slot, the head of a stack, the blocks to go around.
@@ -88,7 +83,10 @@ class DropOverlay:
         if target.join == "input":
             self._mark_slot(view, target)
         elif target.join == "above":
-            self._mark_line(view, target)
+            # A line along the top of a stack
+            width = view.look.measures.narrowest * (-1 if view.look.measures.is_mirrored else 1)
+            self._path.moveTo(target.x, target.y)
+            self._path.lineTo(target.x + width, target.y)
         elif target.join == "around":
             self._mark_around(view, target)
         if not self._path.isEmpty():
@@ -107,14 +105,8 @@ class DropOverlay:
             self._path = _outline(view, self._pushed)
             return
         piece = next(piece for piece in owner.box.pieces if piece.key == place.slot)
-        outline = view.look.block_painter.outlines.slot(piece.shape, piece.width, piece.height)
+        outline = slot_path(piece.shape, piece.width, piece.height, view.look.measures.unit)
         self._path = outline.translated(rect.x, rect.y)
-
-    def _mark_line(self, view: CanvasHost, target: Target) -> None:
-        """A line along the top of a stack."""
-        width = view.look.measures.narrowest * (-1 if view.look.measures.is_mirrored else 1)
-        self._path.moveTo(target.x, target.y)
-        self._path.lineTo(target.x + width, target.y)
 
     def _mark_around(self, view: CanvasHost, target: Target) -> None:
         """A bracket beside the blocks that would go into the mouth."""
@@ -200,7 +192,11 @@ class Bubble(QLabel):
             return
         if text != self.text():
             self.setText(text)
-            self._take_size()
+            margins = self.contentsMargins()
+            sides = margins.left() + margins.right() + 2
+            widest = self.fontMetrics().averageCharWidth() * WIDEST_LETTERS
+            width = min(widest, self.fontMetrics().horizontalAdvance(self.text()) + sides)
+            self.resize(width, max(1, self.heightForWidth(width)))
         room = self._view.rect()
         place = at + QPoint(OFFSET_PX, OFFSET_PX)
         if place.x() + self.width() > room.right():
@@ -220,13 +216,6 @@ class Bubble(QLabel):
             radius = self.fontMetrics().height() / 3
             painter.drawRoundedRect(self.rect(), radius, radius)
         super().paintEvent(event)
-
-    def _take_size(self) -> None:
-        margins = self.contentsMargins()
-        sides = margins.left() + margins.right() + 2
-        widest = self.fontMetrics().averageCharWidth() * WIDEST_LETTERS
-        width = min(widest, self.fontMetrics().horizontalAdvance(self.text()) + sides)
-        self.resize(width, max(1, self.heightForWidth(width)))
 
 
 # Carried blocks outside the view: over the palette, on their way to the canvas or to the trash.

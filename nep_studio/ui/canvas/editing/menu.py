@@ -145,7 +145,7 @@ def finding(canvas: CanvasHost, place: MenuPlace) -> list[MenuEntry]:
 def deleting(canvas: CanvasHost, place: MenuPlace) -> list[MenuEntry]:
     """Delete the selected blocks, or the block with all below it."""
     block, project = _block(canvas, place), canvas.editor.project
-    count = len(canvas.selection)
+    count = len(canvas.selection.ids)
     label = count_words(count, "Delete this block", "Delete {n} blocks")
     entries = [MenuEntry("delete", label, canvas.commands.delete, "trash-2", True, "Del")]
     below = run_from(project, block.id)
@@ -231,7 +231,8 @@ def _block(canvas: CanvasHost, place: MenuPlace) -> Block:
 
 
 def _can_wrap(canvas: CanvasHost) -> bool:
-    return bool(len(canvas.selection)) and why_not_wrap(canvas.editor, canvas.selection.ids) is None
+    ids = canvas.selection.ids
+    return bool(ids) and why_not_wrap(canvas.editor, ids) is None
 
 
 def _wraps(canvas: CanvasHost) -> tuple[MenuEntry, ...]:
@@ -281,8 +282,8 @@ def _extract(canvas: CanvasHost, block: str) -> None:
     """Put a block alone beside its stack; what is below it moves up."""
     index, stack = canvas.page_layout.index, canvas.editor.project.stack_of(block).id
     x, y = canvas.page_layout.corners([block]).get(block, (0.0, 0.0))
-    if stack in index:
-        rect = index.rect(stack)
+    if stack in index.rects:
+        rect = index.rects[stack]
         x = rect.x - BESIDE if canvas.look.measures.is_mirrored else rect.right + BESIDE
     if canvas.attempt(lambda: set_aside(canvas.editor, Run(block, 1), (x, y))):
         canvas.selection.set([block])

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QEvent, QPoint, QPointF, Qt, QTimer
@@ -197,16 +198,14 @@ class Pointing:
         """The mouse moved: with a gesture, or over the page."""
         last = self._last
         if self.gesture is None or last is None or isinstance(self.gesture, KeyboardCarry):
-            self._hover(event.position())
+            # Show by the cursor what a press would do
+            shape = self._cursor(event.position())
+            if self._canvas.area.viewport().cursor().shape() != shape:
+                self._canvas.area.viewport().setCursor(shape)
         elif not event.buttons() & last.button:  # the release went elsewhere
             self.cancel()
         else:
             self.move_to(event.position())
-
-    def release(self, event: QMouseEvent) -> None:
-        """A mouse button came up."""
-        if self._last is not None and event.button() == self._last.button:
-            self.release_at(event.position())
 
     def move_to(self, view: QPointF) -> None:
         """Bring the gesture to a point of the view."""
@@ -214,8 +213,10 @@ class Pointing:
             self._last = self._moved(view)
             self.gesture.move(self._canvas, self._last)
 
-    def release_at(self, view: QPointF) -> None:
-        """End the gesture at a point of the view."""
+    def release_at(self, view: QPointF, button: Qt.MouseButton | None = None) -> None:
+        """End the gesture at a point of the view; not if another button than its came up."""
+        if button is not None and (self._last is None or button != self._last.button):
+            return
         gesture, self.gesture = self.gesture, None
         if gesture is not None:
             self._last = self._moved(view)
@@ -267,12 +268,6 @@ class Pointing:
         elif isinstance(self.gesture, PinchZoom):
             self.gesture.pinch(canvas, first, second)
 
-    def _hover(self, view: QPointF) -> None:
-        """Show by the cursor what a press would do."""
-        shape = self._cursor(view)
-        if self._canvas.area.viewport().cursor().shape() != shape:
-            self._canvas.area.viewport().setCursor(shape)
-
     def _cursor(self, view: QPointF) -> Qt.CursorShape:
         canvas = self._canvas
         if self.is_space_down:
@@ -287,7 +282,7 @@ class Pointing:
 
     def _moved(self, view: QPointF) -> Pointer:
         last = self._last or self._pointer(view)
-        return self._pointer(view, last.button, last.modifiers, is_touch=last.is_touch)
+        return replace(last, view=QPointF(view), page=self._canvas.sight.camera.to_page(view))
 
     def _pointer(
         self,

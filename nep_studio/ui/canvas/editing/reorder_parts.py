@@ -94,7 +94,13 @@ def can_reorder(canvas: CanvasHost, hit: Hit) -> bool:
 
 def _bars(canvas: CanvasHost, placed: Placed, group: str) -> list[Bar]:
     """Where the parts of a group can be put: before each of them, and after the last."""
-    parts = _parts(canvas, placed, group)
+    # What each part of a group covers of its block, on the page
+    names, found = _names(canvas, placed, group), dict[int, Rect]()
+    for key, rect in _rects(placed):
+        name, number = split_slot(key)
+        if name in names:
+            found[number] = rect.united(found[number]) if number in found else rect
+    parts = [found[number] for number in sorted(found)]
     if any(
         split_slot(mouth.key)[0] in _names(canvas, placed, group) for mouth in placed.box.mouths
     ):
@@ -106,16 +112,6 @@ def _bars(canvas: CanvasHost, placed: Placed, group: str) -> list[Bar]:
     end = parts[-1].x - half if is_mirrored else parts[-1].right + half
     lines = [Rect(x, part.y, 0.0, part.height) for x, part in zip(starts, parts, strict=True)]
     return [*lines, Rect(end, parts[-1].y, 0.0, parts[-1].height)]
-
-
-def _parts(canvas: CanvasHost, placed: Placed, group: str) -> list[Rect]:
-    """What each part of a group covers of its block, on the page."""
-    names, found = _names(canvas, placed, group), dict[int, Rect]()
-    for key, rect in _rects(placed):
-        name, number = split_slot(key)
-        if name in names:
-            found[number] = rect.united(found[number]) if number in found else rect
-    return [found[number] for number in sorted(found)]
 
 
 def _rects(placed: Placed) -> list[tuple[str, Rect]]:

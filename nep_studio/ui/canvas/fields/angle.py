@@ -74,22 +74,16 @@ class Dial(QWidget):
             painter.setBrush(theme.colour("selection"))
             shown = math.copysign(min(abs(self._degrees), 360), self._degrees)
             painter.drawPie(circle.adjusted(edge, edge, -edge, -edge), 90 * 16, round(shown * 16))
-            self._paint_marks(painter, edge)
-            self._paint_hand(painter, edge)
-
-    def _paint_marks(self, painter: QPainter, edge: float) -> None:
-        painter.setPen(QPen(self._theme.colour("field_line"), edge / 2))
-        for degrees in range(0, 360, SNAP_DEGREES):
-            length = 0.12 if degrees % 90 == 0 else 0.06
-            painter.drawLine(self._at(degrees, 0.93 - length), self._at(degrees, 0.93))
-
-    def _paint_hand(self, painter: QPainter, edge: float) -> None:
-        colour = self._theme.colour("accent")
-        painter.setPen(QPen(colour, 1.6 * edge, Qt.PenStyle.SolidLine, Qt.PenCapStyle.RoundCap))
-        end = self._at(self._degrees, 0.78)
-        painter.drawLine(QPointF(self._side / 2, self._side / 2), end)
-        painter.setBrush(colour)
-        painter.drawEllipse(end, 2.6 * edge, 2.6 * edge)
+            painter.setPen(QPen(self._theme.colour("field_line"), edge / 2))
+            for degrees in range(0, 360, SNAP_DEGREES):
+                length = 0.12 if degrees % 90 == 0 else 0.06
+                painter.drawLine(self._at(degrees, 0.93 - length), self._at(degrees, 0.93))
+            colour = self._theme.colour("accent")
+            painter.setPen(QPen(colour, 1.6 * edge, Qt.PenStyle.SolidLine, Qt.PenCapStyle.RoundCap))
+            end = self._at(self._degrees, 0.78)
+            painter.drawLine(QPointF(self._side / 2, self._side / 2), end)
+            painter.setBrush(colour)
+            painter.drawEllipse(end, 2.6 * edge, 2.6 * edge)
 
     def _at(self, degrees: float, share: float) -> QPointF:
         radius, angle = self._side / 2 * share, math.radians(degrees)

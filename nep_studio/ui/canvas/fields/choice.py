@@ -161,7 +161,14 @@ class ChoicePopup(FieldPopup):
             self._add_heading(tr("Nothing is called “{typed}”.", typed=typed))
         for option in self.more_rows():
             self._add(option)
-        self._point(typed)
+        # Point at the value of the field, or at what is found first
+        rows = [self.list.item(row) for row in range(self.list.count())]
+        choosable = [item for item in rows if item.data(_OPTION) is not None]
+        now = [i for i in choosable if i.data(_OPTION).value == self.edit.value]
+        is_value = bool(typed) and self.is_free
+        if choosable and not is_value:
+            self.list.setCurrentItem((now if now and not typed else choosable)[0])
+            self.list.scrollToItem(self.list.currentItem())
         self._fit()
 
     def ask(self, question: Question | None) -> None:
@@ -224,16 +231,6 @@ class ChoicePopup(FieldPopup):
         item.setFont(font)
         item.setSizeHint(QSize(self._wide(words), self._row))
         self.list.addItem(item)
-
-    def _point(self, typed: str) -> None:
-        """Point at the value of the field, or at what is found first."""
-        rows = [self.list.item(row) for row in range(self.list.count())]
-        choosable = [item for item in rows if item.data(_OPTION) is not None]
-        now = [i for i in choosable if i.data(_OPTION).value == self.edit.value]
-        is_value = bool(typed) and self.is_free
-        if choosable and not is_value:
-            self.list.setCurrentItem((now if now and not typed else choosable)[0])
-            self.list.scrollToItem(self.list.currentItem())
 
     def _fit(self) -> None:
         rows = min(max(self.list.count(), 1), _MOST_ROWS)

@@ -133,7 +133,16 @@ class Swatches(QWidget):
                 painter.setBrush(QColor(code))
                 painter.drawRoundedRect(rect, 2 * gap, 2 * gap)
                 if is_here:
-                    _paint_tick(painter, rect, QColor(code))
+                    ink = QColor("white") if qGray(QColor(code).rgb()) < 128 else QColor("black")
+                    painter.setPen(QPen(ink, rect.width() / 10))
+                    middle, half = rect.center(), rect.width() / 4
+                    painter.drawPolyline(
+                        [
+                            middle + QPointF(-half, 0),
+                            middle + QPointF(-half / 4, half * 0.7),
+                            middle + QPointF(half, -half * 0.7),
+                        ]
+                    )
 
     def _index_at(self, point: QPointF) -> int:
         at = point.toPoint()
@@ -199,16 +208,3 @@ class ColourPopup(FieldPopup):
         now = str(self.edit.value or "")
         self.palette_grid.show_colour(now)
         self.name.setText((_NAMES.get(now) and name_of_colour(now)) or "")
-
-
-def _paint_tick(painter: QPainter, rect: QRectF, colour: QColor) -> None:
-    ink = QColor("white") if qGray(colour.rgb()) < 128 else QColor("black")
-    painter.setPen(QPen(ink, rect.width() / 10))
-    middle, half = rect.center(), rect.width() / 4
-    painter.drawPolyline(
-        [
-            middle + QPointF(-half, 0),
-            middle + QPointF(-half / 4, half * 0.7),
-            middle + QPointF(half, -half * 0.7),
-        ]
-    )

@@ -199,21 +199,17 @@ class FieldEditors(QObject):
         self.canvas = canvas
         self.recent_colours: list[str] = []
         self.comments = Comments(canvas)
-        self._open: OpenEditor | None = None
+        self.widget: OpenEditor | None = None
+        """The editor that is open."""
         self._left_comment = ""
         """The block whose comment the press has closed: its button does not open it again."""
-        self._ring = FieldRing(canvas)
+        self._ring = FieldRing(self)
         canvas.news.page_changed.connect(self.close)
 
     @property
     def place(self) -> Place | None:
         """The block and field that are edited now."""
-        return (self._open.edit.block, self._open.edit.key) if self._open is not None else None
-
-    @property
-    def widget(self) -> OpenEditor | None:
-        """The editor that is open."""
-        return self._open
+        return (self.widget.edit.block, self.widget.edit.key) if self.widget is not None else None
 
     def open(self, block: str, key: str) -> bool:
         """Edit the field ``key`` of a block; False when it has no editor."""
@@ -222,14 +218,17 @@ class FieldEditors(QObject):
         if edit is None:
             return False
         if edit.slot.kind.is_pressed:
-            return self._toggle(edit)
+            edit.set(not edit.value)
+            edit.end()
+            self.canvas.news.announced.emit(tr("on") if edit.value else tr("off"))
+            return True
         rect = page_rect_of(self.canvas, block, key)
         if rect is None:
             return False
         self.canvas.sight.show_rect(rect)
-        self._open = self._new(edit)
+        self.widget = self._new(edit)
         self._listen(is_open=True)
-        self._open.show_editor()
+        self.widget.show_editor()
         self.canvas.layers.update_page(rect.grown(4.0))
         return True
 
@@ -265,17 +264,17 @@ class FieldEditors(QObject):
 
     def close(self) -> None:
         """Keep what was typed, and take the editor away."""
-        if self._open is not None:
+        if self.widget is not None:
             self._end(restore=False)
 
     def close_if(self, widget: OpenEditor) -> None:
         """Keep what was typed in an editor that lost the keyboard, if it is still the open one."""
-        if widget is self._open:
+        if widget is self.widget:
             self.close()
 
     def cancel(self) -> None:
         """Make the field as it was, and take the editor away."""
-        if self._open is not None:
+        if self.widget is not None:
             self._end(restore=True)
 
     def go(self, *, forward: bool) -> None:
@@ -302,15 +301,15 @@ class FieldEditors(QObject):
 
     def use_words(self) -> None:
         """Tell in other words what is edited; what is typed in a line stays as it is."""
-        if self._open is None:
+        if self.widget is None:
             return
-        edit, editor = self._open.edit, self.canvas.editor
-        if isinstance(self._open, FieldPopup):
+        edit, editor = self.widget.edit, self.canvas.editor
+        if isinstance(self.widget, FieldPopup):
             self.open(edit.block, edit.key)
             return
         block = editor.project.blocks[edit.block]
         slot = editor.language.definitions[block.type].slot(edit.key, block.groups)
-        cast(QWidget, self._open).setAccessibleName(title_of(slot or edit.slot))
+        cast(QWidget, self.widget).setAccessibleName(title_of(slot or edit.slot))
 
     def take(self, event: QEvent) -> bool:
         """A press on the canvas keeps what was typed; resting over a field tells what it takes."""
@@ -345,39 +344,31 @@ class FieldEditors(QObject):
             else:
                 signal.disconnect(self._follow)
 
-    def _toggle(self, edit: Editing) -> bool:
-        edit.set(not edit.value)
-        edit.end()
-        self.canvas.news.announced.emit(tr("on") if edit.value else tr("off"))
-        return True
-
     def _end(self, *, restore: bool) -> None:
-        closing, self._open = self._open, None
+        closing, self.widget = self.widget, None
         assert closing is not None
         self._listen(is_open=False)
         if restore:
             closing.edit.restore()
         self.canvas.attempt(closing.edit.end)
         if not restore and closing.edit.slot.kind.name == "colour":
-            self._remember(str(closing.edit.value))
+            colour = str(closing.edit.value)
+            recent = [c for c in self.recent_colours if c != colour]
+            self.recent_colours = [colour, *recent][:MOST_RECENT_COLOURS]
         give_back_focus(self.canvas.area, cast(QWidget, closing))
         closing.dispose()
         rect = page_rect_of(self.canvas, closing.edit.block, closing.edit.key)
         if rect is not None:
             self.canvas.layers.update_page(rect.grown(4.0))
 
-    def _remember(self, colour: str) -> None:
-        recent = [c for c in self.recent_colours if c != colour]
-        self.recent_colours = [colour, *recent][:MOST_RECENT_COLOURS]
-
     def _follow(self) -> None:
-        if self._open is None:
+        if self.widget is None:
             return
-        edit = self._open.edit
+        edit = self.widget.edit
         if page_rect_of(self.canvas, edit.block, edit.key) is None:
             self.close()
         else:
-            self._open.follow()
+            self.widget.follow()
 
     def _tell_tip(self, event: QHelpEvent) -> bool:
         hit = self.canvas.sight.hit(event.pos())

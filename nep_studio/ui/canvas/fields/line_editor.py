@@ -89,25 +89,20 @@ class LineEditor(QLineEdit):
         if rect is None:
             return
         canvas = self._editors.canvas
-        self._dress()
-        unit = canvas.look.measures.unit * editor_scale(canvas)
+        look = scale, is_wrong = editor_scale(canvas), bool(self.reason.text)
+        if look != self._look:  # a style sheet costs more than a key may
+            self._look = look
+            self.setFont(editor_font(canvas))
+            self.setStyleSheet(line_style(canvas, self._kind.shape, is_wrong=is_wrong))
+        unit = canvas.look.measures.unit * scale
         text = self.fontMetrics().horizontalAdvance(self.text()) + 17 * unit
         room = canvas.area.viewport().rect()
         width = round(min(max(rect.width(), text, 40 * unit), room.width()))
-        height = round(canvas.look.measures.field_height * editor_scale(canvas))
+        height = round(canvas.look.measures.field_height * scale)
         left = rect.right() - width if canvas.look.measures.is_mirrored else rect.left()
         left = max(0.0, min(left, room.width() - width))
         self.setGeometry(round(left), round(rect.center().y() - height / 2), width, height)
         self._place_notes()
-
-    def _dress(self) -> None:
-        """Take the look for the zoom and the reason; a style sheet costs more than a key may."""
-        canvas = self._editors.canvas
-        look = (editor_scale(canvas), bool(self.reason.text))
-        if look != self._look:
-            self._look = look
-            self.setFont(editor_font(canvas))
-            self.setStyleSheet(line_style(canvas, self._kind.shape, is_wrong=look[1]))
 
     def show_editor(self) -> None:
         """Begin to edit."""
@@ -162,7 +157,8 @@ class LineEditor(QLineEdit):
             self.setAccessibleDescription(words)
             if words:
                 self._editors.canvas.news.announced.emit(words)
-        self._tell_result()
+        if self._kind.is_number:
+            self._tell_result()
         self.follow()
 
     def _tell_result(self) -> None:

@@ -19,6 +19,7 @@ from PySide6.QtWidgets import (
 )
 
 from nep_studio.blocks.slots import FieldValue
+from nep_studio.ui.canvas.painting.shapes import slot_path
 from nep_studio.ui.widgets.forms import room_around
 from nep_studio.ui.words import tr
 
@@ -205,13 +206,14 @@ def give_back_focus(canvas: QWidget, closing: QWidget) -> None:
 class FieldRing:
     """Shows which field is being edited."""
 
-    def __init__(self, canvas: CanvasHost) -> None:
-        self._canvas = canvas
+    def __init__(self, editors: FieldEditors) -> None:
+        self._editors = editors
 
     def paint(self, painter: QPainter, view: CanvasHost) -> None:
         """Draw the line around the field that is edited, in its shape."""
-        place = self._canvas.fields.place
-        found = piece_of(self._canvas, *place) if place is not None else None
+        if (editor := self._editors.widget) is None:
+            return
+        found = piece_of(view, editor.edit.block, editor.edit.key)
         if found is None:
             return
         placed, piece = found
@@ -219,7 +221,5 @@ class FieldRing:
         painter.setBrush(Qt.BrushStyle.NoBrush)
         x, y = placed.x + piece.x, placed.y + piece.y
         painter.translate(x, y)
-        painter.drawPath(
-            view.look.block_painter.outlines.slot(piece.shape, piece.width, piece.height)
-        )
+        painter.drawPath(slot_path(piece.shape, piece.width, piece.height, view.look.measures.unit))
         painter.translate(-x, -y)

@@ -6,7 +6,6 @@ block moves, and only the boxes around a changed block are made again.
 
 from __future__ import annotations
 
-from bisect import bisect_right
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import Literal
@@ -58,6 +57,8 @@ class Plug:
     key: str
     x: float
     y: float
+    width: float
+    height: float
     box: Box
 
 
@@ -75,20 +76,8 @@ class Chain:
     boxes: list[Box]
     ys: list[float]
     width: float
+    height: float
     is_mirrored: bool = False
-
-    @property
-    def height(self) -> float:
-        """From the top of the first box to the bottom of the last."""
-        return self.ys[-1]
-
-    def left_of(self, box: Box) -> float:
-        """The left side of one of the boxes, relative to where the chain's ``x`` counts from."""
-        return self.x - box.width if self.is_mirrored else self.x
-
-    def index_at(self, y: float) -> int:
-        """The number of the box at a height, the nearest one where there is none."""
-        return max(0, min(bisect_right(self.ys, y) - 1, len(self.boxes) - 1))
 
 
 @dataclass(slots=True)
@@ -112,11 +101,6 @@ class Box:
     reach: float = 0.0
     is_disabled: bool = False
     is_collapsed: bool = False
-
-    @property
-    def form(self) -> tuple[object, ...]:
-        """What the outline depends on."""
-        return (self.outline, self.width, self.segments, self.is_mirrored)
 
 
 # The sizes of blocks, all taken from the height of a line of text.
@@ -164,39 +148,26 @@ class Measures:
 MOST_TEXTS = 20_000
 
 
-class Texts:
+class Texts(dict[str, QStaticText]):
     """Static texts of one font; preparing one costs more than painting it often."""
 
-    def __init__(self) -> None:
-        self._texts: dict[str, QStaticText] = {}
-
-    def of(self, text: str) -> QStaticText:
-        """The prepared text."""
-        known = self._texts.get(text)
-        if known is None:
-            if len(self._texts) > MOST_TEXTS:
-                self._texts.clear()
-            known = self._texts[text] = QStaticText(text)
-            known.setTextFormat(Qt.TextFormat.PlainText)
-            known.setPerformanceHint(QStaticText.PerformanceHint.AggressiveCaching)
-        return known
+    def __missing__(self, text: str) -> QStaticText:
+        if len(self) > MOST_TEXTS:
+            self.clear()
+        made = self[text] = QStaticText(text)
+        made.setTextFormat(Qt.TextFormat.PlainText)
+        made.setPerformanceHint(QStaticText.PerformanceHint.AggressiveCaching)
+        return made
 
 
-class TextWidths:
-    """How wide texts are in a font, each measured once."""
+class TextWidths(dict[str, float]):
+    """How wide texts are in a font, rounded up to a whole unit, each measured once."""
 
     def __init__(self, font: QFont) -> None:
         self._metrics = QFontMetricsF(font)
-        self._widths: dict[str, float] = {}
-
-    @property
-    def line(self) -> float:
+        self.line = self._metrics.height()
         """The height of a line."""
-        return self._metrics.height()
 
-    def __call__(self, text: str) -> float:
-        """The width of a text, rounded up to a whole unit."""
-        width = self._widths.get(text)
-        if width is None:
-            width = self._widths[text] = float(-(-self._metrics.horizontalAdvance(text) // 1))
+    def __missing__(self, text: str) -> float:
+        width = self[text] = float(-(-self._metrics.horizontalAdvance(text) // 1))
         return width

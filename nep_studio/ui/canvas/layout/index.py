@@ -36,11 +36,12 @@ class Rect(NamedTuple):
 
     def touches(self, other: Rect) -> bool:
         """Whether the two have a point in common."""
+        x, y, width, height = other
         return (
-            self.x <= other.right
-            and other.x <= self.right
-            and self.y <= other.bottom
-            and other.y <= self.bottom
+            self.x <= x + width
+            and x <= self.x + self.width
+            and self.y <= y + height
+            and y <= self.y + self.height
         )
 
     def holds(self, x: float, y: float) -> bool:
@@ -65,7 +66,8 @@ class Rect(NamedTuple):
     def united(self, other: Rect) -> Rect:
         """The smallest rectangle around both."""
         x, y = min(self.x, other.x), min(self.y, other.y)
-        right, bottom = max(self.right, other.right), max(self.bottom, other.bottom)
+        right = max(self.x + self.width, other.x + other.width)
+        bottom = max(self.y + self.height, other.y + other.height)
         return Rect(x, y, right - x, bottom - y)
 
 
@@ -76,21 +78,21 @@ class GridIndex:
     """Rectangles by name."""
 
     def __init__(self) -> None:
+        self.rects: dict[str, Rect] = {}
+        """To be read: ``set`` and ``remove`` change it."""
         self._squares: dict[Square, dict[str, None]] = {}
-        self._rects: dict[str, Rect] = {}
         self._large: dict[str, None] = {}
 
-    def __contains__(self, name: str) -> bool:
-        return name in self._rects
-
-    def rect(self, name: str) -> Rect:
-        """The rectangle of a name."""
-        return self._rects[name]
+    def clear(self) -> None:
+        """Forget all."""
+        self.rects.clear()
+        self._squares.clear()
+        self._large.clear()
 
     def set(self, name: str, rect: Rect) -> None:
         """Put a rectangle in, or put it elsewhere."""
         self.remove(name)
-        self._rects[name] = rect
+        self.rects[name] = rect
         squares = _squares(rect)
         if len(squares) > MOST_SQUARES:
             self._large[name] = None
@@ -100,7 +102,7 @@ class GridIndex:
 
     def remove(self, name: str) -> None:
         """Take a rectangle out, if it is there."""
-        rect = self._rects.pop(name, None)
+        rect = self.rects.pop(name, None)
         if rect is None:
             return
         if name in self._large:
@@ -117,25 +119,25 @@ class GridIndex:
         found = dict(self._large)
         squares = _squares(rect)
         if len(squares) > len(self._squares):
-            found.update(dict.fromkeys(self._rects))
+            found.update(dict.fromkeys(self.rects))
         else:
             for square in squares:
                 found.update(self._squares.get(square, {}))
-        return (name for name in found if self._rects[name].touches(rect))
+        return (name for name in found if self.rects[name].touches(rect))
 
     def bounds(self) -> Rect | None:
         """The rectangle around all of them, or None when there is none."""
-        rects = self._rects.values()
+        rects = self.rects.values()
         if not rects:
             return None
         x, y = min(r.x for r in rects), min(r.y for r in rects)
-        right, bottom = max(r.right for r in rects), max(r.bottom for r in rects)
+        right, bottom = max(r.x + r.width for r in rects), max(r.y + r.height for r in rects)
         return Rect(x, y, right - x, bottom - y)
 
 
 def _squares(rect: Rect) -> list[Square]:
-    first_x, last_x = int(rect.x // SQUARE), int(rect.right // SQUARE)
-    first_y, last_y = int(rect.y // SQUARE), int(rect.bottom // SQUARE)
+    first_x, last_x = int(rect.x // SQUARE), int((rect.x + rect.width) // SQUARE)
+    first_y, last_y = int(rect.y // SQUARE), int((rect.y + rect.height) // SQUARE)
     if (last_x - first_x + 1) * (last_y - first_y + 1) > 2 * MOST_SQUARES:
         last_y = first_y + 2 * MOST_SQUARES  # enough to be seen as large
         last_x = first_x
@@ -166,12 +168,15 @@ class Camera:
 
     def view_rect(self, rect: Rect) -> QRectF:
         """A rectangle of the page in the view."""
-        return QRectF(self.to_view(rect.x, rect.y), self.to_view(rect.right, rect.bottom))
+        x, y, width, height = rect
+        scale = self.scale
+        return QRectF((x - self.x) * scale, (y - self.y) * scale, width * scale, height * scale)
 
     def page_rect(self, rect: QRectF) -> Rect:
         """A rectangle of the view on the page."""
-        corner = self.to_page(rect.topLeft())
-        return Rect(corner.x(), corner.y(), rect.width() / self.scale, rect.height() / self.scale)
+        scale = self.scale
+        x, y = rect.x() / scale + self.x, rect.y() / scale + self.y
+        return Rect(x, y, rect.width() / scale, rect.height() / scale)
 
     def zoom_at(self, point: QPointF, scale: float) -> None:
         """Zoom so that what is under a point of the view stays there."""

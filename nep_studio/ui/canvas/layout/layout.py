@@ -29,13 +29,6 @@ class Section:
     mouth: str = ""
     header: int = 0
 
-    def rows(self, measures: Measures) -> list[Row]:
-        """The items in rows."""
-        if not 0 < self.header < len(self.items):  # a header without words needs no row
-            return flow(self.items, measures)
-        before, after = self.items[: self.header], self.items[self.header :]
-        return [*flow(before, measures), *flow(after, measures)]
-
 
 class SectionWriter:
     """Writes the sentence of one block after the other as sections."""
@@ -54,15 +47,29 @@ class SectionWriter:
         """The sections of a block; ``boxes`` are those of the blocks plugged into it."""
         if definition is None:
             return self._unknown(block, boxes)
+        comment: list[Item] = [self._button("comment", "", 0)] if block.comment else []
         if block.collapsed:
-            return [Section(self._collapsed(block))]
-        sections = [Section(self._comment(block))]
+            said = sentence(self._project, self._language, block.id)
+            text, width = self._pieces.cut(said, self._measures.widest * 0.6)
+            inside = sum(1 for _ in self._project.within([block.id])) - 1
+            words = Piece("words", 0, 0, width, self._measures.line, text)
+            items: list[Item] = [self._button("expand", "", inside), *comment, words]
+            if inside:
+                items += self._said("· " + count_words(inside, "1 block", "{n} blocks"))
+            return [Section(items)]
+        sections = [Section(comment)]
         for part in definition.parts:
             if isinstance(part, Group):
                 self._group(block, definition, part, boxes, sections)
             else:
                 self._part(block, part, 0, boxes, sections)
-        self._buttons(block, definition, sections[-1])
+        # What adds a part to each group that may have more
+        for group in definition.groups.values():
+            count = block.groups.get(group.name, 0)
+            if count < group.maximum:
+                label = next((p for p in group.parts if isinstance(p, str) and p), "")
+                label = label.strip(" ,") if _has_body(group) or group.maximum == 1 else ""
+                sections[-1].items.append(self._button("add", group.name, count + 1, label))
         return sections
 
     def _part(
@@ -82,7 +89,7 @@ class SectionWriter:
             sections[-1].mouth = key
             sections.append(Section())
         elif (box := boxes.get(block.inputs.get(key, ""))) is not None:
-            sections[-1].items.append(Plug(key, 0.0, 0.0, box))
+            sections[-1].items.append(Plug(key, 0.0, 0.0, box.width, box.height, box))
         else:
             sections[-1].items.append(self._pieces.slot(block, part, key))
 
@@ -109,34 +116,13 @@ class SectionWriter:
             if can_leave and not has_body:
                 sections[-1].items.append(self._pieces.small_minus(group.name, number))
 
-    def _buttons(self, block: Block, definition: Definition, section: Section) -> None:
-        """What adds a part to each group that may have more."""
-        for group in definition.groups.values():
-            count = block.groups.get(group.name, 0)
-            if count < group.maximum:
-                label = next((p for p in group.parts if isinstance(p, str) and p), "")
-                label = label.strip(" ,") if _has_body(group) or group.maximum == 1 else ""
-                section.items.append(self._button("add", group.name, count + 1, label))
-
-    def _comment(self, block: Block) -> list[Item]:
-        return [self._button("comment", "", 0)] if block.comment else []
-
-    def _collapsed(self, block: Block) -> list[Item]:
-        said = sentence(self._project, self._language, block.id)
-        text, width = self._pieces.cut(said, self._measures.widest * 0.6)
-        inside = sum(1 for _ in self._project.within([block.id])) - 1
-        words = Piece("words", 0, 0, width, self._measures.line, text)
-        items: list[Item] = [self._button("expand", "", inside), *self._comment(block), words]
-        if inside:
-            items += self._said("· " + count_words(inside, "1 block", "{n} blocks"))
-        return items
-
     def _unknown(self, block: Block, boxes: Mapping[str, Box]) -> list[Section]:
         """A block of an unknown type: its type, what is plugged in, and its bodies."""
         sections = [Section([*self._said("?"), *self._said(block.type)])]
         for key, plugged in block.inputs.items():
             if plugged in boxes:
-                sections[-1].items.append(Plug(key, 0.0, 0.0, boxes[plugged]))
+                box = boxes[plugged]
+                sections[-1].items.append(Plug(key, 0.0, 0.0, box.width, box.height, box))
         for key in block.bodies:
             sections[-1].mouth = key
             sections.append(Section())
@@ -201,14 +187,10 @@ class Layout:
         self._leaves.clear()
         self._writer = SectionWriter(self.project, self.language, self.measures)
 
-    def stack(self, stack_id: str) -> Chain:
-        """The chain of a stack, at (0, 0)."""
-        return self.chain(self.project.stacks[stack_id].body, owner=stack_id)
-
     def chain(
         self, block_ids: Sequence[str], *, owner: str = "", slot: str = "", shown: bool = False
     ) -> Chain:
-        """Blocks below each other; with ``shown``, hidden ones too (the carried blocks)."""
+        """Blocks below each other, at (0, 0); ``shown`` takes hidden (carried) ones too."""
         hidden = frozenset[str]() if shown else self.hidden
         ids = [i for i in block_ids if i not in hidden] if hidden else block_ids
         self._make(ids)
@@ -222,7 +204,7 @@ class Layout:
             y += box.height
             reach = max(reach, box.reach)
         ys.append(y)
-        return Chain(slot, 0.0, 0.0, boxes, ys, reach, self.measures.is_mirrored)
+        return Chain(slot, 0.0, 0.0, boxes, ys, reach, y, self.measures.is_mirrored)
 
     def box(self, block_id: str) -> Box:
         """The box of one block."""
@@ -265,7 +247,7 @@ class Layout:
             if child not in self.hidden and not block.collapsed
         }
         sections = self._writer.sections(block, definition, plugged)
-        outline = block_outline(definition, is_value=self._is_plugged(block))
+        outline = block_outline(definition, is_value=definition is None and self._is_plugged(block))
         box = Box(block.id, block.type, outline, 0.0, 0.0, (), self.measures.is_mirrored)
         box.is_disabled, box.is_collapsed = block.disabled, block.collapsed
         if outline in ("statement", "hat", "cap"):
@@ -273,7 +255,13 @@ class Layout:
         else:
             self._fill_value(box, sections)
         if self.measures.is_mirrored:
-            _mirror(box)
+            # Exchange left and right inside a box
+            for piece in box.pieces:
+                piece.x = box.width - piece.x - piece.width
+            for plug in box.plugs:
+                plug.x = box.width - plug.x - plug.width
+            for mouth in box.mouths:
+                mouth.x = box.width - mouth.x
         return box
 
     def _is_plugged(self, block: Block) -> bool:
@@ -285,7 +273,7 @@ class Layout:
         self, box: Box, block: Block, definition: Definition | None, sections: list[Section]
     ) -> None:
         measures = self.measures
-        rows = [section.rows(measures) for section in sections]
+        rows = [flow(section.items, measures, section.header) for section in sections]
         widest = max(row.width for section_rows in rows for row in section_rows)
         box.width = max(widest + 2 * measures.pad, measures.narrowest)
         y = measures.hat if box.outline == "hat" else 0.0
@@ -315,11 +303,14 @@ class Layout:
         closer = measures.row_pad if len(rows) > 1 else 0.0  # rows of one sentence belong together
         y += closer / 2
         for row in rows:
-            low = measures.button if all(_is_button(item) for item in row.items) else 0.0
-            smallest = measures.row_height if not (row.items and low) else low + measures.gap
-            height = max(smallest, row.height + measures.row_pad * (1 if low else 2)) - closer
-            place(row, measures.pad, y, height, measures.gap)
-            _keep(box, row)
+            has_only_buttons = all(
+                isinstance(item, Piece) and item.piece == "button" for item in row.items
+            )
+            is_low = bool(row.items) and has_only_buttons
+            smallest = measures.button + measures.gap if is_low else measures.row_height
+            pads = measures.row_pad * (1 if has_only_buttons else 2)
+            height = max(smallest, row.height + pads) - closer
+            place(row, box, measures.pad, y, height, measures.gap)
             y += height
         return y + closer / 2 - top
 
@@ -331,24 +322,11 @@ class Layout:
         y = 0.0
         for row in rows:
             height = max(measures.field_height, row.height) + 2 * measures.value_pad
-            place(row, pad, y, height, measures.gap)
-            _keep(box, row)
+            place(row, box, pad, y, height, measures.gap)
             y += height
         widest = max(row.width for row in rows)
         box.width = box.reach = max(widest + 2 * pad, measures.socket)
         box.height, box.segments = y, (y,)
-
-
-def _is_button(item: Item) -> bool:
-    return isinstance(item, Piece) and item.piece == "button"
-
-
-def _keep(box: Box, row: Row) -> None:
-    for item in row.items:
-        if isinstance(item, Plug):
-            box.plugs.append(item)
-        else:
-            box.pieces.append(item)
 
 
 def _side_pad(outline: Outline, rows: list[Row], measures: Measures) -> float:
@@ -357,16 +335,6 @@ def _side_pad(outline: Outline, rows: list[Row], measures: Measures) -> float:
     if outline == "hexagon":
         return min(height / 2, 18 * measures.unit) + 2 * measures.unit
     return {"round": 9, "bracket": 9}.get(outline, 7) * measures.unit
-
-
-def _mirror(box: Box) -> None:
-    """Exchange left and right inside a box."""
-    for piece in box.pieces:
-        piece.x = box.width - piece.x - piece.width
-    for plug in box.plugs:
-        plug.x = box.width - plug.x - plug.box.width
-    for mouth in box.mouths:
-        mouth.x = box.width - mouth.x
 
 
 def _gap_box(gap: Gap, measures: Measures) -> Box:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import gc
 import time
+from bisect import bisect_right
 from collections.abc import Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass
@@ -13,7 +14,7 @@ from nep_studio.blocks.program import Changes, Project
 
 from .boxes import Box, Chain, Measures, Piece
 from .index import GridIndex, Rect
-from .layout import Gap, Layout
+from .layout import Layout
 
 
 @contextmanager
@@ -46,13 +47,14 @@ class Stacks(Mapping[str, Chain]):
         self.outgrown: list[Rect] = []
         self._layout = layout
         self._chains: dict[str, Chain] = {}
-        self._waiting: dict[str, None] = {}
+        self.waiting: dict[str, None] = {}
+        """Those that are not laid out yet."""
 
     def begin(self, stack_ids: Iterable[str]) -> None:
         """Forget all, and take these stacks."""
-        self.index = GridIndex()
+        self.index.clear()
         self._chains.clear()
-        self._waiting.clear()
+        self.waiting.clear()
         counts = {stack: self._count(stack) for stack in stack_ids}
         if sum(counts.values()) <= MOST_AT_ONCE:
             for stack in counts:
@@ -62,58 +64,41 @@ class Stacks(Mapping[str, Chain]):
             self._wait(stack, count)
 
     def __getitem__(self, stack_id: str) -> Chain:
-        if stack_id in self._waiting:
+        if stack_id in self.waiting:
             self.lay_out(stack_id)
         return self._chains[stack_id]
 
     def __iter__(self) -> Iterator[str]:
-        return iter([*self._chains, *self._waiting])
+        return iter([*self._chains, *self.waiting])
 
     def __len__(self) -> int:
-        return len(self._chains) + len(self._waiting)
+        return len(self._chains) + len(self.waiting)
 
     def __contains__(self, stack_id: object) -> bool:
-        return stack_id in self._chains or stack_id in self._waiting
-
-    @property
-    def is_waiting(self) -> bool:
-        """Whether stacks wait to be laid out."""
-        return bool(self._waiting)
+        return stack_id in self._chains or stack_id in self.waiting
 
     def postpone(self, stack_id: str) -> None:
         """Lay a stack out anew when somebody next looks at it."""
         self.drop(stack_id)
         self._wait(stack_id, self._count(stack_id))
 
-    def near(self, rect: Rect) -> list[str]:
-        """The stacks that touch a rectangle, all of them laid out."""
-        near = list(self.index.near(rect))
-        waiting = [stack_id for stack_id in near if stack_id in self._waiting]
-        if not waiting:
-            return near
-        with paused_garbage_collection():
-            for stack_id in waiting:
-                self.lay_out(stack_id)
-        return list(self.index.near(rect))
-
     def drop(self, stack_id: str) -> Chain | None:
         """Take a stack out; gives its chain when it was laid out."""
-        self._waiting.pop(stack_id, None)
+        self.waiting.pop(stack_id, None)
         self.index.remove(stack_id)
         return self._chains.pop(stack_id, None)
 
     def lay_out(self, stack_id: str) -> None:
         """Lay a stack out now; one whose blocks are all carried has no chain."""
-        assumed = self.index.rect(stack_id) if stack_id in self._waiting else None
+        assumed = self.index.rects[stack_id] if stack_id in self.waiting else None
         self.drop(stack_id)
-        stack, chain = self._layout.project.stacks[stack_id], self._layout.stack(stack_id)
+        stack = self._layout.project.stacks[stack_id]
+        chain = self._layout.chain(stack.body, owner=stack_id)
         if not chain.boxes:
             return
         chain.x, chain.y = stack.x, stack.y
         self._chains[stack_id] = chain
-        left = stack.x - (chain.width if chain.is_mirrored else 0.0)
-        tab = self._layout.measures.notch_depth
-        rect = Rect(left, stack.y, chain.width, chain.height + tab)
+        rect = bounds_of(chain, stack.x, stack.y, self._layout.measures.notch_depth)
         self.index.set(stack_id, rect)
         if assumed is not None and rect.united(assumed) != assumed:
             self.outgrown.append(rect)
@@ -122,16 +107,16 @@ class Stacks(Mapping[str, Chain]):
         """Lay out stacks that wait, for so long; whether others wait still."""
         end = time.perf_counter() + seconds
         with paused_garbage_collection():
-            while self._waiting and time.perf_counter() < end:
-                self.lay_out(next(iter(self._waiting)))
-        return bool(self._waiting)
+            while self.waiting and time.perf_counter() < end:
+                self.lay_out(next(iter(self.waiting)))
+        return bool(self.waiting)
 
     def lay_out_all(self) -> None:
         """Lay out all stacks that wait."""
         self.lay_out_some(float("inf"))
 
     def _wait(self, stack_id: str, count: int) -> None:
-        self._waiting[stack_id] = None
+        self.waiting[stack_id] = None
         self.index.set(stack_id, self._enough(stack_id, count))
 
     def _count(self, stack_id: str) -> int:
@@ -158,6 +143,12 @@ class Stacks(Mapping[str, Chain]):
 
 Pair = tuple[Chain, Chain, float, float]
 
+_OF_OUTSIDE = (
+    *("block", "type", "outline", "width", "segments"),
+    *("is_mirrored", "is_disabled", "is_collapsed"),
+)
+"""What the whole of a block is painted from."""
+
 
 def changed_rects(old: Chain, new: Chain, rest: float) -> list[Rect]:
     """The rectangles of the page in which two layouts of a stack differ.
@@ -166,7 +157,7 @@ def changed_rects(old: Chain, new: Chain, rest: float) -> list[Rect]:
     something has changed. ``rest`` is how far blocks reach over their lower side.
     """
     if (old.x, old.y, old.is_mirrored) != (new.x, new.y, new.is_mirrored):
-        return [_whole(chain, chain.x, chain.y, rest) for chain in (old, new)]
+        return [bounds_of(chain, chain.x, chain.y, rest) for chain in (old, new)]
     rects: list[Rect] = []
     waiting: list[Pair] = [(old, new, new.x, new.y)]
     while waiting:
@@ -183,12 +174,7 @@ def changed_rects(old: Chain, new: Chain, rest: float) -> list[Rect]:
 
 def _mouths(before: Box, after: Box, x: float, y: float, rects: list[Rect]) -> Iterator[Pair]:
     """The mouths to compare; what else differs of a block is added to the rectangles."""
-    is_same_form = (before.form, before.type) == (after.form, after.type)
-    is_same_state = (before.is_disabled, before.is_collapsed) == (
-        after.is_disabled,
-        after.is_collapsed,
-    )
-    if not (is_same_form and is_same_state and before.block == after.block):
+    if any(getattr(before, name) != getattr(after, name) for name in _OF_OUTSIDE):
         reach = max(before.reach, after.reach)
         left = x + after.width - reach if after.is_mirrored else x
         rects.append(Rect(left, y, reach, max(before.height, after.height)))
@@ -215,11 +201,12 @@ def _from_first_difference(old: Chain, new: Chain, x: float, y: float, rest: flo
             break
         number += 1
     top = new.ys[min(number, len(new.ys) - 1)]
-    whole = _whole(old, x, y, rest).united(_whole(new, x, y, rest))
-    return Rect(whole.x, y + top, whole.width, whole.bottom - y - top)
+    whole = bounds_of(old, x, y, rest).united(bounds_of(new, x, y, rest))
+    return Rect(whole.x, y + top, whole.width, whole.y + whole.height - y - top)
 
 
-def _whole(chain: Chain, x: float, y: float, rest: float) -> Rect:
+def bounds_of(chain: Chain, x: float, y: float, rest: float = 0.0) -> Rect:
+    """The rectangle around a chain at a place, and ``rest`` below it."""
     left = x - chain.width if chain.is_mirrored else x
     return Rect(left, y, chain.width, chain.height + rest)
 
@@ -259,6 +246,8 @@ class PageLayout:
         self.layout = Layout(project, language, measures)
         self.page = "behaviour"
         self.chains = Stacks(self.layout)
+        self.index = self.chains.index
+        """Where the stacks are; of those that are not laid out yet, roughly."""
         self._order: dict[str, int] = {}
         self.show(self.page)
 
@@ -283,17 +272,14 @@ class PageLayout:
         self.layout.forget(changes.owners)
         if len(changes.stacks) > MOST_STACKS_AT_ONCE:
             return self._postpone(changes.stacks)
-        return self._update(changes.stacks)
+        return self.update(changes.stacks)
 
-    def preview(self, hidden: frozenset[str], gap: Gap | None) -> list[Rect]:
-        """Take blocks out and open a gap, for the eye only; gives the places to paint again."""
-        return self._update(self.layout.preview(hidden, gap))
-
-    def _update(self, stacks: set[str]) -> list[Rect]:
+    def update(self, stacks: set[str]) -> list[Rect]:
+        """Lay these stacks out anew; gives the places to paint again."""
         here = self._order = self._new_order()
         rects: list[Rect] = []
         for stack_id in stacks:
-            rect = self.index.rect(stack_id) if stack_id in self.index else None
+            rect = self.index.rects.get(stack_id)
             old = self.chains.drop(stack_id)
             if stack_id in here:
                 self.chains.lay_out(stack_id)
@@ -303,7 +289,7 @@ class PageLayout:
             elif rect is not None:
                 rects.append(rect)
             elif new is not None:
-                rects.append(self.index.rect(stack_id))
+                rects.append(self.index.rects[stack_id])
         return rects
 
     def _postpone(self, stacks: set[str]) -> list[Rect]:
@@ -311,10 +297,10 @@ class PageLayout:
         here = self._order = self._new_order()
         around: Rect | None = None
         for stack_id in stacks:
-            rects = [self.index.rect(stack_id)] if stack_id in self.index else []
+            rects = [self.index.rects[stack_id]] if stack_id in self.index.rects else []
             if stack_id in here:
                 self.chains.postpone(stack_id)
-                rects.append(self.index.rect(stack_id))
+                rects.append(self.index.rects[stack_id])
             else:
                 self.chains.drop(stack_id)
             for rect in rects:
@@ -337,13 +323,14 @@ class PageLayout:
         return corners
 
     def near(self, rect: Rect) -> list[str]:
-        """The stacks that touch a rectangle, the one on top last."""
-        return sorted(self.chains.near(rect), key=self._order.__getitem__)
-
-    @property
-    def index(self) -> GridIndex:
-        """Where the stacks are; of those that are not laid out yet, roughly."""
-        return self.chains.index
+        """The stacks that touch a rectangle, all of them laid out, the one on top last."""
+        near = list(self.index.near(rect))
+        if waiting := [stack_id for stack_id in near if stack_id in self.chains.waiting]:
+            with paused_garbage_collection():
+                for stack_id in waiting:
+                    self.chains.lay_out(stack_id)
+            near = list(self.index.near(rect))
+        return sorted(near, key=self._order.__getitem__)
 
     def bounds(self) -> Rect | None:
         """The rectangle around all stacks and notes, or None on an empty page.
@@ -410,10 +397,12 @@ def boxes_touching(
     chain: Chain, x: float, y: float, rect: Rect
 ) -> Iterator[tuple[Box, float, float]]:
     """The boxes of a chain at (x, y) that a rectangle touches by its height, with their corners."""
-    if not chain.boxes or y > rect.bottom or y + chain.height < rect.y - 20:
+    bottom = rect.y + rect.height
+    if not chain.boxes or y > bottom or y + chain.height < rect.y - 20:
         return
-    first, last = chain.index_at(rect.y - 20 - y), chain.index_at(rect.bottom - y)
-    for number in range(first, last + 1):
+    first, count = bisect_right(chain.ys, rect.y - 20 - y), len(chain.boxes)
+    end = min(bisect_right(chain.ys, bottom - y), count)
+    for number in range(max(min(first, count) - 1, 0), end):
         box = chain.boxes[number]
         left = x - box.width if chain.is_mirrored else x
         yield box, left, y + chain.ys[number]
@@ -444,12 +433,8 @@ def _covers(placed: Placed, x: float, y: float) -> bool:
         return False
     box, left, top = placed.box, x - placed.x, y - placed.y
     for mouth in box.mouths:
-        height = max(mouth.height, _mouth_height(box, mouth))
+        height = max(mouth.height, box.segments[2 * box.mouths.index(mouth) + 1])
         beside = left < mouth.x if box.is_mirrored else left > mouth.x
         if beside and mouth.y <= top <= mouth.y + height:
             return False
     return True
-
-
-def _mouth_height(box: Box, mouth: Chain) -> float:
-    return box.segments[2 * box.mouths.index(mouth) + 1]

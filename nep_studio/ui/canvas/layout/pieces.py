@@ -10,7 +10,7 @@ from nep_studio.blocks.language import Language
 from nep_studio.blocks.program import Block, Project
 from nep_studio.blocks.slots import Kind
 
-from .boxes import Measures, Piece, Plug
+from .boxes import Box, Measures, Piece, Plug
 from .slot_style import (
     MOST_LINES,
     amount_of,
@@ -48,16 +48,6 @@ class Row:
     height: float = 0.0
 
 
-def width_of(item: Item) -> float:
-    """How wide an item is."""
-    return item.width if isinstance(item, Piece) else item.box.width
-
-
-def height_of(item: Item) -> float:
-    """How high an item is."""
-    return item.height if isinstance(item, Piece) else item.box.height
-
-
 def is_tied(item: Item) -> bool:
     """Whether an item belongs to the one before it: a comma, the minus of an item."""
     if not isinstance(item, Piece):
@@ -77,57 +67,57 @@ def gap_share(before: Item, item: Item) -> float:
     return SPACE if are_words else 1.0
 
 
-def flow(items: Iterable[Item], measures: Measures) -> list[Row]:
+def flow(items: Iterable[Item], measures: Measures, header: int = 0) -> list[Row]:
     """Put items into rows that are not wider than can be; an item that is wider has its own.
 
     What is tied stays with the item before it, and a short word with the field that it announces.
+    The item with the number ``header`` begins a row, if there is one before it.
     """
-    rows = [Row()]
-    for item in items:
-        row = rows[-1]
+    rows = [row := Row()]
+    for number, item in enumerate(items):
         gap = measures.gap * gap_share(row.items[-1], item) if row.items else 0.0
-        is_full = row.width + gap + width_of(item) > measures.widest
-        if row.items and is_full and not is_tied(item):
-            row = Row()
-            announcing = _announcing(rows[-1], item, measures)
-            rows.append(row)
-            for word in announcing:
-                _append(row, word, measures)
-        _append(row, item, measures)
+        is_full = row.items and row.width + gap + item.width > measures.widest
+        if 0 < header == number:
+            rows.append(row := Row())
+            gap = 0.0
+        elif is_full and not is_tied(item):
+            word = _announcing(row, item, measures)
+            rows.append(row := Row() if word is None else Row([word], word.width, word.height))
+            gap = 0.0 if word is None else measures.gap * gap_share(word, item)
+        row.width += gap + item.width
+        row.height = max(row.height, item.height)
+        row.items.append(item)
     return rows
 
 
-def place(row: Row, x: float, y: float, height: float, gap: float) -> None:
-    """Give the items of a row their places, centred in its height."""
-    for number, item in enumerate(row.items):
-        if number:
-            x += gap * gap_share(row.items[number - 1], item)
-        item.x = x
-        item.y = y + (height - height_of(item)) / 2
-        x += width_of(item)
+def place(row: Row, box: Box, x: float, y: float, height: float, gap: float) -> None:
+    """Put the items of a row into a box, at their places, centred in its height."""
+    before: Item | None = None
+    for item in row.items:
+        x += gap * gap_share(before, item) if before is not None else 0.0
+        item.x, item.y = x, y + (height - item.height) / 2
+        x, before = x + item.width, item
+        if isinstance(item, Plug):
+            box.plugs.append(item)
+        else:
+            box.pieces.append(item)
 
 
-def _append(row: Row, item: Item, measures: Measures) -> None:
-    if row.items:
-        row.width += measures.gap * gap_share(row.items[-1], item)
-    row.width += width_of(item)
-    row.height = max(row.height, height_of(item))
-    row.items.append(item)
-
-
-def _announcing(row: Row, item: Item, measures: Measures) -> list[Item]:
-    """Take the short words off the end of a row that announce an item of the next one."""
+def _announcing(row: Row, item: Item, measures: Measures) -> Item | None:
+    """Take a short word off the end of a row that announces an item of the next one."""
     last = row.items[-1]
     is_word = isinstance(last, Piece) and last.piece == "words" and not is_tied(last)
     if len(row.items) < 2 or not is_word or (isinstance(item, Piece) and item.piece == "words"):
-        return []
-    width = width_of(last)
-    if width > measures.widest / 2.4 or width + measures.gap + width_of(item) > measures.widest:
-        return []
+        return None
+    if (
+        last.width > measures.widest / 2.4
+        or last.width + measures.gap + item.width > measures.widest
+    ):
+        return None
     row.items.pop()
-    row.width -= width + measures.gap * gap_share(row.items[-1], last)
-    row.height = max(height_of(kept) for kept in row.items)
-    return [last]
+    row.width -= last.width + measures.gap * gap_share(row.items[-1], last)
+    row.height = max(kept.height for kept in row.items)
+    return last
 
 
 HINT_SIZE = 0.82
@@ -183,7 +173,7 @@ class Pieces:
         width = max(width, narrowest)
         piece = Piece("field", 0, 0, width, height, text, key, kind.name, kind.shape)
         piece.opens, piece.mark = kind.opens, kind.mark
-        piece.hint, piece.amount = hint, amount_of(slot, value)
+        piece.hint, piece.amount = hint, amount_of(slot, value) if kind.mark else 0.0
         if kind.mark == "swatch":
             piece.text = str(value or "")
         return piece

@@ -66,15 +66,6 @@ def hint_word(kind: Kind) -> str:
     return tr(kind.hint) if kind.hint else ""
 
 
-def shown_text(project: Project, language: Language, block: Block, key: str, slot: Slot) -> str:
-    """What a field shows, nothing when it is empty; a text of several lines keeps them."""
-    value = language.definitions[block.type].value(block, key)
-    text = _text(project, language, block, key, slot, value)
-    if slot.kind.has_lines:
-        return text
-    return text.replace("\n", " ⏎ ")
-
-
 def amount_of(slot: Slot, value: FieldValue | None) -> float:
     """How full a slider is, how far an angle is turned, 1 for a tick."""
     if slot.kind.mark == "tick":
@@ -90,15 +81,9 @@ def amount_of(slot: Slot, value: FieldValue | None) -> float:
     return min(max((number - slot.low) / (slot.high - slot.low), 0.0), 1.0)
 
 
-def _text(
-    project: Project,
-    language: Language,
-    block: Block,
-    key: str,
-    slot: Slot,
-    value: FieldValue | None,
-) -> str:
-    kind = slot.kind.name
+def shown_text(project: Project, language: Language, block: Block, key: str, slot: Slot) -> str:
+    """What a field shows, nothing when it is empty; a text of several lines keeps them."""
+    kind, value = slot.kind.name, language.definitions[block.type].value(block, key)
     if slot.kind.mark in ("tick", "swatch") or value is None or value == "":
         return ""
     if isinstance(value, dict):
@@ -108,7 +93,8 @@ def _text(
         return variable.name if variable is not None else ""
     if kind == "robot" and value == ALL_ROBOTS:
         return tr("all robots")
-    if unit := unit_of(slot.kind):
+    if slot.kind.unit:
+        unit = unit_of(slot.kind)
         is_said = says_unit(language.definitions[block.type], slot.name, unit)
         return f"{value}" if is_said else f"{value}{unit}"
     return language.label_of(slot, value, block, key)

@@ -34,7 +34,9 @@ class StaticLayer:
     def __init__(self, paint_page: PaintPage) -> None:
         self._paint_page = paint_page
         self._pixmap = QPixmap()
-        self._camera = Camera()
+        self._view = QRect()
+        self.camera = Camera()
+        """What the picture was painted for."""
         self._dirty = QRegion()
         self._ratio = 1.0
         self.is_outdated = True
@@ -45,26 +47,23 @@ class StaticLayer:
         self._ratio = ratio
         self._pixmap = QPixmap(size * ratio)
         self._pixmap.setDevicePixelRatio(ratio)
+        self._view = QRect(QPoint(0, 0), self._pixmap.deviceIndependentSize().toSize())
         self.invalidate_all()
 
     def invalidate(self, rect: QRectF) -> None:
         """Paint this part of the view again before it is next shown."""
-        self._dirty += rect.toAlignedRect().adjusted(-2, -2, 2, 2) & self._view()
+        self._dirty += rect.toAlignedRect().adjusted(-2, -2, 2, 2) & self._view
 
     def invalidate_all(self) -> None:
         """Paint everything again before it is next shown."""
-        self._dirty = QRegion(self._view())
+        self._dirty = QRegion(self._view)
         self.is_outdated = True
-
-    def is_sharp(self, camera: Camera) -> bool:
-        """Whether the picture was painted at this zoom."""
-        return self._camera.scale == camera.scale
 
     def scroll_to(self, camera: Camera) -> None:
         """Shift the picture to where the camera looks now; only the strips at the edges are new."""
         factor = camera.scale * self._ratio
-        dx = round((self._camera.x - camera.x) * factor)
-        dy = round((self._camera.y - camera.y) * factor)
+        dx = round((self.camera.x - camera.x) * factor)
+        dy = round((self.camera.y - camera.y) * factor)
         size = self._pixmap.size()
         if abs(dx) >= size.width() or abs(dy) >= size.height():
             self.invalidate_all()
@@ -76,19 +75,22 @@ class StaticLayer:
             self._dirty = self._dirty.translated(shift)
             for rect in rects_of(exposed):
                 self.invalidate(_divided(rect, self._ratio))
-        self._camera = replace(camera)
+        self.camera = replace(camera)
 
     def repair(self, camera: Camera) -> None:
         """Paint what is not up to date."""
-        if not self.is_sharp(camera):
+        if self.camera.scale != camera.scale:
             self.invalidate_all()
-            self._camera = replace(camera)
-        elif self._camera != camera:
+            self.camera = replace(camera)
+        elif self.camera != camera:
             self.scroll_to(camera)
         if self._dirty.isEmpty() or self._pixmap.isNull():
             return
         with QPainter(self._pixmap) as painter:
-            for rect in _few_rects(self._dirty):
+            # The rectangles of a region, or the one around them when they are many
+            region = self._dirty
+            rects = rects_of(region)
+            for rect in rects if len(rects) <= 4 else [region.boundingRect()]:
                 painter.save()
                 painter.setClipRect(rect)
                 painter.scale(camera.scale, camera.scale)
@@ -100,7 +102,7 @@ class StaticLayer:
 
     def draw(self, painter: QPainter, camera: Camera, exposed: QRect, background: QColor) -> None:
         """Put the picture into the view, stretched when it was painted at another zoom."""
-        if self.is_sharp(camera):
+        if self.camera.scale == camera.scale:
             ratio = self._ratio
             if ratio == int(ratio):  # whole pixels: nothing to resample
                 times = int(ratio)
@@ -117,25 +119,16 @@ class StaticLayer:
             painter.drawPixmap(QRectF(exposed), self._pixmap, source)
             return
         painter.fillRect(exposed, background)
-        corner = camera.to_view(self._camera.x, self._camera.y)
-        factor = camera.scale / self._camera.scale
+        corner = camera.to_view(self.camera.x, self.camera.y)
+        factor = camera.scale / self.camera.scale
         size = self._pixmap.deviceIndependentSize() * factor
         painter.drawPixmap(QRectF(corner, size), self._pixmap, QRectF(self._pixmap.rect()))
-
-    def _view(self) -> QRect:
-        return QRect(QPoint(0, 0), self._pixmap.deviceIndependentSize().toSize())
 
 
 def rects_of(region: QRegion) -> list[QRect]:
     """The rectangles of a region."""
     rects: list[QRect] = list(region)  # type: ignore[call-overload]  # stubs lack __iter__
     return rects
-
-
-def _few_rects(region: QRegion) -> list[QRect]:
-    """The rectangles of a region, or the one around them when they are many."""
-    rects = rects_of(region)
-    return rects if len(rects) <= 4 else [region.boundingRect()]
 
 
 def _divided(rect: QRect, ratio: float) -> QRectF:
@@ -157,8 +150,8 @@ def paint_background(painter: QPainter, rect: Rect, camera: Camera, theme: Theme
     painter.fillRect(whole, theme.colour("canvas"))
     if camera.scale < SMALLEST_DOT_SCALE:
         return
-    columns = range(int(rect.x // STEP), int(rect.right // STEP) + 2)
-    rows = range(int(rect.y // STEP), int(rect.bottom // STEP) + 2)
+    columns = range(int(rect.x // STEP), int((rect.x + rect.width) // STEP) + 2)
+    rows = range(int(rect.y // STEP), int((rect.y + rect.height) // STEP) + 2)
     painter.setPen(QPen(theme.colour("canvas_dot"), 2.0))
     painter.drawPoints([QPointF(x * STEP, y * STEP) for x in columns for y in rows])
 
@@ -220,7 +213,13 @@ def make_sprite(
     width = min(bounds.width + 2 * margin, longest)
     height = min(bounds.height + 2 * margin, longest)
     left = bounds.right + margin - width if view.look.measures.is_mirrored else bounds.x - margin
-    left, top = _on_pixel(view, left, bounds.y - margin)
+    # The place of a whole pixel of the screen: the picture is then exactly that of the page
+    y = bounds.y - margin
+    camera, step = view.sight.camera, view.sight.camera.scale * view.area.devicePixelRatioF()
+    left, top = (
+        camera.x + floor((left - camera.x) * step) / step,
+        camera.y + floor((y - camera.y) * step) / step,
+    )
     pixmap = QPixmap(max(1, ceil(width * scale * ratio)), max(1, ceil(height * scale * ratio)))
     pixmap.fill(Qt.GlobalColor.transparent)
     shown = Rect(left, top, width, height)
@@ -232,15 +231,6 @@ def make_sprite(
             view.look.block_painter.paint(painter, boxes_of(chain, shown), scale)
     pixmap.setDevicePixelRatio(ratio)
     return Sprite(pixmap, width, height, scale, left, top)
-
-
-def _on_pixel(view: CanvasHost, x: float, y: float) -> tuple[float, float]:
-    """The place of a whole pixel of the screen: the picture is then exactly that of the page."""
-    camera, step = view.sight.camera, view.sight.camera.scale * view.area.devicePixelRatioF()
-    return (
-        camera.x + floor((x - camera.x) * step) / step,
-        camera.y + floor((y - camera.y) * step) / step,
-    )
 
 
 def _reachable(view: CanvasHost, bounds: Rect, held: QPointF) -> Rect:
@@ -318,7 +308,7 @@ class Layers:
         """Show the page without some blocks, and with a gap where they would go."""
         page_layout = self._host.page_layout
         if (hidden, gap) != (page_layout.layout.hidden, page_layout.layout.gap):
-            self.repaint_page(page_layout.preview(hidden, gap))
+            self.repaint_page(page_layout.update(page_layout.layout.preview(hidden, gap)))
 
     def set_sprite(self, sprite: Sprite | None) -> None:
         """Show carried blocks over everything, or none."""
@@ -340,22 +330,18 @@ class Layers:
     def paint(self, region: QRegion) -> None:
         """Draw the layers: what rests, what is over it, what is carried."""
         camera, is_zooming = self._host.sight.camera, self.sharpen.isActive()
-        if not is_zooming or self._rest.is_outdated or self._rest.is_sharp(camera):
+        if not is_zooming or self._rest.is_outdated or self._rest.camera.scale == camera.scale:
             self._rest.repair(camera)
         with QPainter(self._viewport) as painter:  # ended also when a drawing fails
-            self._paint(painter, region, camera)
-
-    def _paint(self, painter: QPainter, region: QRegion, camera: Camera) -> None:
-        host = self._host
-        for rect in rects_of(region):
-            self._rest.draw(painter, camera, rect, host.look.theme.colour("canvas"))
-        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
-        painter.scale(camera.scale, camera.scale)
-        painter.translate(-camera.x, -camera.y)
-        for overlay in self.overlays:
-            overlay.paint(painter, host)
-        if self.sprite is not None:
-            self.sprite.paint(painter, camera, host.area.devicePixelRatioF())
+            for rect in rects_of(region):
+                self._rest.draw(painter, camera, rect, self._host.look.theme.colour("canvas"))
+            painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+            painter.scale(camera.scale, camera.scale)
+            painter.translate(-camera.x, -camera.y)
+            for overlay in self.overlays:
+                overlay.paint(painter, self._host)
+            if self.sprite is not None:
+                self.sprite.paint(painter, camera, self._host.area.devicePixelRatioF())
 
     def _paint_page(self, painter: QPainter, rect: Rect, camera: Camera) -> None:
         host, look = self._host, self._host.look

@@ -58,8 +58,6 @@ class Notes:
     def change(self, changes: Changes) -> list[Rect]:
         """Take in what a step changed; gives the places to paint again."""
         before = self._rects
-        if not changes.notes and not changes.whole:
-            return []
         self.refresh()
         ids = changes.notes or {*before, *self._rects}
         found = [rects[i] for i in ids for rects in (before, self._rects) if i in rects]
@@ -150,7 +148,19 @@ class Notes:
         painter.setPen(QPen(view.look.theme.colour("focus"), 2.5 * pixel))
         painter.setBrush(Qt.BrushStyle.NoBrush)
         painter.drawRoundedRect(QRectF(*rect), 4, 4)
-        self._paint_corner(painter, rect)
+        is_mirrored = self._view.look.measures.is_mirrored
+        painter.setPen(QPen(self._view.look.theme.colour("note_text"), 1.5))
+        for inset in (5.0, 10.0):
+            bottom = rect.bottom - 4
+            if is_mirrored:
+                start, end = (
+                    QPointF(rect.x + 4 + inset, bottom),
+                    QPointF(rect.x + 4, bottom - inset),
+                )
+            else:
+                right = rect.right - 4
+                start, end = QPointF(right - inset, bottom), QPointF(right, bottom - inset)
+            painter.drawLine(start, end)
 
     def _paint(self, painter: QPainter, note: Note, scale: float) -> None:
         theme, unit = self._view.look.theme, self._view.look.measures.unit
@@ -179,21 +189,6 @@ class Notes:
         shown = note.text or tr("Write a note")
         painter.drawText(rect.adjusted(pad, pad * 0.75, -pad, -pad / 2), shown, option)
         painter.restore()
-
-    def _paint_corner(self, painter: QPainter, rect: Rect) -> None:
-        is_mirrored = self._view.look.measures.is_mirrored
-        painter.setPen(QPen(self._view.look.theme.colour("note_text"), 1.5))
-        for inset in (5.0, 10.0):
-            bottom = rect.bottom - 4
-            if is_mirrored:
-                start, end = (
-                    QPointF(rect.x + 4 + inset, bottom),
-                    QPointF(rect.x + 4, bottom - inset),
-                )
-            else:
-                right = rect.right - 4
-                start, end = QPointF(right - inset, bottom), QPointF(right, bottom - inset)
-            painter.drawLine(start, end)
 
     def _on_page(self) -> Iterator[Note]:
         notes = self._view.editor.project.notes.values()

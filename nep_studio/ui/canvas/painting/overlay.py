@@ -34,37 +34,35 @@ class SelectionOverlay:
 
     def paint(self, painter: QPainter, view: CanvasHost) -> None:
         """Draw the lines, for the blocks in view."""
-        pixel = 1.0 / view.sight.camera.scale
-        _rings(painter, view, _selected_in_view(view), view.look.theme.colour("focus"), 2.5 * pixel)
-        cursor = view.selection.cursor
-        if cursor and view.area.hasFocus():
-            placed = view.page_layout.placed(cursor)
-            if placed is not None:
-                _frame(painter, placed, view.look.theme.colour("focus"), pixel)
-
-
-def _selected_in_view(view: CanvasHost) -> list[Placed]:
-    """The selected blocks to draw a line around: of many only those that can be seen."""
-    selected, layout = view.selection, view.page_layout
-    if len(selected) <= FEW:
-        shown = (
-            layout.placed(block) for block in selected.ids if block not in layout.layout.hidden
-        )
-        return [placed for placed in shown if placed is not None]
-    seen = layout.boxes(view.sight.visible_page_rect())
-    return [placed for placed in seen if placed.box.block in selected]
+        pixel, colour = 1.0 / view.sight.camera.scale, view.look.theme.colour("focus")
+        selected, layout = view.selection, view.page_layout
+        if len(selected.ids) <= FEW:
+            shown = (layout.placed(i) for i in selected.ids if i not in layout.layout.hidden)
+            blocks = [placed for placed in shown if placed is not None]
+        else:  # of many only those that can be seen
+            seen = layout.boxes(view.sight.visible_page_rect())
+            blocks = [placed for placed in seen if placed.box.block in selected]
+        _rings(painter, view, blocks, colour, 2.5 * pixel)
+        placed = layout.placed(selected.cursor) if view.area.hasFocus() else None
+        if placed is not None:
+            painter.setPen(QPen(colour, 2 * pixel, Qt.PenStyle.DashLine))
+            painter.setBrush(Qt.BrushStyle.NoBrush)
+            around = QRectF(*placed.rect.grown(5 * pixel))
+            painter.drawRoundedRect(around, 6 * pixel, 6 * pixel)
 
 
 def _rings(
     painter: QPainter, view: CanvasHost, blocks: list[Placed], colour: QColor, width: float
 ) -> None:
     """Lines around blocks; around very many, which are small then, plain rectangles."""
-    if len(blocks) <= MANY:
-        for placed in blocks:
-            _ring(painter, view, placed, colour, width)
-        return
     painter.setPen(QPen(colour, width))
     painter.setBrush(Qt.BrushStyle.NoBrush)
+    if len(blocks) <= MANY:
+        for placed in blocks:
+            painter.translate(placed.x, placed.y)
+            painter.drawPath(view.look.block_painter.outlines.of(placed.box))
+            painter.translate(-placed.x, -placed.y)
+        return
     painter.setRenderHint(QPainter.RenderHint.Antialiasing, False)
     painter.drawRects([QRectF(*placed.rect) for placed in blocks])
     painter.setRenderHint(QPainter.RenderHint.Antialiasing)
@@ -108,25 +106,7 @@ def ring(painter: QPainter, view: CanvasHost, block_id: str, colour: QColor, wid
     """A line around a block."""
     placed = view.page_layout.placed(block_id)
     if placed is not None:
-        _ring(painter, view, placed, colour, width)
-
-
-def _ring(
-    painter: QPainter, view: CanvasHost, placed: Placed, colour: QColor, width: float
-) -> None:
-    painter.setPen(QPen(colour, width))
-    painter.setBrush(Qt.BrushStyle.NoBrush)
-    painter.translate(placed.x, placed.y)
-    painter.drawPath(view.look.block_painter.outlines.of(placed.box))
-    painter.translate(-placed.x, -placed.y)
-
-
-def _frame(painter: QPainter, placed: Placed, colour: QColor, pixel: float) -> None:
-    pen = QPen(colour, 2 * pixel, Qt.PenStyle.DashLine)
-    painter.setPen(pen)
-    painter.setBrush(Qt.BrushStyle.NoBrush)
-    rect = placed.rect.grown(5 * pixel)
-    painter.drawRoundedRect(QRectF(rect.x, rect.y, rect.width, rect.height), 6 * pixel, 6 * pixel)
+        _rings(painter, view, [placed], colour, width)
 
 
 _SIGNS = {"error": "!", "warning": "!", "info": "i"}

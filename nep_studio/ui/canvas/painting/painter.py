@@ -13,7 +13,7 @@ from nep_studio.ui.canvas.layout.page import Placed
 from nep_studio.ui.canvas.layout.pieces import HINT_SIZE
 from nep_studio.ui.theme.colours import DISABLED, PLACEHOLDER, BlockColours, Theme
 
-from .shapes import Outlines, paint_mark, paint_sign, round_pen
+from .shapes import Outlines, paint_marks, paint_sign, round_pen, slot_path
 
 # Paint what is inside a block: words, fields, sockets and buttons.
 
@@ -21,9 +21,8 @@ from .shapes import Outlines, paint_mark, paint_sign, round_pen
 class PiecePainter:
     """Paints the pieces of boxes."""
 
-    def __init__(self, theme: Theme, outlines: Outlines, measures: Measures) -> None:
+    def __init__(self, theme: Theme, measures: Measures) -> None:
         self._theme = theme
-        self._outlines = outlines
         self._measures = measures
         self._texts = Texts()
         self._hints = Texts()
@@ -37,7 +36,7 @@ class PiecePainter:
         if piece.piece == "words":
             if with_text:
                 painter.setPen(colours.text)
-                painter.drawStaticText(QPointF(piece.x, piece.y), self._texts.of(piece.text))
+                painter.drawStaticText(QPointF(piece.x, piece.y), self._texts[piece.text])
         elif piece.piece == "field":
             self._field(painter, piece, colours, with_text)
         elif piece.piece == "socket":
@@ -51,14 +50,19 @@ class PiecePainter:
         painter.setPen(QPen(line, self._measures.unit))
         painter.setBrush(fill)
         painter.translate(piece.x, piece.y)
-        painter.drawPath(self._outlines.slot(piece.shape, piece.width, piece.height))
+        unit = self._measures.unit
+        painter.drawPath(slot_path(piece.shape, piece.width, piece.height, unit))
         painter.translate(-piece.x, -piece.y)
 
     def _field(
         self, painter: QPainter, piece: Piece, colours: BlockColours, with_text: bool
     ) -> None:
         if piece.kind == "parameter":
-            self._pill(painter, piece, colours, with_text)
+            # A parameter looks like the block that is dragged out of it
+            self._shape(painter, piece, self._darker(colours.fill), colours.text)
+            if with_text:
+                painter.setPen(colours.text)
+                self._centred(painter, piece, piece.x, piece.width)
             return
         fill = QColor(piece.text) if piece.mark == "swatch" and piece.text else colours.field
         self._shape(painter, piece, fill, colours.field_line)
@@ -67,7 +71,7 @@ class PiecePainter:
         lead = self._measures.line * 0.95 if piece.mark == "dial" else 0.0
         trail = self._measures.line * 0.75 if piece.opens else 0.0
         if piece.mark or piece.opens:
-            self._marks(painter, piece, fill, colours)
+            paint_marks(painter, piece, fill, colours, self._measures)
         if piece.mark in ("swatch", "tick"):
             return
         left = piece.x + (trail if self._measures.is_mirrored else lead)
@@ -84,14 +88,14 @@ class PiecePainter:
             width = self._measures.text_width(piece.text)
             top = piece.y + (piece.height - line) / 2
             place = QPointF(left + (room - width) / 2, top)
-            painter.drawStaticText(place, self._texts.of(piece.text))
+            painter.drawStaticText(place, self._texts[piece.text])
             return
         rows, pad = piece.text.split("\n"), self._measures.field_pad
         top = piece.y + (piece.height - line * len(rows)) / 2
         for number, row in enumerate(rows):
             width = self._measures.text_width(row)
             x = left + room - pad - width if self._measures.is_mirrored else left + pad
-            painter.drawStaticText(QPointF(x, top + number * line), self._texts.of(row))
+            painter.drawStaticText(QPointF(x, top + number * line), self._texts[row])
 
     def _hint(
         self, painter: QPainter, piece: Piece, colour: QColor, left: float, room: float
@@ -106,35 +110,8 @@ class PiecePainter:
         painter.setFont(self._hint_font)
         painter.setPen(colour)
         place = QPointF(left + (room - width) / 2, piece.y + (piece.height - height) / 2)
-        painter.drawStaticText(place, self._hints.of(piece.hint))
+        painter.drawStaticText(place, self._hints[piece.hint])
         painter.setFont(usual)
-
-    def _pill(
-        self, painter: QPainter, piece: Piece, colours: BlockColours, with_text: bool
-    ) -> None:
-        """A parameter looks like the block that is dragged out of it."""
-        self._shape(painter, piece, self._darker(colours.fill), colours.text)
-        if with_text:
-            painter.setPen(colours.text)
-            self._centred(painter, piece, piece.x, piece.width)
-
-    def _marks(self, painter: QPainter, piece: Piece, fill: QColor, colours: BlockColours) -> None:
-        """The little drawings in a field: arrow, tick, dial, bar."""
-        rect = QRectF(piece.x, piece.y, piece.width, piece.height)
-        unit, is_mirrored = self._measures.unit, self._measures.is_mirrored
-        if piece.opens:
-            paint_mark(painter, "arrow", rect, fill, colours, unit, is_mirrored=is_mirrored)
-        if piece.mark in ("dial", "bar", "tick"):
-            paint_mark(
-                painter,
-                piece.mark,
-                rect,
-                fill,
-                colours,
-                unit,
-                is_mirrored=is_mirrored,
-                amount=piece.amount,
-            )
 
     def _button(self, painter: QPainter, piece: Piece, colours: BlockColours) -> None:
         """A round button with a sign, and a label beside it when it has one."""
@@ -151,7 +128,7 @@ class PiecePainter:
             width = self._measures.text_width(piece.text)
             beside = piece.x if mirrored else piece.x + piece.width - width
             y = piece.y + (size - self._measures.line) / 2
-            painter.drawStaticText(QPointF(beside, y), self._texts.of(piece.text))
+            painter.drawStaticText(QPointF(beside, y), self._texts[piece.text])
 
     def _darker(self, colour: QColor) -> QColor:
         """A shade deeper than the block: a hole in it."""
@@ -185,7 +162,7 @@ class BlockPainter:
         self.outlines = Outlines(measures)
         self._language = language
         self._measures = measures
-        self._pieces = PiecePainter(theme, self.outlines, measures)
+        self._pieces = PiecePainter(theme, measures)
         self._font = font
         self._looks: dict[tuple[str, bool], tuple[BlockColours, QBrush, QPen]] = {}
 
@@ -198,44 +175,32 @@ class BlockPainter:
         for placed in boxes:
             painter.translate(placed.x - x, placed.y - y)
             x, y = placed.x, placed.y
-            self._paint_box(painter, placed.box, detail)
+            box = placed.box
+            if box.outline == "gap":
+                self._paint_gap(painter, box)
+                continue
+            look = self._looks.get((box.type, box.is_disabled))
+            colours, brush, pen = look or self.look_of(box)
+            path = self.outlines.of(box)
+            painter.setPen(pen if detail else Qt.PenStyle.NoPen)
+            painter.setBrush(brush)
+            painter.drawPath(path)
+            if box.is_disabled:
+                _hatch(painter, path, colours.line)
+            for piece in box.pieces if detail else ():
+                self._pieces.paint(painter, piece, colours, with_text=detail == 2)
         painter.translate(-x, -y)
 
-    def colours(self, box: Box) -> BlockColours:
-        """The colours of a block."""
-        return self._look(box)[0]
-
-    def _look(self, box: Box) -> tuple[BlockColours, QBrush, QPen]:
-        key = (box.type, box.is_disabled)
-        look = self._looks.get(key)
+    def look_of(self, box: Box) -> tuple[BlockColours, QBrush, QPen]:
+        """The colours of a block, what fills it, and its line."""
+        look = self._looks.get((box.type, box.is_disabled))
         if look is None:
-            colours = self._colours_of(box)
+            definition = self._language.definitions.get(box.type)
+            name = definition.category.colour if definition is not None else PLACEHOLDER
+            colours = self.theme.block(DISABLED if box.is_disabled else name)
             pen = QPen(colours.line, 1.2 * self._measures.unit)
-            look = self._looks[key] = (colours, QBrush(colours.fill), pen)
+            look = self._looks[box.type, box.is_disabled] = (colours, QBrush(colours.fill), pen)
         return look
-
-    def _colours_of(self, box: Box) -> BlockColours:
-        if box.is_disabled:
-            return self.theme.block(DISABLED)
-        definition = self._language.definitions.get(box.type)
-        name = definition.category.colour if definition is not None else PLACEHOLDER
-        return self.theme.block(name)
-
-    def _paint_box(self, painter: QPainter, box: Box, detail: int) -> None:
-        if box.outline == "gap":
-            self._paint_gap(painter, box)
-            return
-        colours, brush, pen = self._look(box)
-        path = self.outlines.of(box)
-        painter.setPen(pen if detail else Qt.PenStyle.NoPen)
-        painter.setBrush(brush)
-        painter.drawPath(path)
-        if box.is_disabled:
-            _hatch(painter, path, colours.line)
-        if detail == 0:
-            return
-        for piece in box.pieces:
-            self._pieces.paint(painter, piece, colours, with_text=detail == 2)
 
     def _paint_gap(self, painter: QPainter, box: Box) -> None:
         colour = self.theme.colour("snap")
@@ -263,5 +228,5 @@ class Look:
         self.badge_font.setBold(True)
         self.badge_font.setPointSizeF(max(1.0, self.block_font.pointSizeF() * 0.8))
         widths = TextWidths(self.block_font)
-        self.measures = Measures(widths.line, widths, is_mirrored=is_mirrored)
+        self.measures = Measures(widths.line, widths.__getitem__, is_mirrored=is_mirrored)
         self.block_painter = BlockPainter(theme, language, self.measures, self.block_font)

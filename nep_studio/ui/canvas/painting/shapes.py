@@ -8,7 +8,7 @@ from functools import lru_cache
 from PySide6.QtCore import QPointF, QRectF, Qt
 from PySide6.QtGui import QColor, QPainter, QPainterPath, QPen, QTransform, qGray
 
-from nep_studio.ui.canvas.layout.boxes import Box, Measures, Outline
+from nep_studio.ui.canvas.layout.boxes import Box, Measures, Piece
 from nep_studio.ui.theme.colours import BlockColours
 
 
@@ -21,23 +21,17 @@ class Outlines:
 
     def of(self, box: Box) -> QPainterPath:
         """The outline of a box, from (0, 0)."""
-        path = self._paths.get(box.form)
+        if box.outline not in ("statement", "hat", "cap", "gap"):
+            return slot_path(box.outline, box.width, box.height, self._measures.unit)
+        form = (box.outline, box.width, box.segments, box.is_mirrored)
+        path = self._paths.get(form)
         if path is None:
+            path = statement_path(box, self._measures)
+            if box.is_mirrored:
+                path = QTransform(-1, 0, 0, 1, box.width, 0).map(path)
             if len(self._paths) > 20_000:
                 self._paths.clear()
-            path = self._paths[box.form] = self._new(box)
-        return path
-
-    def slot(self, shape: Outline | str, width: float, height: float) -> QPainterPath:
-        """The outline of a field or a socket, from (0, 0)."""
-        return slot_path(shape, round(width, 1), round(height, 1), self._measures.unit)
-
-    def _new(self, box: Box) -> QPainterPath:
-        if box.outline not in ("statement", "hat", "cap", "gap"):
-            return self.slot(box.outline, box.width, box.height)
-        path = statement_path(box, self._measures)
-        if box.is_mirrored:
-            path = QTransform(-1, 0, 0, 1, box.width, 0).map(path)
+            self._paths[form] = path
         return path
 
 
@@ -81,19 +75,14 @@ def _top(path: QPainterPath, box: Box, m: Measures) -> None:
         return
     path.moveTo(0, r)
     path.quadTo(0, 0, r, 0)
-    path.lineTo(m.notch_x, 0)
-    _notch(path, 0.0, 0.0, m)
+    # the dent, from left to right
+    left, right, deep, soft = m.notch_x, m.notch_x + m.notch_width, m.notch_depth, m.unit
+    path.lineTo(left, 0)
+    path.cubicTo(left + 4 * soft, 0, left + 3 * soft, deep, left + 8 * soft, deep)
+    path.lineTo(right - 8 * soft, deep)
+    path.cubicTo(right - 3 * soft, deep, right - 4 * soft, 0, right, 0)
     path.lineTo(width - r, 0)
     path.quadTo(width, 0, width, r)
-
-
-def _notch(path: QPainterPath, x: float, y: float, m: Measures) -> None:
-    """The dent of a block's top, drawn from left to right."""
-    left, right, deep, soft = x + m.notch_x, x + m.notch_x + m.notch_width, m.notch_depth, m.unit
-    path.lineTo(left, y)
-    path.cubicTo(left + 4 * soft, y, left + 3 * soft, y + deep, left + 8 * soft, y + deep)
-    path.lineTo(right - 8 * soft, y + deep)
-    path.cubicTo(right - 3 * soft, y + deep, right - 4 * soft, y, right, y)
 
 
 def _tab(path: QPainterPath, x: float, y: float, m: Measures) -> None:
@@ -143,34 +132,30 @@ def _polygon(path: QPainterPath, points: list[tuple[float, float]]) -> None:
 # The little drawings inside fields and buttons: arrow, tick, dial, bar, plus, minus.
 
 
-def paint_mark(
-    painter: QPainter,
-    mark: str,
-    rect: QRectF,
-    fill: QColor,
-    colours: BlockColours,
-    unit: float,
-    *,
-    is_mirrored: bool,
-    amount: float = 0.0,
+def paint_marks(
+    painter: QPainter, piece: Piece, fill: QColor, colours: BlockColours, measures: Measures
 ) -> None:
-    """Draw a mark in the rectangle of its field, at the side where it belongs."""
-    is_dark = fill is not colours.field and qGray(fill.rgb()) < 128
-    is_plain = fill is colours.field
+    """Draw the marks of a field, each at the side where it belongs."""
+    rect, unit = QRectF(piece.x, piece.y, piece.width, piece.height), measures.unit
+    is_plain, is_dark = fill is colours.field, qGray(fill.rgb()) < 128
     ink = colours.field_text if is_plain else QColor("white" if is_dark else "black")
     painter.setPen(round_pen(ink, 1.8 * unit))
     painter.setBrush(Qt.BrushStyle.NoBrush)
-    inset = 12 * unit
-    start = QPointF(rect.right() - inset if is_mirrored else rect.left() + inset, rect.center().y())
-    end = QPointF(rect.left() + inset if is_mirrored else rect.right() - inset, rect.center().y())
-    if mark == "arrow":
-        _arrow(painter, rect.center() if not is_plain and rect.width() < 40 * unit else end, unit)
-    elif mark == "tick" and amount:
-        _tick(painter, rect.center(), 5 * unit)
-    elif mark == "dial":
-        _dial(painter, start, 6 * unit, amount)
-    elif mark == "bar":
-        _bar(painter, rect, colours, unit, amount, is_mirrored=is_mirrored)
+    middle, inset = rect.center(), 12 * unit
+    start, end = QPointF(rect.left() + inset, middle.y()), QPointF(rect.right() - inset, middle.y())
+    if measures.is_mirrored:
+        start, end = end, start
+    if piece.opens:
+        at = end if is_plain or rect.width() >= 40 * unit else middle
+        sides = (QPointF(-4, -2), QPointF(0, 2.5), QPointF(4, -2))
+        painter.drawPolyline([at + side * unit for side in sides])
+    if piece.mark == "tick" and piece.amount:
+        _tick(painter, middle, 5 * unit)
+    elif piece.mark == "dial":
+        _dial(painter, start, 6 * unit, piece.amount)
+    elif piece.mark == "bar":
+        is_mirrored = measures.is_mirrored
+        _bar(painter, rect, colours, unit, piece.amount, is_mirrored=is_mirrored)
 
 
 def paint_sign(
@@ -195,17 +180,6 @@ def paint_sign(
 def round_pen(colour: QColor, width: float) -> QPen:
     """A pen with round ends."""
     return QPen(colour, width, Qt.PenStyle.SolidLine, Qt.PenCapStyle.RoundCap)
-
-
-def _arrow(painter: QPainter, at: QPointF, unit: float) -> None:
-    x, y = at.x(), at.y()
-    painter.drawPolyline(
-        [
-            QPointF(x - 4 * unit, y - 2 * unit),
-            QPointF(x, y + 2.5 * unit),
-            QPointF(x + 4 * unit, y - 2 * unit),
-        ]
-    )
 
 
 def _tick(painter: QPainter, at: QPointF, half: float) -> None:

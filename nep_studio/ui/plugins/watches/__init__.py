@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QObject
 
-from nep_studio.blocks.deployment import gestures_used, node_entries
+from nep_studio.blocks.deployment import names_used, node_entries
 from nep_studio.blocks.errors import EditRefused
 from nep_studio.blocks.operations.fixes import (
     USUAL_NAME,
@@ -130,7 +130,7 @@ class WatchKit(QObject):
 
         editor = self._host.workbench.canvas.editor
         own = own_gestures(editor.project)
-        used = gestures_used(editor.project, editor.language)
+        used = names_used(editor.project, editor.language, "gesture")
         offered = editor.language.choices.get("gestures", {})
         known = {name for name, one in own.items() if one.takes} | set(GESTURES)
         wanted = [name for name in used if name in known]

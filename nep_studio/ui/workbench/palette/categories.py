@@ -102,7 +102,16 @@ class CategoryColumn(QScrollArea):
         font.setPointSizeF(font.pointSizeF() * WORDS_SCALE)
         button.setFont(font)
         side = round(self.fontMetrics().height() * SIGN_LINES)
-        badge = _badge(drawer, theme, side, self.devicePixelRatioF())
+        # The sign with a little room around it, which sets it off from the word
+        ratio = self.devicePixelRatioF()
+        gap = side / 6
+        pixmap = QPixmap(round((side + 2 * gap) * ratio), round(side * ratio))
+        pixmap.setDevicePixelRatio(ratio)
+        pixmap.fill(Qt.GlobalColor.transparent)
+        with QPainter(pixmap) as painter:
+            painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+            paint_badge(painter, QRectF(gap + 1, 1, side - 2, side - 2), drawer, theme)
+        badge = QIcon(pixmap)
         button.setIcon(badge)
         self._sign_size = badge.actualSize(QSize(2 * side, side))
         button.setToolButtonStyle(self._style())
@@ -144,18 +153,6 @@ class CategoryColumn(QScrollArea):
         """Give the scroll bar its room, or take it back."""
         super().resizeEvent(event)
         self._make_room()
-
-
-def _badge(drawer: Drawer, theme: Theme, side: int, ratio: float) -> QIcon:
-    """The sign with a little room around it, which sets it off from the word."""
-    gap = side / 6
-    pixmap = QPixmap(round((side + 2 * gap) * ratio), round(side * ratio))
-    pixmap.setDevicePixelRatio(ratio)
-    pixmap.fill(Qt.GlobalColor.transparent)
-    with QPainter(pixmap) as painter:
-        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
-        paint_badge(painter, QRectF(gap + 1, 1, side - 2, side - 2), drawer, theme)
-    return QIcon(pixmap)
 
 
 # Widgets onto which blocks are dropped to delete them.

@@ -131,7 +131,11 @@ class MakeBlockDialog(QDialog):
         if procedure is None:
             self.add_words()
         else:
-            self._fill(procedure)
+            self.gives_value.setChecked(procedure.gives_value)
+            for part in procedure.parts:
+                row = self._add(PartRow(self, part.id if isinstance(part, Parameter) else ""))
+                row.show_part(part)
+            self.update_preview()
         self.rows[0].name.setFocus()
 
     def add_words(self) -> PartRow:
@@ -169,13 +173,6 @@ class MakeBlockDialog(QDialog):
             self.reason.tell(refusal.sentence)
             return
         super().accept()
-
-    def _fill(self, procedure: Procedure) -> None:
-        self.gives_value.setChecked(procedure.gives_value)
-        for part in procedure.parts:
-            row = self._add(PartRow(self, part.id if isinstance(part, Parameter) else ""))
-            row.show_part(part)
-        self.update_preview()
 
     def _add(self, row: PartRow) -> PartRow:
         self.rows.append(row)

@@ -23,7 +23,7 @@ from nep_studio.ui.words import tr
 
 from .accessible_list import make_list_accessible, tell_current
 from .entries import Drawer, Entry, Stock, tip
-from .shelf_layout import ShelfLayout, ShelfPainter, Spot
+from .shelf_layout import ShelfLayout, ShelfPainter
 
 # A painted list of the palette's entries: one widget, however many blocks it has.
 
@@ -201,7 +201,10 @@ class ShelfView(QAbstractScrollArea):
         with QPainter(self.viewport()) as painter:
             painter.fillRect(event.rect(), self._canvas.look.theme.colour("panel"))
             painter.translate(0, -top)
-            for number, spot in _near(layout, exposed.top() - 8, exposed.bottom() + 8):
+            spots = layout.between(exposed.top() - 8, exposed.bottom() + 8)
+            for number, spot in (
+                list(enumerate(spots, start=layout.spots.index(spots[0]))) if spots else []
+            ):
                 is_current = number == self._current and self.hasFocus()
                 if is_current or (number == self._hovered and spot.entry.is_choosable):
                     painter.setRenderHint(QPainter.RenderHint.Antialiasing)
@@ -266,11 +269,6 @@ class ShelfView(QAbstractScrollArea):
         """The entry that the keyboard is at, or -1."""
         self._catch_up()
         return self._current
-
-
-def _near(layout: ShelfLayout, top: float, bottom: float) -> list[tuple[int, Spot]]:
-    spots = layout.between(top, bottom)
-    return list(enumerate(spots, start=layout.spots.index(spots[0]))) if spots else []
 
 
 def _top(_layout: ShelfLayout) -> float:

@@ -200,7 +200,12 @@ class ShelfPainter:
         painter.setRenderHint(QPainter.RenderHint.Antialiasing)
         kind = spot.entry.kind
         if kind == "heading":
-            self._heading(painter, spot)
+            line, rect = self._layout.line, self._layout.block_rect(spot)
+            badge = self._at_start(rect, 1.35 * line)
+            paint_badge(painter, badge, spot.entry.drawer, self._theme)
+            painter.setFont(self._bold)
+            painter.setPen(self._theme.colour("text"))
+            self._text(painter, self._beside(rect, badge), spot.entry.text)
         elif kind == "button":
             self._button(painter, spot)
         elif kind == "words":
@@ -235,14 +240,6 @@ class ShelfPainter:
         painter.setFont(self._bold)
         below = QRectF(rect.left(), square.bottom() + line / 3, rect.width(), 2 * line)
         painter.drawText(below, Qt.AlignmentFlag.AlignHCenter, tr("Delete"))
-
-    def _heading(self, painter: QPainter, spot: Spot) -> None:
-        line, rect = self._layout.line, self._layout.block_rect(spot)
-        badge = self._at_start(rect, 1.35 * line)
-        paint_badge(painter, badge, spot.entry.drawer, self._theme)
-        painter.setFont(self._bold)
-        painter.setPen(self._theme.colour("text"))
-        self._text(painter, self._beside(rect, badge), spot.entry.text)
 
     def _button(self, painter: QPainter, spot: Spot) -> None:
         line, rect = self._layout.line, self._layout.block_rect(spot)
