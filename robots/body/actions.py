@@ -459,21 +459,17 @@ def read_action(name: str, args: dict[str, Any]) -> Action:
     try:
         return msgspec.convert(args, kind)
     except msgspec.ValidationError as error:
-        told, fields = _plain(error), _fields(kind)
+        # Return msgspec's "Expected `float`, got `str` - at `$.degrees`" as people say it
+        what, _, place = str(error).partition(" - at `$.")
+        for word, plain in PLAIN_WORDS.items():
+            what = what.replace(word, plain)
+        told, fields = f"{place.rstrip('`')} {what}.".strip().replace("`", ""), _fields(kind)
         raise ActionFailed(
             '"{name}" cannot be done: {told} It takes {fields}.',
             name=name,
             told=told,
             fields=fields,
         ) from error
-
-
-def _plain(error: msgspec.ValidationError) -> str:
-    """Return msgspec's "Expected `float`, got `str` - at `$.degrees`" as people say it."""
-    what, _, place = str(error).partition(" - at `$.")
-    for word, plain in PLAIN_WORDS.items():
-        what = what.replace(word, plain)
-    return f"{place.rstrip('`')} {what}.".strip().replace("`", "")
 
 
 def _fields(kind: type[Action]) -> str:

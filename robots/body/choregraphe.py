@@ -84,26 +84,23 @@ class _Lists:
         """Follow one statement; what cannot fill a list is passed over."""
         try:
             (node,) = ast.parse(statement).body
-            self._follow(node)
+            match node:
+                case ast.Assign(targets=[ast.Subscript() as place], value=value):
+                    self._put(place, self._value(value))
+                case ast.Assign(targets=[target], value=value):
+                    self._assign(_name(target), self._value(value))
+                case ast.Expr(value=ast.Call(func=ast.Attribute(attr=call), args=arguments)) if (
+                    call in CALLS and len(arguments) >= 3
+                ):
+                    self._use(dict(zip(CALLS[call], map(self._value, arguments), strict=False)))
+                case ast.Expr(
+                    value=ast.Call(
+                        func=ast.Attribute(value=target, attr="append" | "push_back"), args=[value]
+                    )
+                ):
+                    self._row(_name(target)).append(self._value(value))
         except (SyntaxError, ValueError, RecursionError, MemoryError, _Unknown, ArithmeticError):
             return
-
-    def _follow(self, node: ast.stmt) -> None:
-        match node:
-            case ast.Assign(targets=[ast.Subscript() as place], value=value):
-                self._put(place, self._value(value))
-            case ast.Assign(targets=[target], value=value):
-                self._assign(_name(target), self._value(value))
-            case ast.Expr(value=ast.Call(func=ast.Attribute(attr=call), args=arguments)) if (
-                call in CALLS and len(arguments) >= 3
-            ):
-                self._use(dict(zip(CALLS[call], map(self._value, arguments), strict=False)))
-            case ast.Expr(
-                value=ast.Call(
-                    func=ast.Attribute(value=target, attr="append" | "push_back"), args=[value]
-                )
-            ):
-                self._row(_name(target)).append(self._value(value))
 
     def _assign(self, name: str, value: Value) -> None:
         if name == "names":

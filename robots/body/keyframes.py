@@ -90,7 +90,9 @@ class Keyframes:
         """Return the movement as seen in a mirror: left is right and right is left."""
         return Keyframes(
             {
-                _other_side(name): track.negated() if _turns_sideways(name) else track
+                ({"L": "R", "R": "L"}.get(name[0], name[0]) + name[1:]): track.negated()
+                if _turns_sideways(name)
+                else track
                 for name, track in self.tracks.items()
             }
         )
@@ -118,10 +120,6 @@ class Keyframes:
 
     def _changed(self, change: Callable[[Track], Track]) -> Keyframes:
         return Keyframes({name: change(track) for name, track in self.tracks.items()})
-
-
-def _other_side(name: str) -> str:
-    return {"L": "R", "R": "L"}.get(name[0], name[0]) + name[1:]
 
 
 def mirror_angle(name: str, angle: float) -> float:

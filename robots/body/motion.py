@@ -93,7 +93,13 @@ def playable(
     is too fast is stretched in time.
     """
     notes: list[str] = []
-    keyframes = _with_coupled_joints(body, keyframes)
+    # Give the joints that share a motor the same track: the leader's where it has one
+    tracks = dict(keyframes.tracks)
+    for follower, leader in body.same_motor.items():
+        shared = tracks.get(leader) or tracks.get(follower)
+        if shared:
+            tracks[leader] = tracks[follower] = shared
+    keyframes = Keyframes(tracks)
     if softly:
         keyframes = keyframes.delayed(approach_delay_s(body, pose, keyframes))
     given_s = keyframes.duration_s
@@ -134,16 +140,6 @@ def _allowed(
     if body.head[0] in columns:
         columns = sorted({*columns, *body.head})
     return Motion(tuple(columns), allowed[:, columns], tuple(notes))
-
-
-def _with_coupled_joints(body: Body, keyframes: Keyframes) -> Keyframes:
-    """Give the joints that share a motor the same track: the leader's where it has one."""
-    tracks = dict(keyframes.tracks)
-    for follower, leader in body.same_motor.items():
-        shared = tracks.get(leader) or tracks.get(follower)
-        if shared:
-            tracks[leader] = tracks[follower] = shared
-    return Keyframes(tracks)
 
 
 def approach_delay_s(body: Body, pose: Angles, keyframes: Keyframes) -> float:

@@ -39,8 +39,25 @@ def tipped(points: Points, turn: Rotation, at_most_rad: float) -> tuple[Rotation
         if away < STEADY_M:
             return turn, left_rad
         towards = -nearest[:2] / away
-        angle = min(_angle_until_touching(places, nearest, towards), left_rad)
-        turn = _tilted(towards, angle) @ turn
+        # Return how far a body tips about its support until the next point touches the floor
+        ahead = (places[:, :2] - nearest[:2]) @ towards
+        above = places[:, 2] - nearest[2]
+        free = above >= TOUCHING_M
+        angles = np.arctan2(above[free], ahead[free])
+        angle = min(float(angles.min(initial=math.pi)), left_rad)
+        # Return the rotation that tips what is up towards a horizontal direction
+        x, y = towards
+        cosine, sine = math.cos(angle), math.sin(angle)
+        rest = 1.0 - cosine
+        turn = (
+            np.array(
+                [
+                    [1.0 - rest * x * x, -rest * x * y, sine * x],
+                    [-rest * x * y, 1.0 - rest * y * y, sine * y],
+                    [-sine * x, -sine * y, cosine],
+                ]
+            )
+        ) @ turn
         left_rad -= angle
         if left_rad <= 0.0:
             return turn, 0.0
@@ -104,29 +121,6 @@ def _chain(points: list[tuple[float, ...]]) -> list[tuple[float, ...]]:
             chain.pop()
         chain.append((x, y))
     return chain
-
-
-def _angle_until_touching(places: Points, pivot: Points, towards: Points) -> float:
-    """Return how far a body tips about its support until the next point touches the floor."""
-    ahead = (places[:, :2] - pivot[:2]) @ towards
-    above = places[:, 2] - pivot[2]
-    free = above >= TOUCHING_M
-    angles = np.arctan2(above[free], ahead[free])
-    return float(angles.min(initial=math.pi))
-
-
-def _tilted(towards: Points, angle: float) -> Rotation:
-    """Return the rotation that tips what is up towards a horizontal direction."""
-    x, y = towards
-    cosine, sine = math.cos(angle), math.sin(angle)
-    rest = 1.0 - cosine
-    return np.array(
-        [
-            [1.0 - rest * x * x, -rest * x * y, sine * x],
-            [-rest * x * y, 1.0 - rest * y * y, sine * y],
-            [-sine * x, -sine * y, cosine],
-        ]
-    )
 
 
 def tilt_for(down: Points) -> Rotation:

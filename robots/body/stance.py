@@ -120,7 +120,19 @@ class Stance:
         if isinstance(guide, Carried):
             self.place = np.array([guide.x, guide.y, 0.0])
         else:
-            places = self._keep_touching_places(places, outline, before, touched)
+            # Move the body over the floor so that what touches it slides as little as it can
+            low = places[:, 2] < places[:, 2].min() + TOUCHING_M
+            both = low & touched
+            kept = both if both.any() else touched
+            new, old = places[kept, :2], before[kept, :2]
+            new_middle, old_middle = new.mean(axis=0), old.mean(axis=0)
+            yaw = _turn_between(new - new_middle, old - old_middle)
+            turn = turned(yaw)
+            self.turn = turn @ self.turn
+            x, y = old_middle - turn[:2, :2] @ new_middle
+            self.place = np.array([x, y, 0.0])
+            turned_places: Points = outline @ self.turn.T
+            places = turned_places
         self.place[2] = -places[:, 2].min()
         self._places = places + self.place
 
@@ -145,23 +157,6 @@ class Stance:
         self._speed_rad_s += FALLING_RAD_S2 * tick_s
         if float(self.down @ self._steady_down) < math.cos(LOST_RAD):
             self.has_lost_balance = True
-
-    def _keep_touching_places(
-        self, places: Points, outline: Points, before: Points, touched: Touching
-    ) -> Points:
-        """Move the body over the floor so that what touches it slides as little as it can."""
-        low = places[:, 2] < places[:, 2].min() + TOUCHING_M
-        both = low & touched
-        kept = both if both.any() else touched
-        new, old = places[kept, :2], before[kept, :2]
-        new_middle, old_middle = new.mean(axis=0), old.mean(axis=0)
-        yaw = _turn_between(new - new_middle, old - old_middle)
-        turn = turned(yaw)
-        self.turn = turn @ self.turn
-        x, y = old_middle - turn[:2, :2] @ new_middle
-        self.place = np.array([x, y, 0.0])
-        turned_places: Points = outline @ self.turn.T
-        return turned_places
 
     def _take_places(self, angles: Angles) -> None:
         self._angles = angles.copy()

@@ -291,11 +291,8 @@ def _hides(thing: Thing, eye: Points, target: Points) -> bool:
     low = np.array([*(-np.array(half_size(thing))), bottom])
     high = np.array([*half_size(thing), bottom + thing.size[2]])
     start, end = np.array([*ends[0], eye[2]]), np.array([*ends[1], target[2]])
-    return _crosses(start, end - start, low, high)
-
-
-def _crosses(start: Points, way: Points, low: Points, high: Points) -> bool:
-    """Whether a way from a place goes through a box."""
+    # Whether a way from a place goes through a box
+    way = end - start
     safe = np.where(np.abs(way) < 1e-12, 1e-12, way)
     first, last = (low - start) / safe, (high - start) / safe
     enters = float(np.minimum(first, last).max())

@@ -193,7 +193,10 @@ def sense(robot: VirtualRobot, request: SenseRequest) -> list[str]:
     was_touched = robot.felt.get(request.sense, 0.0) > 0.0
     robot.felt[request.sense] = request.value
     if request.sense in TOUCH_SENSORS and request.value > 0.0 and not was_touched:
-        return _touched(request.sense)
+        # The sensor by itself, then the part of the body that it is on
+        sensor = request.sense
+        part = sensor.partition("_")[0]
+        return [f"touched_{sensor}", f"touched_{part}"]
     return []
 
 
@@ -213,12 +216,6 @@ def _see(robot: VirtualRobot, request: SenseRequest) -> list[str]:
     if request.sense == "face":
         states.append(f"person_{distance_word(request.place)}")
     return states
-
-
-def _touched(sensor: str) -> list[str]:
-    """The sensor by itself, then the part of the body that it is on."""
-    part = sensor.partition("_")[0]
-    return [f"touched_{sensor}", f"touched_{part}"]
 
 
 LOOKING_S = 0.1

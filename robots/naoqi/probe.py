@@ -89,7 +89,14 @@ def _steps(text: str, login: Login | None, robot: str) -> Iterator[Check]:
         if missing:
             raise _Failed(_missing(missing, robot))
         yield Check("services", True, "All that moves it and lets it speak is there.")
-        about = _about(session)
+        battery = _asked(session, "ALBattery", "getBatteryCharge")
+        about = AboutRobot(
+            name=str(_asked(session, "ALSystem", "robotName") or ""),
+            version=str(_asked(session, "ALSystem", "systemVersion") or ""),
+            battery=float(battery) / 100.0 if isinstance(battery, int | float) else -1.0,
+            body=str(_asked(session, "ALMemory", "getData", "RobotConfig/Body/BaseVersion") or ""),
+            fingerprint=session.fingerprint,
+        )
         yield Check("robot", True, _introduction(about), about=about)
     finally:
         session.close()
@@ -161,17 +168,6 @@ def _missing(services: list[str], robot: str) -> Check:
         text_of("Switch {robot} off and on again.", robot=robot),
     )
     return Check("services", False, sentence, steps)
-
-
-def _about(session: Session) -> AboutRobot:
-    battery = _asked(session, "ALBattery", "getBatteryCharge")
-    return AboutRobot(
-        name=str(_asked(session, "ALSystem", "robotName") or ""),
-        version=str(_asked(session, "ALSystem", "systemVersion") or ""),
-        battery=float(battery) / 100.0 if isinstance(battery, int | float) else -1.0,
-        body=str(_asked(session, "ALMemory", "getData", "RobotConfig/Body/BaseVersion") or ""),
-        fingerprint=session.fingerprint,
-    )
 
 
 def _asked(session: Session, service: str, method: str, *args: Any) -> Any:

@@ -259,15 +259,6 @@ class GlBodies:
         self._calls.glEnable(DEPTH_TEST)
         self._calls.glDepthFunc(LEQUAL)
         self._calls.glDisable(BLEND)
-        self._paint_bodies(groups, lens, shades)
-        self._paint_glows(groups, lens)
-        image = self._sheet.toImage()
-        self._sheet.release()
-        self._gl.leave()
-        image.setDevicePixelRatio(lens.ratio)
-        return image
-
-    def _paint_bodies(self, groups: Sequence[Group], lens: Lens, shades: Shades) -> None:
         self._body.bind()
         tell_lens(self._body, lens)
         for placed, dress in groups:
@@ -276,6 +267,12 @@ class GlBodies:
             self._rows.fill(rows_of(placed, dress, lens, shades))
             self._mesh(placed.solids).draw(self._calls, self._body, STRIP)
         self._body.release()
+        self._paint_glows(groups, lens)
+        image = self._sheet.toImage()
+        self._sheet.release()
+        self._gl.leave()
+        image.setDevicePixelRatio(lens.ratio)
+        return image
 
     def _mesh(self, solids: Solids) -> OnGpu:
         known = self._meshes.get(id(solids))

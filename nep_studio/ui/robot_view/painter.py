@@ -84,13 +84,9 @@ def _placed(said: Said, metrics: QFontMetricsF, width: float, height: float) -> 
         box.moveCenter(QPointF(head.x() + half * 0.6, 0))
         box.moveBottom(head.y() - half - line * TAIL)
         tip = QPointF(head.x() + half * 0.25, head.y() - half)
-    _keep_inside(box, width, height, edge)
-    return Bubble(words, box, tip)
-
-
-def _keep_inside(box: QRectF, width: float, height: float, edge: float) -> None:
     box.moveLeft(min(max(box.left(), edge), max(width - box.width() - edge, 0)))
     box.moveTop(min(max(box.top(), edge), max(height - box.height() - edge, 0)))
+    return Bubble(words, box, tip)
 
 
 def _fitting(words: str, metrics: QFontMetricsF, width: float, height: float) -> tuple[str, QRectF]:
@@ -171,8 +167,24 @@ class ScenePainter:
     def paint(self, painter: QPainter, scene: Scene, lens: Lens, font: QFont) -> None:
         """Paint a scene as a lens sees it."""
         painter.setRenderHint(QPainter.RenderHint.Antialiasing)
-        self._paint_floor(painter, scene, lens)
-        self._paint_shadows(painter, groups_of(scene), lens)
+        painter.fillRect(0, 0, int(lens.width) + 1, int(lens.height) + 1, self.shades.canvas)
+        if scene.has_floor:
+            ratio = painter.device().devicePixelRatioF()
+            painter.drawPixmap(0, 0, self._grid(lens, ratio))
+        for robot in scene.robots:
+            paint_path(painter, lens, self.theme, robot.path)
+        groups = groups_of(scene)
+        kept: dict[object, tuple[Placed, Shadow | None]] = {}
+        for placed, dress in groups:
+            key = (id(placed), round(lens.camera.yaw, 3))
+            if key not in self._shadows:
+                strength = 0.5 if dress.is_pale else 1.0
+                self._shadows[key] = placed, cast_shadow(placed, lens.camera, strength)
+            kept[key] = self._shadows[key]
+            shadow = kept[key][1]
+            if shadow is not None:
+                shadow.paint(painter, lens)
+        self._shadows = kept
         if not self._paint_with_gl(painter, scene, lens):
             bodies = self.bodies_of(scene, lens)
             if bodies is not None:
@@ -202,14 +214,6 @@ class ScenePainter:
         painter.drawImage(QPointF(0, 0), picture)
         return True
 
-    def _paint_floor(self, painter: QPainter, scene: Scene, lens: Lens) -> None:
-        painter.fillRect(0, 0, int(lens.width) + 1, int(lens.height) + 1, self.shades.canvas)
-        if scene.has_floor:
-            ratio = painter.device().devicePixelRatioF()
-            painter.drawPixmap(0, 0, self._grid(lens, ratio))
-        for robot in scene.robots:
-            paint_path(painter, lens, self.theme, robot.path)
-
     def _grid(self, lens: Lens, ratio: float) -> QPixmap:
         key = (lens.camera, lens.width, lens.height, ratio)
         if self._floor is None or self._floor[0] != key:
@@ -222,21 +226,6 @@ class ScenePainter:
             painter.end()
             self._floor = key, sheet
         return self._floor[1]
-
-    def _paint_shadows(
-        self, painter: QPainter, groups: Sequence[tuple[Placed, Dress]], lens: Lens
-    ) -> None:
-        kept: dict[object, tuple[Placed, Shadow | None]] = {}
-        for placed, dress in groups:
-            key = (id(placed), round(lens.camera.yaw, 3))
-            if key not in self._shadows:
-                strength = 0.5 if dress.is_pale else 1.0
-                self._shadows[key] = placed, cast_shadow(placed, lens.camera, strength)
-            kept[key] = self._shadows[key]
-            shadow = kept[key][1]
-            if shadow is not None:
-                shadow.paint(painter, lens)
-        self._shadows = kept
 
     def _paint_marks(self, painter: QPainter, scene: Scene, lens: Lens) -> None:
         """Paint rims around what is marked and what is felt."""

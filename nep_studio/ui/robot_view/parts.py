@@ -98,7 +98,11 @@ class Solids:
         ways = directions[self.owner]
         points = np.empty_like(ways)
         is_round = (self.powers == 2.0).all(axis=1)
-        points[is_round] = _farthest_of_ellipsoids(self.size[is_round], ways[is_round])
+        size = self.size[is_round]
+        stretched = ways[is_round] * size[:, None]
+        length = np.sqrt(np.einsum("mkc,mkc->mk", stretched, stretched))
+        point: Array = stretched * size[:, None] / np.maximum(length, 1e-12)[..., None]
+        points[is_round] = point
         edged = ~is_round
         points[edged] = _farthest_of_boxes(self.size[edged], self.powers[edged], ways[edged])
         points += self.centre[:, None]
@@ -109,13 +113,6 @@ class Solids:
         chosen = np.take_along_axis(self.table, best, axis=1)
         found: Array = points[chosen, np.arange(ways.shape[1])]
         return found
-
-
-def _farthest_of_ellipsoids(size: Array, ways: Array) -> Array:
-    stretched = ways * size[:, None]
-    length = np.sqrt(np.einsum("mkc,mkc->mk", stretched, stretched))
-    point: Array = stretched * size[:, None] / np.maximum(length, 1e-12)[..., None]
-    return point
 
 
 def _farthest_of_boxes(size: Array, powers: Array, ways: Array) -> Array:

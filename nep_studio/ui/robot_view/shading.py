@@ -159,7 +159,16 @@ def cast_shadow(placed: Placed, camera: Camera, depth: float = 1.0) -> Shadow | 
     placed = placed.casting()
     if not placed.parts:
         return None
-    outlines = _on_floor(placed, _slope(camera))
+    # (2, 3) where on the floor the shadow of a place is
+    away = math.cos(camera.yaw + 2.2), math.sin(camera.yaw + 2.2)
+    slope = np.array([[1.0, 0.0, SLANT * away[0]], [0.0, 1.0, SLANT * away[1]]])
+    turns = np.arange(CORNERS) * (2 * math.pi / CORNERS)
+    ways = np.stack([np.cos(turns), np.sin(turns)], axis=1) @ slope
+    local = ways @ placed.turns
+    points = placed.solids.farthest(local)
+    world = placed.origins[:, None] + points @ placed.turns.transpose(0, 2, 1)
+    floor: Array = world @ slope.T
+    outlines = floor
     low, high = outlines.min(axis=(0, 1)) - AIR_M, outlines.max(axis=(0, 1)) + AIR_M
     middle, side = (low + high) / 2, float((high - low).max())
     low = middle - side / 2
@@ -170,22 +179,6 @@ def cast_shadow(placed: Placed, camera: Camera, depth: float = 1.0) -> Shadow | 
     firm = _blurred(_filled(pixels[lowest < LOW_M]), max(1, round(0.012 * unit)))
     dark = depth * np.minimum(SOFT * soft + FIRM * firm, 0.8)
     return Shadow(_sheet(dark), (float(low[0]), float(low[1])), side)
-
-
-def _slope(camera: Camera) -> Array:
-    """(2, 3) where on the floor the shadow of a place is."""
-    away = math.cos(camera.yaw + 2.2), math.sin(camera.yaw + 2.2)
-    return np.array([[1.0, 0.0, SLANT * away[0]], [0.0, 1.0, SLANT * away[1]]])
-
-
-def _on_floor(placed: Placed, slope: Array) -> Array:
-    turns = np.arange(CORNERS) * (2 * math.pi / CORNERS)
-    ways = np.stack([np.cos(turns), np.sin(turns)], axis=1) @ slope
-    local = ways @ placed.turns
-    points = placed.solids.farthest(local)
-    world = placed.origins[:, None] + points @ placed.turns.transpose(0, 2, 1)
-    floor: Array = world @ slope.T
-    return floor
 
 
 def _filled(outlines: Array) -> Array:
@@ -205,18 +198,14 @@ def _filled(outlines: Array) -> Array:
 def _blurred(sheet: Array, reach: int) -> Array:
     """Two means over a box each way, which come near to a bell."""
     for _ in range(4):
-        sheet = _means(sheet, reach).T
+        # The means of columns over as many rows before and after
+        width = 2 * reach + 1
+        sums = np.zeros((SIDE_PX + width, SIDE_PX))
+        np.cumsum(sheet, axis=0, out=sums[reach + 1 : reach + 1 + SIDE_PX])
+        sums[reach + 1 + SIDE_PX :] = sums[reach + SIDE_PX]
+        means: Array = (sums[width:] - sums[:-width]) / width
+        sheet = means.T
     return sheet
-
-
-def _means(sheet: Array, reach: int) -> Array:
-    """The means of columns over as many rows before and after."""
-    width = 2 * reach + 1
-    sums = np.zeros((SIDE_PX + width, SIDE_PX))
-    np.cumsum(sheet, axis=0, out=sums[reach + 1 : reach + 1 + SIDE_PX])
-    sums[reach + 1 + SIDE_PX :] = sums[reach + SIDE_PX]
-    means: Array = (sums[width:] - sums[:-width]) / width
-    return means
 
 
 def _sheet(dark: Array) -> QImage:

@@ -75,8 +75,19 @@ class Receiving:
         self.has_gravity = message.gravity_included
         self.heard_s = now_s
         self._counts.append((now_s, len(message.t)))
-        self._find_holes(message, now_s)
-        self._follow_movement(message, now_s)
+        # Note where samples are missing, as far as their times tell
+        step_s = 1 / message.rate_hz if message.rate_hz > 0 else 0.0
+        for t in message.t:
+            if step_s and self._last_t is not None and t - self._last_t > _GAP_STEPS * step_s:
+                count = round((t - self._last_t) / step_s) - 1
+                self._holes.append((now_s, min(count, _MOST_LOST)))
+            self._last_t = t
+        self._latest.extend((now_s, row) for row in message.acc)
+        while self._latest and now_s - self._latest[0][0] > MOVED_OVER_S:
+            self._latest.popleft()
+        axes = list(zip(*(row for _, row in self._latest), strict=True))
+        self.movement_m_s2 = max(max(axis) - min(axis) for axis in axes)
+        self.has_moved |= self.movement_m_s2 > MOVED_M_S2
 
     def is_sending(self, now_s: float) -> bool:
         """Whether samples came just now."""
@@ -105,25 +116,8 @@ class Receiving:
         seconds = counted[-1][0] - counted[0][0]
         return sum(count for _, count in counted[1:]) / seconds if seconds > 0 else 0.0
 
-    def _find_holes(self, message: Imu, now_s: float) -> None:
-        """Note where samples are missing, as far as their times tell."""
-        step_s = 1 / message.rate_hz if message.rate_hz > 0 else 0.0
-        for t in message.t:
-            if step_s and self._last_t is not None and t - self._last_t > _GAP_STEPS * step_s:
-                count = round((t - self._last_t) / step_s) - 1
-                self._holes.append((now_s, min(count, _MOST_LOST)))
-            self._last_t = t
-
     def _recent_holes(self, now_s: float) -> list[tuple[float, int]]:
         return [one for one in self._holes if now_s - one[0] < REMEMBERED_S]
-
-    def _follow_movement(self, message: Imu, now_s: float) -> None:
-        self._latest.extend((now_s, row) for row in message.acc)
-        while self._latest and now_s - self._latest[0][0] > MOVED_OVER_S:
-            self._latest.popleft()
-        axes = list(zip(*(row for _, row in self._latest), strict=True))
-        self.movement_m_s2 = max(max(axis) - min(axis) for axis in axes)
-        self.has_moved |= self.movement_m_s2 > MOVED_M_S2
 
 
 # Hears the watch of a project: whose samples come, how fast, and what its node says of it.

@@ -23,17 +23,14 @@ def varied(raw: Floats, seed: Sequence[int]) -> Floats:
     chance = np.random.default_rng(seed)
     n = len(raw)
     gain = np.exp(chance.uniform(-_GAIN, _GAIN, (n, 1, 1)))
-    turned = _turned(raw, _turns(chance, n))
+    turns = _turns(chance, n)
+    parts = [raw[..., at : at + 3] @ turns for at in range(0, raw.shape[2], 3)]
+    turned = np.concatenate(parts, axis=2)
     # gravity is as strong for everyone: only what changes in the window is made stronger
     resting = turned[..., :3].mean(axis=1, keepdims=True)
     turned[..., :3] = resting + gain * (turned[..., :3] - resting)
     turned[..., 3:] *= gain
     return _with_rhythm(turned, chance)
-
-
-def _turned(raw: Floats, turns: Floats) -> Floats:
-    parts = [raw[..., at : at + 3] @ turns for at in range(0, raw.shape[2], 3)]
-    return np.concatenate(parts, axis=2)
 
 
 def _turns(chance: np.random.Generator, n: int) -> Floats:

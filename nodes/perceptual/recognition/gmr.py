@@ -47,7 +47,13 @@ def fit_mixture(curves: Floats, components: int = COMPONENTS) -> Mixture:
     belongs = np.eye(components)[slices]
     mixture = _maximise(rows, belongs)
     for _ in range(_ROUNDS):
-        mixture = _maximise(rows, _expect(rows, mixture))
+        # How much each row belongs to each Gaussian; (rows, k)
+        lower = np.linalg.cholesky(mixture.covariance)
+        whiten = np.linalg.inv(lower).transpose(0, 2, 1)
+        away = rows @ whiten - (mixture.mean[:, None] @ whiten)
+        log_det = np.log(np.einsum("kii->ki", lower)).sum(axis=1)
+        squares = np.einsum("krs,krs->rk", away, away)
+        mixture = _maximise(rows, _normalised(np.log(mixture.weight) - log_det - 0.5 * squares))
     return mixture
 
 
@@ -71,16 +77,6 @@ def expected_curve(mixture: Mixture, points: int = 32) -> tuple[Floats, Floats]:
     covariance = np.einsum("tk,ksr->tsr", share, around)
     covariance += np.einsum("tk,tks,tkr->tsr", share, apart, apart)
     return mean, covariance
-
-
-def _expect(rows: Floats, mixture: Mixture) -> Floats:
-    """How much each row belongs to each Gaussian; (rows, k)."""
-    lower = np.linalg.cholesky(mixture.covariance)
-    whiten = np.linalg.inv(lower).transpose(0, 2, 1)
-    away = rows @ whiten - (mixture.mean[:, None] @ whiten)
-    log_det = np.log(np.einsum("kii->ki", lower)).sum(axis=1)
-    squares = np.einsum("krs,krs->rk", away, away)
-    return _normalised(np.log(mixture.weight) - log_det - 0.5 * squares)
 
 
 def _maximise(rows: Floats, belongs: Floats) -> Mixture:

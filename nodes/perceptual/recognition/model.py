@@ -418,7 +418,17 @@ def read_model(path: Path) -> Model:
     try:
         arrays = read_arrays(content)
         text = arrays["about"].tobytes()
-        _check_version(path, text)
+        found = msgspec.json.decode(text, type=_Version)
+        if found.format != FORMAT:
+            raise ValueError("it is another kind of file")
+        if found.version != VERSION:
+            raise RecordingError(
+                "{name} is a gesture model of version {version}; this program reads version {map}.",
+                checklist=("Train the gestures again from their recordings.", "Update NEP Studio."),
+                name=path.name,
+                version=found.version,
+                map=VERSION,
+            )
         return _model(msgspec.json.decode(text, type=About), arrays)
     except DAMAGE as error:
         raise RecordingError(
@@ -468,20 +478,6 @@ def _content(path: Path) -> bytes:
 
 def _small(array: NDArray[Any]) -> NDArray[Any]:
     return array.astype(np.float32) if array.dtype == np.float64 else array
-
-
-def _check_version(path: Path, text: bytes) -> None:
-    found = msgspec.json.decode(text, type=_Version)
-    if found.format != FORMAT:
-        raise ValueError("it is another kind of file")
-    if found.version != VERSION:
-        raise RecordingError(
-            "{name} is a gesture model of version {version}; this program reads version {map}.",
-            checklist=("Train the gestures again from their recordings.", "Update NEP Studio."),
-            name=path.name,
-            version=found.version,
-            map=VERSION,
-        )
 
 
 def _model(about: About, arrays: Mapping[str, NDArray[Any]]) -> Model:

@@ -293,7 +293,9 @@ class PerformanceFinder:
         if self._parts and not self.is_moving and t.size:
             waited_s = float(t[-1]) - self._parts[-1].end_s
             found += self._close() if waited_s > HELD_S else []
-        self._forget()
+        if len(self._t) and self._t[-1] - self._t[0] > 2 * _KEPT_S:
+            first = int(np.searchsorted(self._t, self._t[-1] - _KEPT_S))
+            self._t, self._acc = self._t[first:], self._acc[first:]
         return found
 
     def finish(self) -> list[Movement]:
@@ -349,11 +351,6 @@ class PerformanceFinder:
         mean: Floats = self._acc[first:last].mean(axis=0)
         low, high = _GRAVITY_M_S2
         return mean if low < float(np.linalg.norm(mean)) < high else None
-
-    def _forget(self) -> None:
-        if len(self._t) and self._t[-1] - self._t[0] > 2 * _KEPT_S:
-            first = int(np.searchsorted(self._t, self._t[-1] - _KEPT_S))
-            self._t, self._acc = self._t[first:], self._acc[first:]
 
 
 def find_performances(t: Floats, acc: Floats, gyr: Floats | None) -> list[Movement]:

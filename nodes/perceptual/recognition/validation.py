@@ -160,7 +160,7 @@ def _curve(
     return tuple(
         CurvePoint(
             certainty,
-            _share(caught, certainty),
+            _count(caught, certainty) / len(caught) if caught else 0.0,
             _count(everyday, certainty) / hours if hours else 0.0,
             _count(others, certainty),
         )
@@ -173,10 +173,6 @@ def is_unknown(passage: Passage, found: Detection) -> bool:
     return any(
         found.t_start < end_s and start_s < found.t_end for start_s, end_s in passage.unknown
     )
-
-
-def _share(values: Sequence[float], least: float) -> float:
-    return _count(values, least) / len(values) if values else 0.0
 
 
 def _count(values: Sequence[float], least: float) -> int:

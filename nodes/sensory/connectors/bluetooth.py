@@ -187,21 +187,17 @@ def _check(profile: Profile) -> None:
     for write in profile.writes:
         uuid.UUID(write.uuid)
     for characteristic in profile.characteristics:
-        _check_fields(characteristic)
+        names = [field.is_ for field in characteristic.fields if field.is_ != "skip"]
+        if len(set(names)) != len(names):
+            raise ValueError("a value is there twice")
+        for axes in (_ACC, _GYR):
+            if set(axes) & set(names) and not set(axes) <= set(names):
+                raise ValueError(f"{', '.join(axes)} belong together")
+        for field in characteristic.fields:
+            if field.is_ != "skip" and field.unit not in _FITTING[field.is_[0]]:
+                raise ValueError(f"{field.is_} cannot be in {field.unit or 'no unit'}")
     if not any(one.has(_ACC) for one in profile.characteristics):
         raise ValueError("no characteristic has ax, ay and az")
-
-
-def _check_fields(characteristic: Characteristic) -> None:
-    names = [field.is_ for field in characteristic.fields if field.is_ != "skip"]
-    if len(set(names)) != len(names):
-        raise ValueError("a value is there twice")
-    for axes in (_ACC, _GYR):
-        if set(axes) & set(names) and not set(axes) <= set(names):
-            raise ValueError(f"{', '.join(axes)} belong together")
-    for field in characteristic.fields:
-        if field.is_ != "skip" and field.unit not in _FITTING[field.is_[0]]:
-            raise ValueError(f"{field.is_} cannot be in {field.unit or 'no unit'}")
 
 
 def _vector(values: dict[str, float], axes: tuple[str, str, str]) -> Vector | None:

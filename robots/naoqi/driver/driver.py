@@ -183,14 +183,26 @@ class NaoqiDriver:
     def step(self, now_s: float) -> list[Ended]:
         """Take in what has come from the robot; return what has ended."""
         if reached := self._link.step():
-            self._arrive(reached)
+            # The link is there: begin with what is true of a robot that was just met
+            known = self._robot.known
+            self._robot = RealRobot(known, Calls(known.name, reached.services))
+            self._noticing = Noticing(self._robot)
+            self._watching = Watching(self._robot)
+            self._hearing = Hearing(self._robot, self._hearing.expected)
+            if self._has_met_before:  # what went on while nobody could stop it ends now
+                self.halt()
+            self._has_met_before = True
+            known.saying, known.listening = "", ()
+            known.sees.clear()
         if self._link.state != "ready":
             return self._fail_all()  # also what has waited for its limbs, and begins only now
         self._watching.step(is_moving=self.moving)
         if self._watching.is_frozen:
             self._link.freeze()
             return self._fail_all()
-        self._notice()
+        while not self._heard.empty():
+            self._noticed += self._noticing.hear(*self._heard.get())
+        self._noticing.forget()
         if self._watching.has_met:
             self._tell_condition()
             self._hearing.step()
@@ -239,19 +251,6 @@ class NaoqiDriver:
     def _reach(self, on_lost: Callable[[str], None]) -> Reached:
         return reach(self._address, self._heard, on_lost)
 
-    def _arrive(self, reached: Reached) -> None:
-        """The link is there: begin with what is true of a robot that was just met."""
-        known = self._robot.known
-        self._robot = RealRobot(known, Calls(known.name, reached.services))
-        self._noticing = Noticing(self._robot)
-        self._watching = Watching(self._robot)
-        self._hearing = Hearing(self._robot, self._hearing.expected)
-        if self._has_met_before:  # what went on while nobody could stop it ends now
-            self.halt()
-        self._has_met_before = True
-        known.saying, known.listening = "", ()
-        known.sees.clear()
-
     def _fail_all(self) -> list[Ended]:
         """The robot is gone: what it was doing has failed, with the reason."""
         ended = [Ended(name, "failed", self._link.connection.fault) for name in self._running]
@@ -259,11 +258,6 @@ class NaoqiDriver:
         for one in running.values():
             one.task.close()
         return ended
-
-    def _notice(self) -> None:
-        while not self._heard.empty():
-            self._noticed += self._noticing.hear(*self._heard.get())
-        self._noticing.forget()
 
     def _tell_condition(self) -> None:
         """Warn of what keeps the robot from acting soon; tell when that is over."""

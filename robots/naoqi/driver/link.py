@@ -240,7 +240,9 @@ class Link:
             if number != self._try:  # an older try: what it brings is not wanted any more
                 _close(what)
             elif isinstance(what, Reached):
-                return self._arrive(what)
+                self.state, self.reached = "ready", what
+                self._pause_s = FIRST_PAUSE_S
+                return what
             elif isinstance(what, NaoqiError):
                 self._fail(self._told(what))
             else:
@@ -279,11 +281,6 @@ class Link:
         except Exception as error:  # a fault of this program must not end the tries
             log.exception("connecting to %s", self.robot)
             self._news.put((number, NaoqiError(str(error))))
-
-    def _arrive(self, reached: Reached) -> Reached:
-        self.state, self.reached = "ready", reached
-        self._pause_s = FIRST_PAUSE_S
-        return reached
 
     def _fail(self, why: Fault) -> None:
         self.connection = Connection("connection_failed", why)

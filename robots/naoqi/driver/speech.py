@@ -40,7 +40,11 @@ def speak(robot: RealRobot, action: a.Say) -> Task:
     if not words.strip():
         return ""
     seconds = speaking_time_s(words) * 100.0 / action.speed
-    told = [_voice(action) + words]
+    # What NAOqi's voice takes as a wish for another speed and pitch, before the words
+    wishes = {"rspd": action.speed, "vct": action.pitch}
+    told = [
+        "".join(f"\\{name}={round(to)}\\ " for name, to in wishes.items() if to != 100.0) + words
+    ]
     if action.language:
         told.append((yield from _language_name(robot, action.language)))
     robot.known.saying = action.text
@@ -129,12 +133,6 @@ def _gestures(robot: RealRobot, parts: list[Spoken], speed: float) -> Task:
     return ""
 
 
-def _voice(action: a.Say) -> str:
-    """What NAOqi's voice takes as a wish for another speed and pitch, before the words."""
-    wishes = {"rspd": action.speed, "vct": action.pitch}
-    return "".join(f"\\{name}={round(to)}\\ " for name, to in wishes.items() if to != 100.0)
-
-
 def _language_name(robot: RealRobot, code: str) -> Task:
     name = LANGUAGES.get(code, code)
     known = yield from robot.call("ALTextToSpeech", "getAvailableLanguages")
@@ -205,7 +203,9 @@ class Hearing:
 
     def step(self) -> None:
         """Go on changing what the robot listens for, if that is wanted."""
-        wanted = self._wanted()
+        wanted = tuple(
+            dict.fromkeys(word for words in (self.expected, *self._asked) for word in words)
+        )
         if self._change is None and wanted not in (self._has, self._refused):
             self._problem, self._refused = None, ()
             self._change = self._changing(wanted)
@@ -235,11 +235,6 @@ class Hearing:
             self._asked.remove(words)
             self._robot.known.listening = ()
         return ""
-
-    def _wanted(self) -> tuple[str, ...]:
-        return tuple(
-            dict.fromkeys(word for words in (self.expected, *self._asked) for word in words)
-        )
 
     def _changing(self, words: tuple[str, ...]) -> Task:
         robot = self._robot

@@ -61,7 +61,16 @@ class Watching:
 
     def step(self, *, is_moving: bool) -> None:
         """Take in what was answered, and ask what is due."""
-        self._take_in()
+        waiting = []
+        for pending, asked_s, take_in in self._asked:
+            if not pending.done:
+                waiting.append((pending, asked_s, take_in))
+                continue
+            try:
+                take_in(pending.result(0.0))
+            except (NaoqiError, TypeError, ValueError, IndexError):
+                continue  # one robot may not know what another one tells
+        self._asked = waiting
         self.has_met = self.has_met or (self._has_told_joints and not self._asked)
         now_s = time.monotonic()
         if self._asked:  # a slow robot is asked less often, not more at once
@@ -105,18 +114,6 @@ class Watching:
         except ActionFailed:
             return  # the link is just being lost; who keeps it says so
         self._asked.append((pending, time.monotonic(), take_in))
-
-    def _take_in(self) -> None:
-        waiting = []
-        for pending, asked_s, take_in in self._asked:
-            if not pending.done:
-                waiting.append((pending, asked_s, take_in))
-                continue
-            try:
-                take_in(pending.result(0.0))
-            except (NaoqiError, TypeError, ValueError, IndexError):
-                continue  # one robot may not know what another one tells
-        self._asked = waiting
 
     def _setter(self, name: str) -> TakeIn:
         return lambda value: self._robot.known.settings.__setitem__(name, bool(value))

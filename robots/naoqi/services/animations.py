@@ -136,7 +136,8 @@ class ALBehaviorManager(Module):
     @method("runBehavior::v(s)")
     def run_behavior(self, path: str) -> Any:
         """Play a behavior; wait until it ends."""
-        self._check_idle(path)
+        if path in self._running:
+            raise CallFailed("“{path}” is already running.", path=path)
         name = self._names.name_of(path, self._robot.robot)
         self._running[path] = name
         self.behavior_started.emit(path)
@@ -247,10 +248,6 @@ class ALBehaviorManager(Module):
     def remove_default_behavior(self, path: str) -> None:
         """Forget a behavior that begins when the robot is switched on."""
         self._defaults = [one for one in self._defaults if one != path]
-
-    def _check_idle(self, path: str) -> None:
-        if path in self._running:
-            raise CallFailed("“{path}” is already running.", path=path)
 
     def _end(self, path: str) -> None:
         if self._running.pop(path, None) is not None:
