@@ -459,7 +459,7 @@ def read_action(name: str, args: dict[str, Any]) -> Action:
     try:
         return msgspec.convert(args, kind)
     except msgspec.ValidationError as error:
-        # Return msgspec's "Expected `float`, got `str` - at `$.degrees`" as people say it
+        # Msgspec's "Expected `float`, got `str` - at `$.degrees`" as people say it
         what, _, place = str(error).partition(" - at `$.")
         for word, plain in PLAIN_WORDS.items():
             what = what.replace(word, plain)

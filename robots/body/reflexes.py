@@ -14,7 +14,6 @@ from faults import Text, text_of
 
 from .body import Angles, part_of, parts_of_limbs
 from .inverse import Place, head_angles, in_torso
-from .kinematics import Skeleton
 from .limbs import Limb
 from .motion import TICK_S, move
 from .pose import VirtualRobot
@@ -123,7 +122,7 @@ class Sagging:
 
     def __init__(self, robot: VirtualRobot) -> None:
         self._robot = robot
-        # Return for each joint's column its link, and all links that hang on it
+        # For each joint's column its link, and all links that hang on it
         skeleton = robot.stance.skeleton
         joints = skeleton.body.joints
         parents = {joint.child: joint.parent for joint in joints if joint.child}
@@ -162,7 +161,7 @@ class Sagging:
         columns = [
             i for i, name in enumerate(robot.body.names) if part_of(robot.body, name) in loose
         ]
-        # Return how hard the weight of what hangs on each joint turns it, Nm
+        # How hard the weight of what hangs on each joint turns it, Nm
         stance = self._robot.stance
         centres, masses = stance.skeleton.mass_centres(stance.frames), stance.skeleton.masses_kg
         torques = np.zeros(len(self._robot.body.names))

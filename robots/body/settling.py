@@ -39,13 +39,13 @@ def tipped(points: Points, turn: Rotation, at_most_rad: float) -> tuple[Rotation
         if away < STEADY_M:
             return turn, left_rad
         towards = -nearest[:2] / away
-        # Return how far a body tips about its support until the next point touches the floor
+        # How far a body tips about its support until the next point touches the floor
         ahead = (places[:, :2] - nearest[:2]) @ towards
         above = places[:, 2] - nearest[2]
         free = above >= TOUCHING_M
         angles = np.arctan2(above[free], ahead[free])
         angle = min(float(angles.min(initial=math.pi)), left_rad)
-        # Return the rotation that tips what is up towards a horizontal direction
+        # The rotation that tips what is up towards a horizontal direction
         x, y = towards
         cosine, sine = math.cos(angle), math.sin(angle)
         rest = 1.0 - cosine

@@ -91,6 +91,7 @@ TEMPLATES = {
     "state": 1,
     "refuse": 0,
     "Connection": 1,
+    "one_of": 2,
 }
 """What takes a template, beside errors, and in which place."""
 
@@ -298,6 +299,7 @@ def _templates_of(call: ast.Call) -> Iterator[str]:
         "Text",
         "told",
         "Connection",
+        "one_of",
     ):
         at = TEMPLATES.get(name, 0)
         for argument in call.args[at : at + 1]:

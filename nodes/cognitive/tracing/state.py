@@ -185,7 +185,7 @@ def is_plain(value: object) -> bool:
     return value is None or type(value) in (bool, int, float, str) or type(value) in _ENDS
 
 
-def shown(value: object, depth: int = 0) -> str:
+def shown(value: Any, depth: int = 0) -> str:
     """A plain value as Python, clipped; no code of the program is run for it."""
     if type(value) is str:
         return repr(value) if len(value) < LONGEST else repr(value[: LONGEST - 2]) + CUT

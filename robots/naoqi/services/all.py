@@ -16,7 +16,7 @@ from robots.naoqi.server.server import Server
 from robots.naoqi.serving import ServedRobot
 from robots.naoqi.wire.line import Login
 
-from . import body, life, media, perception
+from . import life, media, perception
 from .animations import ALAnimationPlayer, ALBehaviorManager, load_animation_names
 from .lights import ALLeds
 from .memory import TOUCH_EVENTS, TOUCH_NAMES, ALMemory, keys_of
@@ -189,11 +189,11 @@ class Services:
             life.ALSpeakingMovement,
             life.ALListeningMovement,
             life.ALAutonomousBlinking,
-            body.ALTouch,
-            body.ALBattery,
-            body.ALBodyTemperature,
-            body.ALSystem,
-            body.ALRobotModel,
+            life.ALTouch,
+            life.ALBattery,
+            life.ALBodyTemperature,
+            life.ALSystem,
+            life.ALRobotModel,
         )
         modules: list[Module] = [
             speech,

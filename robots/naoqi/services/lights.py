@@ -10,7 +10,7 @@ from robots.naoqi.wire.errors import CallFailed
 from robots.naoqi.wire.service import method
 
 from .arguments import lists, number, within
-from .module import Module, one_by_one, play_script
+from .module import Module, one_by_one, one_of, play_script
 
 COLOURS = {
     "white": 0xFFFFFF,
@@ -40,12 +40,7 @@ class ALLeds(Module):
     @method("fadeRGB::v(ssf)")
     def fade_name(self, name: str, colour: str, seconds: float) -> Any:
         """Fade lights to a colour with a name."""
-        if colour not in COLOURS:
-            raise CallFailed(
-                "There is no colour “{colour}”. Possible: {colours}.",
-                colour=colour,
-                colours=", ".join(COLOURS),
-            )
+        one_of(colour, COLOURS, "There is no colour “{colour}”. Possible: {colours}.")
         return self._fade(name, COLOURS[colour], seconds)
 
     @method("fadeRGB::v(sif)")
@@ -86,20 +81,9 @@ class ALLeds(Module):
         percent = 100.0 * within(intensity, 0.0, 1.0, "The intensity")
         return self._each("intensity", name, percent=percent)
 
-    @method("on::v(s)")
-    def on(self, name: str) -> Any:
-        """Switch lights on."""
-        return self.set_intensity(name, 1.0)
-
-    @method("off::v(s)")
-    def off(self, name: str) -> Any:
-        """Switch lights off."""
-        return self._fade(name, body.OFF, 0.0)
-
-    @method("reset::v(s)")
-    def reset(self, name: str) -> Any:
-        """Light as when the robot was switched on."""
-        return self._each("reset_leds", name)
+    on = method("on::v(s)")(lambda self, name: self.set_intensity(name, 1.0))
+    off = method("off::v(s)")(lambda self, name: self._fade(name, body.OFF, 0.0))
+    reset = method("reset::v(s)")(lambda self, name: self._each("reset_leds", name))
 
     @method("getIntensity::m(s)")
     def intensity(self, name: str) -> list[float]:
@@ -147,35 +131,20 @@ class ALLeds(Module):
         """Make a group of lights and groups."""
         self._made[name] = [group for light in lights for group in self._groups(light)]
 
-    @method("listGroups::[s]()")
-    def list_groups(self) -> list[str]:
-        """Return the names of all groups."""
-        return [*body.GROUPS, *self._made]
+    list_groups = method("listGroups::[s]()")(lambda self: [*body.GROUPS, *self._made])
 
-    @method("listGroup::[s](s)")
+    @method("listGroup::[s](s)", "listLED::[s](s)")
     def list_group(self, name: str) -> list[str]:
         """Return the lights of a group."""
         return [light for group in self._groups(name) for light in body.lights(group)]
 
-    @method("listLEDs::[s]()")
-    def list_leds(self) -> list[str]:
-        """Return all lights that can be set by themselves."""
-        return list(body.lights("AllLeds"))
-
-    @method("listLED::[s](s)")
-    def list_led(self, name: str) -> list[str]:
-        """Return the lights that a name means."""
-        return self.list_group(name)
+    list_leds = method("listLEDs::[s]()")(lambda self: list(body.lights("AllLeds")))
 
     def _groups(self, name: str) -> list[str]:
         if name in self._made:
             return self._made[name]
-        if name not in body.GROUPS:
-            known = ", ".join([*body.GROUPS, *self._made])
-            raise CallFailed(
-                "There are no lights called “{name}”. Possible: {known}.", name=name, known=known
-            )
-        return [name]
+        known = [*body.GROUPS, *self._made]
+        return [one_of(name, known, "There are no lights called “{name}”. Possible: {known}.")]
 
     def _fade(self, name: str, colour: int, seconds: float) -> Any:
         steps = self._fades(name, colour, seconds)

@@ -13,7 +13,7 @@ from robots.naoqi.wire.errors import CallFailed
 from robots.naoqi.wire.service import method
 
 from .arguments import number, within
-from .module import Module, kept
+from .module import Module, always, kept
 
 NO_MICROPHONE = "The robot on the screen has no microphones. A real NAO has."
 
@@ -23,66 +23,37 @@ class ALAudioPlayer(Module):
 
     set_master, master = kept("setMasterVolume::v(f)", "getMasterVolume::f()", 1.0)
 
-    @method("playFile::v(s)")
-    def play_file(self, path: str) -> Any:
-        """Play a file; wait until it ends."""
-        return self._do("play_sound", file=path)
+    @method("playFile::v(s)", "playFile::v(sff)", "playSoundSetFile::v(s)")
+    def play_file(self, path: str, volume: float = 1.0, pan: float = 0.0) -> Any:
+        """Play a file, so loud (0 to 1), more on the left (-1) or on the right (1); wait for it."""
+        return self._play(volume, pan, file=path)
 
-    @method("playFile::v(sff)")
-    def play_file_with(self, path: str, volume: float, pan: float) -> Any:
-        """Play a file, so loud (0 to 1), more on the left (-1) or on the right (1)."""
-        within(volume, 0.0, 1.0, "The volume")
-        within(pan, -1.0, 1.0, "The balance")
-        return self.play_file(path)
-
-    @method("playFileInLoop::v(s)")
-    def play_file_in_loop(self, path: str) -> Any:
+    @method("playFileInLoop::v(s)", "playFileInLoop::v(sff)")
+    def play_file_in_loop(self, path: str, volume: float = 1.0, pan: float = 0.0) -> Any:
         """Play a file again and again."""
-        return self._do("play_sound", file=path, again=True)
+        return self._play(volume, pan, file=path, again=True)
 
-    @method("playFileInLoop::v(sff)")
-    def play_file_in_loop_with(self, path: str, volume: float, pan: float) -> Any:
-        """Play a file again and again, so loud, more on the left or on the right."""
-        within(volume, 0.0, 1.0, "The volume")
-        within(pan, -1.0, 1.0, "The balance")
-        return self.play_file_in_loop(path)
-
-    @method("playFileFromPosition::v(sf)")
-    def play_file_from(self, path: str, position: float) -> Any:
+    @method("playFileFromPosition::v(sf)", "playFileFromPosition::v(sfff)")
+    def play_file_from(
+        self, path: str, position: float, volume: float = 1.0, pan: float = 0.0
+    ) -> Any:
         """Play a file from so many seconds on."""
-        return self._do("play_sound", file=path, start_s=within(position, 0, 3600, "The start"))
+        start_s = within(position, 0, 3600, "The start")
+        return self._play(volume, pan, file=path, start_s=start_s)
 
-    @method("playFileFromPosition::v(sfff)")
-    def play_file_from_with(self, path: str, position: float, volume: float, pan: float) -> Any:
-        """Play a file from so many seconds on, so loud, more on the left or on the right."""
+    def _play(self, volume: float, pan: float, **args: Any) -> Any:
         within(volume, 0.0, 1.0, "The volume")
         within(pan, -1.0, 1.0, "The balance")
-        return self.play_file_from(path, position)
+        return self._do("play_sound", **args)
 
     @method("stopAll::v()")
     def stop_all(self) -> None:
         """Stop all files."""
         self._robot.stop(lambda command: type(command.action).__name__ == "PlaySound")
 
-    @method("getInstalledSoundSetsList::[s]()")
-    def installed_sound_sets(self) -> list[str]:
-        """Return the sets of sounds that there are: none."""
-        return []
-
-    @method("getLoadedSoundSetsList::[s]()")
-    def loaded_sound_sets(self) -> list[str]:
-        """Return the sets of sounds that are loaded: none."""
-        return []
-
-    @method("isSoundSetInstalled::b(s)")
-    def is_sound_set_installed(self, name: str) -> bool:
-        """Return whether there is a set of sounds."""
-        return False
-
-    @method("playSoundSetFile::v(s)")
-    def play_sound_set_file(self, file: str) -> Any:
-        """Play a file of the loaded sets of sounds."""
-        return self.play_file(file)
+    # There are no sets of sounds
+    sound_sets = always([], "getInstalledSoundSetsList::[s]()", "getLoadedSoundSetsList::[s]()")
+    is_sound_set_installed = always(False, "isSoundSetInstalled::b(s)")
 
     @method("playSoundSetFile::v(ss)")
     def play_sound_of_set(self, sound_set: str, file: str) -> Any:
@@ -116,48 +87,17 @@ class ALAudioDevice(Module):
             self._kept["volume"] = self.output_volume()
         return self.set_output_volume(0 if is_muted else self._kept["volume"])
 
-    @method("isAudioOutMuted::b()")
-    def is_audio_out_muted(self) -> bool:
-        """Return whether it is silent."""
-        return self._muted()
-
-    @method("enableEnergyComputation::v()")
-    def enable_energy_computation(self) -> None:
-        """Measure how loud it is around: it is silent."""
-
-    @method("disableEnergyComputation::v()")
-    def disable_energy_computation(self) -> None:
-        """Measure no more."""
-
-    @method("getFrontMicEnergy::f()")
-    def front_energy(self) -> float:
-        """Return how loud it is in front: silent."""
-        return 0.0
-
-    @method("getRearMicEnergy::f()")
-    def rear_energy(self) -> float:
-        """Return how loud it is behind: silent."""
-        return 0.0
-
-    @method("getLeftMicEnergy::f()")
-    def left_energy(self) -> float:
-        """Return how loud it is on the left: silent."""
-        return 0.0
-
-    @method("getRightMicEnergy::f()")
-    def right_energy(self) -> float:
-        """Return how loud it is on the right: silent."""
-        return 0.0
-
-    @method("isInputClosed::b()")
-    def is_input_closed(self) -> bool:
-        """Return whether nothing comes from the microphones: so it is."""
-        return True
-
-    @method("isOutputClosed::b()")
-    def is_output_closed(self) -> bool:
-        """Return whether the loudspeakers are off."""
-        return False
+    is_audio_out_muted = method("isAudioOutMuted::b()")(lambda self: self._muted())
+    # How loud it is around: it is silent
+    energy_computation = always(
+        None, "enableEnergyComputation::v()", "disableEnergyComputation::v()"
+    )
+    energy = always(
+        0.0, *(f"get{side}MicEnergy::f()" for side in ("Front", "Rear", "Left", "Right"))
+    )
+    # Nothing comes from the microphones
+    is_input_closed = always(True, "isInputClosed::b()")
+    is_output_closed = always(False, "isOutputClosed::b()")
 
     @method("startMicrophonesRecording::v(s)")
     def start_microphones_recording(self, file: str) -> None:
@@ -190,19 +130,14 @@ class ALPhotoCapture(_Camera):
     set_interval, interval = kept("setCaptureInterval::v(i)", "getCaptureInterval::i()", 200)
     set_half_press, half_press = kept("setHalfPressEnabled::v(b)", "isHalfPressEnabled::b()", False)
 
-    @method("takePicture::m(ss)")
-    def take_picture(self, folder: str, name: str) -> Any:
+    @method("takePicture::m(ss)", "takePicture::m(ssb)")
+    def take_picture(self, folder: str, name: str, overwrite: bool = False) -> Any:
         """Take a picture; get the names of its files."""
         file = str(picture_path(self._robot.robot, name))
         return self._do("take_picture", [file], file=name, camera=self._name())
 
-    @method("takePicture::m(ssb)")
-    def take_picture_over(self, folder: str, name: str, overwrite: bool) -> Any:
-        """Take a picture, also in the place of another one."""
-        return self.take_picture(folder, name)
-
-    @method("takePictures::m(iss)")
-    def take_pictures(self, count: int, folder: str, name: str) -> Any:
+    @method("takePictures::m(iss)", "takePictures::m(issb)")
+    def take_pictures(self, count: int, folder: str, name: str, overwrite: bool = False) -> Any:
         """Take several pictures; get the names of their files."""
         within(count, 1, MOST_PICTURES, "The number of pictures")
         names = [f"{name}_{i}" for i in range(int(number(count)))]
@@ -210,11 +145,6 @@ class ALPhotoCapture(_Camera):
         for one in names[:-1]:
             self._robot.ask("take_picture", file=one, camera=self._name())
         return self._do("take_picture", files, file=names[-1], camera=self._name())
-
-    @method("takePictures::m(issb)")
-    def take_pictures_over(self, count: int, folder: str, name: str, overwrite: bool) -> Any:
-        """Take several pictures, also in the place of others."""
-        return self.take_pictures(count, folder, name)
 
 
 class ALVideoRecorder(_Camera):
@@ -227,8 +157,8 @@ class ALVideoRecorder(_Camera):
         super().__init__(robot)
         self._asked = self._name_asked = self._failed = ""
 
-    @method("startRecording::v(ss)")
-    def start_recording(self, folder: str, name: str) -> Any:
+    @method("startRecording::v(ss)", "startRecording::v(ssb)")
+    def start_recording(self, folder: str, name: str, overwrite: bool = False) -> Any:
         """Begin a video."""
         if self.is_recording():
             raise CallFailed("There is a video already that has to be stopped.")
@@ -238,11 +168,6 @@ class ALVideoRecorder(_Camera):
         self._asked = self._robot.ask(
             "record_video", self._on_end, file=name, seconds=RECORDING_S, camera=self._name()
         )
-
-    @method("startRecording::v(ssb)")
-    def start_recording_over(self, folder: str, name: str, overwrite: bool) -> Any:
-        """Begin a video, also in the place of another one."""
-        return self.start_recording(folder, name)
 
     @method("stopRecording::m()")
     def stop_recording(self) -> Any:

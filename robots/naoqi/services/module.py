@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Generator
+from string import Formatter
 from typing import Any
 
 from faults import Text
@@ -90,6 +91,57 @@ def kept(setter: str, getter: str, default: Any, choices: Collection[Any] = ()) 
         return self._kept.get(name, default)
 
     return change, read
+
+
+def kept_each(
+    setter: str,
+    getter: str,
+    default: Any,
+    *,
+    of_all: str = "",
+    known: Callable[[Any, str], object] = lambda self, name: None,
+) -> Kept:
+    """Return a pair of methods for values that the robot remembers by a name.
+
+    What has none has that of the name ``of_all``. ``known`` raises CallFailed for strange names.
+    """
+    what = getter.partition("::")[0]
+    answer = True if "::b" in setter else None
+
+    @method(setter)
+    def change(self: Module, name: str, value: Any) -> Any:
+        known(self, name)
+        self._kept[f"{what} {name}"] = value
+        return answer
+
+    @method(getter)
+    def read(self: Module, name: str) -> Any:
+        known(self, name)
+        return self._kept.get(f"{what} {name}", self._kept.get(f"{what} {of_all}", default))
+
+    return change, read
+
+
+def always(value: Any, *signatures: str) -> Callable[..., Any]:
+    """Return a method that answers the same to every call."""
+
+    @method(*signatures)
+    def answer(self: Module, *given: Any) -> Any:
+        return value
+
+    return answer
+
+
+def one_of(value: Any, choices: Collection[Any], sentence: str) -> Any:
+    """Return a value that is one of the choices. Raises CallFailed with the sentence.
+
+    The sentence has two places, for the value and for all choices, or only the first one.
+    """
+    if value not in choices:
+        places = [place for _, place, _, _ in Formatter().parse(sentence) if place]
+        told = (value, ", ".join(map(str, choices)))
+        raise CallFailed(sentence, **dict(zip(places, told, strict=False)))
+    return value
 
 
 # Several actions one after the other, as one call of a program: it waits for the last one.

@@ -9,11 +9,10 @@ import numpy as np
 from robots.body.body import Body
 from robots.body.limbs import Limb
 from robots.body.pose import VirtualRobot
-from robots.naoqi.wire.errors import CallFailed
 from robots.naoqi.wire.service import method
 
 from .arguments import within
-from .module import Module
+from .module import Module, one_of
 
 UNKNOWN = "Unknown"
 FAMILIES = {"standing": "Standing", "sitting": "Sitting", "crouching": "Crouching"}
@@ -60,23 +59,13 @@ def family_of(robot: VirtualRobot) -> str:
 class ALRobotPosture(Module):
     """Goes to postures, and tells which one it is in."""
 
-    @method("goToPosture::b(sf)")
+    @method("goToPosture::b(sf)", "applyPosture::b(sf)")
     def go_to_posture(self, name: str, speed: float) -> Any:
         """Go to a posture, through others where it must; wait for the end."""
         pace = within(speed, 0.0, 1.0, "The speed") / USUAL_SPEED
         known = posture_names(self._robot.robot.body)
-        if name not in known:
-            raise CallFailed(
-                "There is no posture “{name}”. Possible: {known}.",
-                name=name,
-                known=", ".join(known),
-            )
+        one_of(name, known, "There is no posture “{name}”. Possible: {known}.")
         return self._do("do", True, stopped=False, posture=name, pace=max(pace, SLOWEST_PACE))
-
-    @method("applyPosture::b(sf)")
-    def apply_posture(self, name: str, speed: float) -> Any:
-        """Go to a posture; this robot goes through others where it must, which is safer."""
-        return self.go_to_posture(name, speed)
 
     @method("setMaxTryNumber::v(i)")
     def set_max_try_number(self, tries: int) -> None:
