@@ -8,21 +8,13 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 from PySide6.QtCore import QLineF, QPointF, Qt
-from PySide6.QtGui import (
-    QBrush,
-    QColor,
-    QPainter,
-    QPainterPath,
-    QPen,
-    QPolygonF,
-    QRadialGradient,
-    QTransform,
-)
+from PySide6.QtGui import QColor, QPainter, QPainterPath, QPen, QPolygonF, QTransform
 
 from nep_studio.ui.theme.colours import Theme
 
 from .camera import Lens
 from .scene import FloorPlace
+from .shading import fading
 
 Array = NDArray[np.float64]
 GRID_M, REACH_M = 0.25, 3.0
@@ -32,20 +24,25 @@ POOL_M, POOL_DARK, POOL_LIGHT = 1.6, 0.13, 0.6
 
 def paint_grid(painter: QPainter, lens: Lens, theme: Theme) -> None:
     """Paint lines on the floor around what is looked at, paler the farther they are."""
-    eye = lens.camera.eye
-    if eye[2] <= 0.02:
+    if lens.eye[2] <= 0.02:
         return
     _paint_pool(painter, lens, theme)
     x, y = (round(value / GRID_M) * GRID_M for value in lens.camera.target[:2])
     reach = min(REACH_M, max(1.0, 1.4 * lens.camera.distance))
     steps = np.arange(-reach, reach + GRID_M / 2, GRID_M)
     half = np.sqrt(np.maximum(reach * reach - steps * steps, 0))
-    along_x = np.stack([_points(x - half, y + steps), _points(x + half, y + steps)], axis=1)
-    along_y = np.stack([_points(x + steps, y - half), _points(x + steps, y + half)], axis=1)
-    ends = _before_eye(np.concatenate([along_x, along_y]), lens)
-    if len(ends):
-        painter.setPen(QPen(_fading(lens, theme, (x, y), reach), 1.0))
-        painter.drawLines([QLineF(a, b, c, d) for a, b, c, d in ends.tolist()])
+    along_x = [((x - h, y + s, 0.0), (x + h, y + s, 0.0)) for s, h in zip(steps, half, strict=True)]
+    along_y = [((x + s, y - h, 0.0), (x + s, y + h, 0.0)) for s, h in zip(steps, half, strict=True)]
+    ends = _before_eye(np.array(along_x + along_y), lens)
+    if not len(ends):
+        return
+    middle = np.array([x, y, 0.0])
+    depth = max(float(lens.depths(middle)), NEAR_M)
+    at = QPointF(*lens.project(middle).tolist())
+    stops = ((0.0, 1.0), (0.45, 0.7), (1.0, 0.0))
+    brush = fading(theme.colour("canvas_dot"), stops, lens.scale * reach / depth, at)
+    painter.setPen(QPen(brush, 1.0))
+    painter.drawLines([QLineF(a, b, c, d) for a, b, c, d in ends.tolist()])
 
 
 def _paint_pool(painter: QPainter, lens: Lens, theme: Theme) -> None:
@@ -65,19 +62,12 @@ def _paint_pool(painter: QPainter, lens: Lens, theme: Theme) -> None:
         return
     pool = QPainterPath()
     pool.addEllipse(QPointF(0, 0), 1, 1)
-    colour = QColor(Qt.GlobalColor.white)
-    gradient = QRadialGradient(QPointF(0, 0), 1)
-    for at, share in ((0.0, 1.0), (0.5, 0.62), (1.0, 0.0)):
-        colour.setAlphaF(share * (POOL_DARK if theme.is_dark else POOL_LIGHT))
-        gradient.setColorAt(at, colour)
+    most = POOL_DARK if theme.is_dark else POOL_LIGHT
+    light = fading(QColor(Qt.GlobalColor.white), ((0.0, most), (0.5, 0.62 * most), (1.0, 0.0)))
     plain = QTransform(painter.transform())
     painter.setTransform(laid * plain)
-    painter.fillPath(pool, gradient)
+    painter.fillPath(pool, light)
     painter.setTransform(plain)
-
-
-def _points(x: Array, y: Array) -> Array:
-    return np.stack(np.broadcast_arrays(x, y, 0.0), axis=1)
 
 
 def _before_eye(ends: Array, lens: Lens) -> Array:
@@ -90,18 +80,6 @@ def _before_eye(ends: Array, lens: Lens) -> Array:
         ends[behind, one] += share[:, None] * (ends[behind, other] - ends[behind, one])
     pixels: Array = lens.project(ends).reshape(-1, 4)
     return pixels
-
-
-def _fading(lens: Lens, theme: Theme, middle: FloorPlace, reach: float) -> QBrush:
-    """A brush that is the grid's colour in the middle, and nothing where the grid ends."""
-    centre = lens.project(np.array([*middle, 0.0]))
-    depth = max(float(lens.depths(np.array([*middle, 0.0]))), NEAR_M)
-    colour = theme.colour("canvas_dot")
-    gradient = QRadialGradient(QPointF(*centre.tolist()), lens.scale * reach / depth)
-    for at, alpha in ((0.0, 1.0), (0.45, 0.7), (1.0, 0.0)):
-        colour.setAlphaF(alpha)
-        gradient.setColorAt(at, colour)
-    return QBrush(gradient)
 
 
 def paint_path(painter: QPainter, lens: Lens, theme: Theme, path: Sequence[FloorPlace]) -> None:

@@ -17,7 +17,7 @@ from .drawing import NoContext, OnGpu
 from .figure import Placed
 from .floor import paint_grid, paint_path
 from .gestures import head_of
-from .scene import Scene, SceneRobot, placed_thing, thing_colours
+from .scene import Scene, placed_thing, thing_colours
 from .shading import Shades, Shadow, cast_shadow
 from .silhouettes import polygons
 
@@ -120,13 +120,6 @@ def paint_bubble(painter: QPainter, bubble: Bubble, theme: Theme, font: QFont) -
     line = QFontMetricsF(font).height()
     painter.setPen(QPen(theme.colour("field_line"), max(1.2, line / 13)))
     painter.setBrush(theme.colour("field"))
-    painter.drawPath(_outline(bubble, line))
-    painter.setPen(theme.colour("field_text"))
-    painter.setFont(font)
-    painter.drawText(bubble.box, FLAGS, bubble.words)
-
-
-def _outline(bubble: Bubble, line: float) -> QPainterPath:
     box, tip = bubble.box, bubble.tip
     body, tail = QPainterPath(), QPainterPath()
     body.addRoundedRect(box, line * 0.55, line * 0.55)
@@ -140,7 +133,10 @@ def _outline(bubble: Bubble, line: float) -> QPainterPath:
     short = foot + way * (1 - min(0.25, line * 0.35 / far))
     tail.addPolygon(QPolygonF([foot + aside, short, foot - aside]))
     tail.closeSubpath()
-    return body.united(tail)
+    painter.drawPath(body.united(tail))
+    painter.setPen(theme.colour("field_text"))
+    painter.setFont(font)
+    painter.drawText(bubble.box, FLAGS, bubble.words)
 
 
 class ScenePainter:
@@ -153,11 +149,6 @@ class ScenePainter:
         self._shadows: dict[object, tuple[Placed, Shadow | None]] = {}
         self._bodies: tuple[object, Bodies | None] = (None, None)
         self.bubbles: list[Bubble] = []
-
-    @property
-    def theme(self) -> Theme:
-        """The theme in use."""
-        return self.shades.theme
 
     def use_theme(self, theme: Theme) -> None:
         """Paint in the colours of another theme from now on."""
@@ -172,7 +163,7 @@ class ScenePainter:
             ratio = painter.device().devicePixelRatioF()
             painter.drawPixmap(0, 0, self._grid(lens, ratio))
         for robot in scene.robots:
-            paint_path(painter, lens, self.theme, robot.path)
+            paint_path(painter, lens, self.shades.theme, robot.path)
         groups = groups_of(scene)
         kept: dict[object, tuple[Placed, Shadow | None]] = {}
         for placed, dress in groups:
@@ -192,7 +183,7 @@ class ScenePainter:
         self._paint_marks(painter, scene, lens)
         self.bubbles = _bubbles(scene, lens, font) if scene.has_bubbles else []
         for bubble in self.bubbles:
-            paint_bubble(painter, bubble, self.theme, font)
+            paint_bubble(painter, bubble, self.shades.theme, font)
 
     def bodies_of(self, scene: Scene, lens: Lens) -> Bodies | None:
         """All parts as a lens sees them; kept until something moves."""
@@ -222,7 +213,7 @@ class ScenePainter:
             sheet.fill(Qt.GlobalColor.transparent)
             painter = QPainter(sheet)
             painter.setRenderHint(QPainter.RenderHint.Antialiasing)
-            paint_grid(painter, lens, self.theme)
+            paint_grid(painter, lens, self.shades.theme)
             painter.end()
             self._floor = key, sheet
         return self._floor[1]
@@ -233,10 +224,11 @@ class ScenePainter:
         bodies = self.bodies_of(scene, lens) if numbers else None
         if bodies is None:
             return
-        colour = self.theme.colour("glow" if scene.marked.is_pressed else "focus")
+        colour = self.shades.theme.colour("glow" if scene.marked.is_pressed else "focus")
         painter.setBrush(Qt.BrushStyle.NoBrush)
         visible = [i for i in bodies.order if i in numbers]
-        for polygon in polygons(bodies.seen.grown(2.0)[visible]) if visible else []:
+        rims = (bodies.seen.outlines + 2.0 * bodies.seen.ways)[visible]
+        for polygon in polygons(rims) if visible else []:
             painter.setPen(QPen(colour, 2.0))
             painter.drawConvexPolygon(polygon)
 
@@ -274,16 +266,12 @@ def _marked_parts(scene: Scene) -> set[int]:
 
 
 def _bubbles(scene: Scene, lens: Lens, font: QFont) -> list[Bubble]:
-    said = [_said(robot, lens) for robot in scene.robots if robot.state.saying]
-    return placed_bubbles([one for one in said if one is not None], font, lens.width, lens.height)
-
-
-def _said(robot: SceneRobot, lens: Lens) -> Said | None:
-    """What a robot says, at its head; None behind the eye."""
-    head = head_of(robot)
-    depth = float(lens.depths(head))
-    if depth < 0.05:
-        return None
-    x, y = lens.project(head).tolist()
-    size = robot.figure.top_m * lens.scale / depth
-    return Said(robot.state.saying, QPointF(x, y), size * 0.55)
+    said = []
+    for robot in scene.robots:
+        head = head_of(robot)
+        depth = float(lens.depths(head))
+        if robot.state.saying and depth >= 0.05:
+            size = robot.figure.top_m * lens.scale / depth
+            at = QPointF(*lens.project(head).tolist())
+            said.append(Said(robot.state.saying, at, size * 0.55))
+    return placed_bubbles(said, font, lens.width, lens.height)
