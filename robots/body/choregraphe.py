@@ -61,14 +61,6 @@ class _Unknown(Exception):
     """Something that is neither a number, nor a text, nor a list of these."""
 
 
-def movement_lists(text: str) -> list[tuple[Value, Value, Value]]:
-    """Return the (names, times, keys) of each movement in a program, in their order."""
-    lists = _Lists()
-    for statement in _statements(text):
-        lists.take(statement)
-    return lists.movements()
-
-
 class _Lists:
     """The lists of a program so far."""
 
@@ -236,7 +228,11 @@ def read_choregraphe(text: str) -> Keyframes:
             "The text is too long for a movement: it has more than 2 million letters.",
             checklist=EXPORTING,
         )
-    found = movement_lists(text)
+    # The (names, times, keys) of each movement in a program, in their order
+    lists = _Lists()
+    for statement in _statements(text):
+        lists.take(statement)
+    found = lists.movements()
     if not found:
         raise KeyframesUnreadable(
             "The text has no joint names, times and keys in it.", checklist=EXPORTING

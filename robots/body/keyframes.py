@@ -90,7 +90,9 @@ class Keyframes:
         """Return the movement as seen in a mirror: left is right and right is left."""
         return Keyframes(
             {
-                _other_side(name): track.negated() if _turns_sideways(name) else track
+                ({"L": "R", "R": "L"}.get(name[0], name[0]) + name[1:]): track.negated()
+                if _turns_sideways(name)
+                else track
                 for name, track in self.tracks.items()
             }
         )
@@ -123,10 +125,6 @@ class Keyframes:
 def mirror_angle(name: str, angle: float) -> float:
     """Return the angle of the joint of this name on the other side, as seen in a mirror."""
     return -angle if _turns_sideways(name) else angle
-
-
-def _other_side(name: str) -> str:
-    return {"L": "R", "R": "L"}.get(name[0], name[0]) + name[1:]
 
 
 def _turns_sideways(name: str) -> bool:

@@ -38,7 +38,19 @@ class Skeleton:
         cross = np.array([_cross(joint.axis) for _, joint in turning]).reshape(-1, 4, 4)
         self._cross = self._place @ cross
         self._square = self._cross @ cross
-        self._levels = _levels([self.index[joint.parent] for _, joint in turning])
+        # Links and their parents, grouped by how many joints lie between them and the torso
+        parents = [self.index[joint.parent] for _, joint in turning]
+        depth = {0: 0}
+        while len(depth) <= len(parents):
+            for link, parent in enumerate(parents, start=1):
+                if parent in depth:
+                    depth[link] = depth[parent] + 1
+        deepest = max(depth.values())
+        levels = []
+        for level in range(1, deepest + 1):
+            links = [link for link in depth if depth[link] == level]
+            levels.append((np.array(links), np.array([parents[link - 1] for link in links])))
+        self._levels = levels
         self._load_shape()
 
     def _load_shape(self) -> None:
@@ -201,21 +213,6 @@ def _cross(axis: Vector) -> Frames:
     cross = np.zeros((4, 4))
     cross[:3, :3] = [[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]]
     return cross
-
-
-def _levels(parents: list[int]) -> list[tuple[NDArray[np.int_], NDArray[np.int_]]]:
-    """Return links and their parents, grouped by how many joints lie between them and the torso."""
-    depth = {0: 0}
-    while len(depth) <= len(parents):
-        for link, parent in enumerate(parents, start=1):
-            if parent in depth:
-                depth[link] = depth[parent] + 1
-    deepest = max(depth.values())
-    levels = []
-    for level in range(1, deepest + 1):
-        links = [link for link in depth if depth[link] == level]
-        levels.append((np.array(links), np.array([parents[link - 1] for link in links])))
-    return levels
 
 
 # The joint angles that put NAO's feet where they should be: inverse kinematics of its legs.

@@ -81,7 +81,13 @@ def keyframe_motion(
             longest_s=f"{LONGEST_S:.0f}",
         )
     columns = [body.index[name] for name in keyframes.tracks]
-    return _allowed(body, pose, columns, _sampled(body, pose, keyframes), notes)
+    times_s = ticks(keyframes.duration_s, TICK_S)
+    curves = []
+    for name, track in keyframes.tracks.items():
+        column = body.index[name]
+        start, fastest = float(pose[column]), float(body.max_speed[column])
+        curves.append(track_angles(track, start, times_s, fastest))
+    return _allowed(body, pose, columns, np.column_stack(curves), notes)
 
 
 def playable(
@@ -161,13 +167,3 @@ def _slowdown(body: Body, pose: Angles, keyframes: Keyframes) -> float:
         start, fastest = float(pose[column]), float(body.max_speed[column])
         worst = max(worst, peak_speed(track, start, fastest) / fastest)
     return worst * SPEED_MARGIN if worst > 1.0 else 1.0
-
-
-def _sampled(body: Body, pose: Angles, keyframes: Keyframes) -> Angles:
-    times_s = ticks(keyframes.duration_s, TICK_S)
-    curves = []
-    for name, track in keyframes.tracks.items():
-        column = body.index[name]
-        start, fastest = float(pose[column]), float(body.max_speed[column])
-        curves.append(track_angles(track, start, times_s, fastest))
-    return np.column_stack(curves)

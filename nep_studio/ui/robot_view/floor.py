@@ -99,15 +99,10 @@ def paint_path(painter: QPainter, lens: Lens, theme: Theme, path: Sequence[Floor
     painter.setPen(pen)
     painter.setBrush(Qt.BrushStyle.NoBrush)
     painter.drawPolyline(line)
-    paint_ring(painter, lens, colour, path[0], 0.03)
-
-
-def paint_ring(
-    painter: QPainter, lens: Lens, colour: QColor, middle: FloorPlace, radius: float
-) -> None:
-    """Paint a circle on the floor."""
+    # Paint a circle on the floor
+    middle = path[0]
     turns = np.linspace(0, 2 * math.pi, 40)
-    x, y = middle[0] + radius * np.cos(turns), middle[1] + radius * np.sin(turns)
+    x, y = middle[0] + 0.03 * np.cos(turns), middle[1] + 0.03 * np.sin(turns)
     places = np.stack([x, y, np.full_like(x, 0.001)], axis=1)
     if (lens.depths(places) > NEAR_M).all():
         painter.setPen(QPen(colour, 1.6))

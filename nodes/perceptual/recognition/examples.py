@@ -30,7 +30,16 @@ def varied(raw: Floats, seed: Sequence[int]) -> Floats:
     resting = turned[..., :3].mean(axis=1, keepdims=True)
     turned[..., :3] = resting + gain * (turned[..., :3] - resting)
     turned[..., 3:] *= gain
-    return _with_rhythm(turned, chance)
+    # Windows whose middle comes earlier or later; both ends stay
+    n = len(turned)
+    times = np.linspace(0.0, 1.0, POINTS)
+    shift = chance.uniform(-_RHYTHM, _RHYTHM, n) * np.cos(chance.uniform(0, np.pi, n))
+    at = np.clip(times + shift[:, None] * np.sin(np.pi * times), 0.0, 1.0) * (POINTS - 1)
+    before = np.minimum(at.astype(np.intp), POINTS - 2)
+    part = (at - before)[..., None]
+    each = np.arange(n)[:, None]
+    values: Floats = turned[each, before] * (1 - part) + turned[each, before + 1] * part
+    return values
 
 
 def _turns(chance: np.random.Generator, n: int) -> Floats:
@@ -43,19 +52,6 @@ def _turns(chance: np.random.Generator, n: int) -> Floats:
     cross = np.array([[zero, -z, y], [z, zero, -x], [-y, x, zero]]).transpose(2, 0, 1)
     turns: Floats = np.eye(3) + np.sin(angle) * cross + (1 - np.cos(angle)) * (cross @ cross)
     return turns
-
-
-def _with_rhythm(raw: Floats, chance: np.random.Generator) -> Floats:
-    """Windows whose middle comes earlier or later; both ends stay."""
-    n = len(raw)
-    times = np.linspace(0.0, 1.0, POINTS)
-    shift = chance.uniform(-_RHYTHM, _RHYTHM, n) * np.cos(chance.uniform(0, np.pi, n))
-    at = np.clip(times + shift[:, None] * np.sin(np.pi * times), 0.0, 1.0) * (POINTS - 1)
-    before = np.minimum(at.astype(np.intp), POINTS - 2)
-    part = (at - before)[..., None]
-    each = np.arange(n)[:, None]
-    values: Floats = raw[each, before] * (1 - part) + raw[each, before + 1] * part
-    return values
 
 
 Flags = NDArray[np.bool_]

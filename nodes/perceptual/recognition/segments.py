@@ -106,7 +106,18 @@ class MovementFinder:
         if len(self._t) < 3:
             return []
         self._measure(len(self._t) - round(_SLOW_S / 2 * _rate_hz(self._t)))
-        return self._take_over()
+        # Take what is over from what is open
+        t, energy = self._open_t, self._open
+        found: list[Movement] = []
+        for first, last in self._merged(t, energy, _spans(energy > self._edge())):
+            is_endless = t[last] - t[first] > ENDLESS_S
+            if not is_endless and not self._is_over(t[last:], energy[last:]):
+                self._forget_before(float(t[first]))
+                return found
+            found += self._judged(t[first : last + 1], energy[first : last + 1])
+        if len(t):
+            self._forget_before(float(t[-1]))
+        return found
 
     def finish(self) -> list[Movement]:
         """Give what is not over yet: the stream ends here."""
@@ -144,20 +155,6 @@ class MovementFinder:
         if not strength:
             return max(_LEAST_EDGE, 1.5 * rest)
         return max(_LEAST_EDGE, rest + _EDGE * max(strength - rest, 0.0))
-
-    def _take_over(self) -> list[Movement]:
-        """Take what is over from what is open."""
-        t, energy = self._open_t, self._open
-        found: list[Movement] = []
-        for first, last in self._merged(t, energy, _spans(energy > self._edge())):
-            is_endless = t[last] - t[first] > ENDLESS_S
-            if not is_endless and not self._is_over(t[last:], energy[last:]):
-                self._forget_before(float(t[first]))
-                return found
-            found += self._judged(t[first : last + 1], energy[first : last + 1])
-        if len(t):
-            self._forget_before(float(t[-1]))
-        return found
 
     def _is_over(self, t: Floats, energy: Floats) -> bool:
         """Whether nothing that follows can still be part of a movement that ended at ``t[0]``."""

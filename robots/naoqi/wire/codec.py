@@ -250,12 +250,8 @@ Write = Callable[[bytearray, Any, ObjectHost | None], None]
 def encode(type_text: str, value: Any, host: ObjectHost | None = None) -> bytes:
     """Return the bytes of a value as this type. Raises WrongArguments when it is not of it."""
     out = bytearray()
-    write_value(writer_of(type_text), out, value, host)
-    return bytes(out)
-
-
-def write_value(write: Write, out: bytearray, value: Any, host: ObjectHost | None) -> None:
-    """Write one value. Raises WrongArguments, whatever the value is."""
+    # Write one value. Raises WrongArguments, whatever the value is
+    write = writer_of(type_text)
     try:
         write(out, value, host)
     except (struct.error, TypeError, ValueError, OverflowError, RecursionError) as problem:
@@ -263,6 +259,7 @@ def write_value(write: Write, out: bytearray, value: Any, host: ObjectHost | Non
         raise WrongArguments(
             "{text} is not a value for this: {problem}.", text=text[:200], problem=problem
         ) from problem
+    return bytes(out)
 
 
 @lru_cache(maxsize=1024)
