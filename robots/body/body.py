@@ -364,13 +364,7 @@ PARTS: dict[str, tuple[str, ...]] = {part: (part,) for part in SINGLE_PARTS} | {
     "legs": ("left_leg", "right_leg"),
     "body": SINGLE_PARTS,
 }
-PLAIN_NAMES = {
-    "head": "head",
-    "left_arm": "left arm",
-    "right_arm": "right arm",
-    "left_leg": "left leg",
-    "right_leg": "right leg",
-}
+PLAIN_NAMES = {part: part.replace("_", " ") for part in SINGLE_PARTS}
 
 
 def part_of(body: Body, joint: str) -> str:

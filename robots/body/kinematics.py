@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from itertools import product
 
 import numpy as np
 from numpy.typing import NDArray
@@ -180,25 +181,15 @@ def rotation(roll: float, pitch: float, yaw: float) -> Frames:
     return whole
 
 
-_CORNERS = np.array(
-    [*np.eye(3), *-np.eye(3)]
-    + [
-        np.array([x, y, z]) / math.sqrt(3.0)
-        for x in (-1.0, 1.0)
-        for y in (-1.0, 1.0)
-        for z in (-1.0, 1.0)
-    ]
+_CORNERS = np.vstack(
+    [np.eye(3), -np.eye(3), np.array(list(product((-1.0, 1.0), repeat=3))) / math.sqrt(3.0)]
 )
 """Directions in which a round shape is taken to reach out."""
 
 
 def _outline(link: Link) -> list[list[float]]:
-    round_points = [
-        (np.array([x, y, z]) + radius * corner).tolist()
-        for x, y, z, radius in link.hull_m
-        for corner in _CORNERS
-    ]
-    return [*round_points, *(list(point) for point in link.sole_m)]
+    hull = [(np.array(at) + radius * _CORNERS).tolist() for *at, radius in link.hull_m]
+    return [*(point for points in hull for point in points), *map(list, link.sole_m)]
 
 
 def _at_rest(joint: Joint) -> Frames:

@@ -22,19 +22,23 @@ MOST_TIPPINGS = 60
 
 def settled(points: Points, turn: Rotation) -> Rotation:
     """Return how a body is turned once it has tipped until it is steady."""
-    turn, _ = tipped(points, turn, math.inf)
-    return turn
+    return tipped(points, turn, math.inf)[0]
 
 
 def tipped(points: Points, turn: Rotation, at_most_rad: float) -> tuple[Rotation, float]:
-    """Let a body tip by at most an angle; return how it is turned, and how much of that is left.
+    """Let a body tip by at most an angle (inf: until it is steady).
+
+    Return how it is turned, and how much of that angle is left.
 
     Something is left when the body has become steady.
     """
     left_rad = at_most_rad
     for _ in range(MOST_TIPPINGS):
         places = points @ turn.T
-        nearest = nearest_support(places)
+        # Of the body's support on the floor what is nearest to below its centre
+        heights = places[:, 2]
+        lowest = float(heights.min())
+        nearest = np.array([*nearest_in_hull(places[heights < lowest + TOUCHING_M, :2]), lowest])
         away = math.hypot(nearest[0], nearest[1])
         if away < STEADY_M:
             return turn, left_rad
@@ -49,30 +53,16 @@ def tipped(points: Points, turn: Rotation, at_most_rad: float) -> tuple[Rotation
         x, y = towards
         cosine, sine = math.cos(angle), math.sin(angle)
         rest = 1.0 - cosine
-        turn = (
-            np.array(
-                [
-                    [1.0 - rest * x * x, -rest * x * y, sine * x],
-                    [-rest * x * y, 1.0 - rest * y * y, sine * y],
-                    [-sine * x, -sine * y, cosine],
-                ]
-            )
-        ) @ turn
+        tip = [
+            [1.0 - rest * x * x, -rest * x * y, sine * x],
+            [-rest * x * y, 1.0 - rest * y * y, sine * y],
+            [-sine * x, -sine * y, cosine],
+        ]
+        turn = np.array(tip) @ turn
         left_rad -= angle
         if left_rad <= 0.0:
             return turn, 0.0
     return turn, left_rad
-
-
-def nearest_support(places: Points) -> Points:
-    """Return the place of the body's support on the floor that is nearest to below its centre.
-
-    Its x and y are 0 where the body is steady. ``places``: the points, turned as the body is.
-    """
-    heights = places[:, 2]
-    lowest = float(heights.min())
-    x, y = nearest_in_hull(places[heights < lowest + TOUCHING_M, :2])
-    return np.array([x, y, lowest])
 
 
 def nearest_in_hull(feet: Points) -> tuple[float, float]:

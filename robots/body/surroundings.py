@@ -31,10 +31,11 @@ def bump(robot: VirtualRobot, way: Angles) -> str:
     """Return what the robot runs into on its way, "" for nothing; bumpers that touch it feel it."""
     robot.bumped = frozenset()
     for thing in robot.things:
-        if thing.place[2] > LOW_M or not _is_near(robot, thing):
+        far_m = distance_m(thing, float(robot.base[0]), float(robot.base[1]))
+        if thing.place[2] > LOW_M or far_m >= 2.0 * HALF_WIDTH_M:
             continue
         touched = {name for name, points in BUMPERS.items() if _touches(robot, thing, points)}
-        if touched or (_body_touches(robot, thing) and _approaches(robot, thing, way)):
+        if touched or (far_m < BODY_M and _approaches(robot, thing, way)):
             robot.bumped = frozenset(touched)
             return PLAIN_KINDS[thing.kind]
     return ""
@@ -90,11 +91,6 @@ def seen_from(thing: Thing, places: Points) -> Points:
     return np.column_stack([dx * cosine + dy * sine, dy * cosine - dx * sine])
 
 
-def _is_near(robot: VirtualRobot, thing: Thing) -> bool:
-    x, y, _ = robot.base
-    return distance_m(thing, float(x), float(y)) < 2.0 * HALF_WIDTH_M
-
-
 def _touches(
     robot: VirtualRobot, thing: Thing, points: tuple[tuple[str, tuple[float, float]], ...]
 ) -> bool:
@@ -105,11 +101,6 @@ def _touches(
         if distance_m(thing, float(x), float(y)) <= 0.0:
             return True
     return False
-
-
-def _body_touches(robot: VirtualRobot, thing: Thing) -> bool:
-    x, y, _ = robot.base
-    return distance_m(thing, float(x), float(y)) < BODY_M
 
 
 def _approaches(robot: VirtualRobot, thing: Thing, way: Angles) -> bool:

@@ -42,7 +42,7 @@ from .reflexes import (
     sunk_sentence,
 )
 from .repertoire import limbs_of, task_of
-from .schedule import Running, Task, advance
+from .schedule import Running, Task, advance, is_over
 from .stance import TOUCHING_M, Stance
 from .surroundings import Notice, distance_word, sonar_m
 
@@ -382,7 +382,7 @@ class VirtualDriver:
     def _tick(self) -> list[Ended]:
         angles = self.robot.angles.copy()
         self._use_battery(TICK_S)
-        self._braking = [one for one in self._braking if not _is_over(one.task)]
+        self._braking = [one for one in self._braking if not is_over(one.task)]
         ended = [end for name in tuple(self._running) if (end := advance(self._running, name))]
         if not self._braking:
             self._running |= self._held_up
@@ -434,12 +434,3 @@ class VirtualDriver:
             self._running.pop(name).task.close()
         self._braking = [Running(task, limbs)]
         return [Ended(name, "failed", fault_of(why)) for name in moving]
-
-
-def _is_over(task: Task) -> bool:
-    """Advance a task by one tick, and return whether that was its end."""
-    try:
-        next(task)
-    except StopIteration:
-        return True
-    return False

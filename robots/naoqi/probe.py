@@ -131,7 +131,7 @@ def _knock(where: list[Any], address: Address, robot: str) -> None:
         with socket.create_connection(where[0][4][:2], timeout=LIMIT_S):
             return
     except OSError as error:
-        raise _failed("port", link.no_answer(robot, plain_address(address))) from error
+        raise _failed("port", link.no_answer(robot=robot, place=plain_address(address))) from error
 
 
 def _connect(address: Address, login: Login | None, robot: str) -> Session:
@@ -139,11 +139,11 @@ def _connect(address: Address, login: Login | None, robot: str) -> Session:
     try:
         return open_session(address, login)
     except LoginRefused as error:
-        raise _failed("login", link.login_refused(robot, place)) from error
+        raise _failed("login", link.login_refused(robot=robot, place=place)) from error
     except NeedsTls as error:
-        raise _failed("login", link.needs_tls(robot, place)) from error
+        raise _failed("login", link.needs_tls(robot=robot, place=place)) from error
     except NaoqiError as error:
-        raise _failed("naoqi", link.not_naoqi(robot, place)) from error
+        raise _failed("naoqi", link.not_naoqi(robot=robot, place=place)) from error
 
 
 def _failed(step: StepName, fault: Fault) -> _Failed:

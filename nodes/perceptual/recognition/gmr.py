@@ -140,7 +140,7 @@ class Curves:
         asked = moving >= _WORTH_A_LOOK
         distances = self.aligned_distances(windows.signals[asked])
         sharpness = _SHARPNESS / windows.signals.shape[2]
-        scores[asked] = moving[asked, None] * _shares(-sharpness * distances)
+        scores[asked] = moving[asked, None] * _normalised(-sharpness * distances)
         return scores
 
     def arrays(self) -> dict[str, NDArray[Any]]:
@@ -204,6 +204,15 @@ class Curves:
         return costs
 
 
+def with_prefix(arrays: Mapping[str, NDArray[Any]], prefix: str) -> dict[str, NDArray[Any]]:
+    """The arrays whose names begin so, without that beginning."""
+    return {
+        name.removeprefix(prefix): array
+        for name, array in arrays.items()
+        if name.startswith(prefix)
+    }
+
+
 @dataclass(frozen=True)
 class Gmr:
     """Curves that tell which gesture it is, and trees that tell whether it is one."""
@@ -226,11 +235,7 @@ class Gmr:
         cls, arrays: Mapping[str, NDArray[Any]], gestures: int, channels: Channels
     ) -> Gmr:
         """A recogniser from a model file; ValueError or KeyError when its parts do not fit."""
-        gate = {
-            name.removeprefix("gate."): array
-            for name, array in arrays.items()
-            if name.startswith("gate.")
-        }
+        gate = with_prefix(arrays, "gate.")
         curves = Curves.from_arrays(arrays, gestures, channels.signals)
         return cls(curves, Trees.from_arrays(gate, 1, feature_count(channels)))
 
@@ -293,12 +298,6 @@ def _fit_curve(curves: Floats) -> tuple[Floats, Floats, Floats]:
     lower = np.linalg.cholesky(covariance)
     log_det = 2 * np.log(np.einsum("tii->ti", lower)).sum(axis=1).mean()
     return mean, np.linalg.inv(lower), log_det
-
-
-def _shares(logarithms: Floats) -> Floats:
-    parts = np.exp(logarithms - logarithms.max(axis=1, keepdims=True))
-    shares: Floats = parts / parts.sum(axis=1, keepdims=True)
-    return shares
 
 
 _BAND = 2 * _SLACK + 1

@@ -11,6 +11,7 @@ import zipfile
 import zlib
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
+from math import prod
 from pathlib import Path
 from typing import Any, Literal, Protocol
 
@@ -32,7 +33,7 @@ from .features import (
     fitting,
     window_lengths,
 )
-from .gmr import Both, Gmr
+from .gmr import Both, Gmr, with_prefix
 from .streams import LONGEST_S, RATE_HZ, SHORTEST_S, Floats, is_gesture_name
 from .trees import Trees
 
@@ -332,27 +333,13 @@ def _array(content: bytes) -> NDArray[Any]:
     if version != (1, 0):
         raise ValueError(f"arrays of version {version} are not read")
     shape, _, kind = np.lib.format.read_array_header_1_0(file)
-    if kind.kind not in "biuf" or kind.itemsize * _product(shape) > len(content):
+    if kind.kind not in "biuf" or kind.itemsize * prod(max(0, size) for size in shape) > len(
+        content
+    ):
         raise ValueError("an array does not hold what it claims")
     file.seek(0)
     array: NDArray[Any] = np.lib.format.read_array(file, allow_pickle=False)
     return array
-
-
-def _product(shape: tuple[int, ...]) -> int:
-    total = 1
-    for size in shape:
-        total *= max(0, size)
-    return total
-
-
-def with_prefix(arrays: Mapping[str, NDArray[Any]], prefix: str) -> dict[str, NDArray[Any]]:
-    """The arrays whose names begin so, without that beginning."""
-    return {
-        name.removeprefix(prefix): array
-        for name, array in arrays.items()
-        if name.startswith(prefix)
-    }
 
 
 # Gesture models in files: numbers and plain text, never code.

@@ -200,9 +200,18 @@ class MovementFinder:
 
 def find_movements(t: Floats, acc: Floats, gyr: Floats | None) -> list[Movement]:
     """All movements of a recording, as they would be found while it is made."""
-    finder = MovementFinder()
+    return _all_of(MovementFinder(), max(1, round(_rate_hz(t) / 10)), t, acc, gyr)
+
+
+def _all_of(
+    finder: MovementFinder | PerformanceFinder,
+    step: int,
+    t: Floats,
+    acc: Floats,
+    gyr: Floats | None,
+) -> list[Movement]:
+    """All that is found in a recording that is heard ``step`` samples at a time."""
     found: list[Movement] = []
-    step = max(1, round(_rate_hz(t) / 10))
     for at in range(0, len(t), step):
         part = slice(at, at + step)
         found += finder.hear(t[part], acc[part], None if gyr is None else gyr[part])
@@ -352,12 +361,7 @@ class PerformanceFinder:
 
 def find_performances(t: Floats, acc: Floats, gyr: Floats | None) -> list[Movement]:
     """All performances of a recording, as they would be found while it is made."""
-    finder = PerformanceFinder()
-    found: list[Movement] = []
-    for at in range(0, len(t), 5):
-        part = slice(at, at + 5)
-        found += finder.hear(t[part], acc[part], None if gyr is None else gyr[part])
-    return found + finder.finish()
+    return _all_of(PerformanceFinder(), 5, t, acc, gyr)
 
 
 def _gesture_in(parts: list[Movement]) -> Movement:

@@ -9,21 +9,21 @@ import struct
 import time
 import tomllib
 import uuid
-from collections.abc import Callable, Iterable, Mapping
-from functools import cached_property
+from collections.abc import Iterable, Mapping
+from functools import cached_property, partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Literal
 
 import msgspec
 
-from faults import Text, Words, text_of
+from faults import Text, text_of
 from nep_core.errors import NodeStartError
 from nodes.resources import resource_folder
 from nodes.sensory.phone_page.server import certificate_folder
 from nodes.sensory.reading import G_M_S2, Reading, Vector
 
 from .connector import Arrived, Settings
-from .servers import Background
+from .servers import BackgroundConnector
 
 if TYPE_CHECKING:
     from bleak import BleakClient
@@ -220,16 +220,16 @@ UNKNOWN = (
 )
 
 
-class BluetoothConnector:
+class BluetoothConnector(BackgroundConnector):
     """Looks for a device, listens to it, and looks again when it is gone.
 
     ``address`` in the settings is its name or Bluetooth address; empty: any that is known.
     """
 
     def __init__(self, settings: Settings, known: Mapping[str, Profile] | None = None) -> None:
+        super().__init__(self._follow)
         self._wanted = settings.address.strip()
         self._known = known
-        self._background = Background(self._follow)
 
     @property
     def where(self) -> Text:
@@ -262,27 +262,20 @@ class BluetoothConnector:
             self._known = profiles()
         self._background.start()
 
-    def readings(self, until_s: float) -> list[Arrived]:
-        """What the device has sent up to then."""
-        return self._background.take(until_s)
-
-    def close(self) -> None:
-        """Leave the device."""
-        self._background.stop()
-
     async def _follow(self) -> None:
         from bleak import BleakScanner
         from bleak.exc import BleakError
 
+        here = self._wanted or "Bluetooth"
         while True:
             try:
                 device = await BleakScanner.find_device_by_filter(self._is_wanted, SEARCH_S)
                 if device is None:
-                    self._say(text_of(NOT_FOUND, wanted=self._thing))
+                    self._say(text_of(NOT_FOUND, wanted=self._thing), here)
                 else:
                     await self._listen(device)
             except (BleakError, OSError, EOFError, TimeoutError) as error:
-                self._say(text_of(OFF, reason=str(error) or type(error).__name__))
+                self._say(text_of(OFF, reason=str(error) or type(error).__name__), here)
             await asyncio.sleep(AGAIN_S)
 
     def _is_wanted(self, device: BLEDevice, told: AdvertisementData) -> bool:
@@ -322,24 +315,14 @@ class BluetoothConnector:
         for write in profile.writes:
             await client.write_gatt_char(write.uuid, bytes.fromhex(write.bytes), response=True)
         for characteristic in profile.characteristics:
-            hear = self._hearing(Decoder(characteristic), name)
+            hear = partial(self._hear, Decoder(characteristic), name)
             await client.start_notify(characteristic.uuid, hear)
 
-    def _hearing(
-        self, decoder: Decoder, name: str
-    ) -> Callable[[BleakGATTCharacteristic, bytearray], None]:
-        def hear(_characteristic: BleakGATTCharacteristic, data: bytearray) -> None:
-            readings = decoder.readings(bytes(data))
-            if readings is None:
-                self._say(text_of(LEFT_OUT, name=name), name)
-            else:
-                self._background.put(Arrived(name, readings, time.monotonic()))
-
-        return hear
-
-    def _say(self, trouble: Words, sender: str = "") -> None:
-        self._background.put(
-            Arrived(
-                sender or self._wanted or "Bluetooth", arrived_s=time.monotonic(), trouble=trouble
-            )
-        )
+    def _hear(
+        self, decoder: Decoder, name: str, _of: BleakGATTCharacteristic, data: bytearray
+    ) -> None:
+        readings = decoder.readings(bytes(data))
+        if readings is None:
+            self._say(text_of(LEFT_OUT, name=name), name)
+        else:
+            self._background.put(Arrived(name, readings, time.monotonic()))

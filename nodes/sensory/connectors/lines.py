@@ -39,21 +39,23 @@ class Client:
         return whole
 
 
-class TcpConnector:
-    """A server for lines: many may connect, the node follows one of them."""
+class _LinesConnector:
+    """A door of this computer by which lines come in."""
+
+    is_stream = False
 
     def __init__(self, settings: Settings) -> None:
         self._settings = settings
-        self._selector: selectors.BaseSelector | None = None
         self._door: socket.socket | None = None
-        self._clients: dict[socket.socket, Client] = {}
         self._senders = LineSenders(settings.columns)
 
     @property
     def where(self) -> Text:
         """What the node is ready for."""
         return text_of(
-            "waits for a watch on TCP port {port} ({where})",
+            "waits for a watch on TCP port {port} ({where})"
+            if self.is_stream
+            else "waits for a watch on UDP port {port} ({where})",
             port=self._settings.port,
             where=self._settings.who,
         )
@@ -62,6 +64,23 @@ class TcpConnector:
     def missing(self) -> Text:
         """What to check when nothing has arrived."""
         return missing_words(self._settings, "the app")
+
+    def close(self) -> None:
+        """Close the port."""
+        if self._door is not None:
+            self._door.close()
+            self._door = None
+
+
+class TcpConnector(_LinesConnector):
+    """A server for lines: many may connect, the node follows one of them."""
+
+    is_stream = True
+
+    def __init__(self, settings: Settings) -> None:
+        super().__init__(settings)
+        self._selector: selectors.BaseSelector | None = None
+        self._clients: dict[socket.socket, Client] = {}
 
     def open(self) -> None:
         """Open the port; raises PortTaken, and ParameterError for columns that are none."""
@@ -90,9 +109,8 @@ class TcpConnector:
             self._leave(client)
         if self._selector is not None:
             self._selector.close()
-        if self._door is not None:
-            self._door.close()
-        self._selector = self._door = None
+            self._selector = None
+        super().close()
 
     def _let_in(self) -> list[Arrived]:
         assert self._door is not None and self._selector is not None
@@ -166,27 +184,8 @@ _MOST_PACKETS = 500  # in one batch; a flood beyond that is left to the system, 
 _PACKET_BYTES = 65_536
 
 
-class UdpConnector:
+class UdpConnector(_LinesConnector):
     """Packets of one or more lines each; every address is a sender."""
-
-    def __init__(self, settings: Settings) -> None:
-        self._settings = settings
-        self._door: socket.socket | None = None
-        self._senders = LineSenders(settings.columns)
-
-    @property
-    def where(self) -> Text:
-        """What the node is ready for."""
-        return text_of(
-            "waits for a watch on UDP port {port} ({where})",
-            port=self._settings.port,
-            where=self._settings.who,
-        )
-
-    @property
-    def missing(self) -> Text:
-        """What to check when nothing has arrived."""
-        return missing_words(self._settings, "the app")
 
     def open(self) -> None:
         """Open the port; raises PortTaken, and ParameterError for columns that are none."""
@@ -201,12 +200,6 @@ class UdpConnector:
             if arrived is not None:
                 found.append(arrived)
         return found
-
-    def close(self) -> None:
-        """Close the port."""
-        if self._door is not None:
-            self._door.close()
-            self._door = None
 
     def _packet(self, left_s: float) -> Arrived | None:
         if self._door is None:

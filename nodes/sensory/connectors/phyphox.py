@@ -10,11 +10,11 @@ from typing import TYPE_CHECKING
 
 import msgspec
 
-from faults import Text, Words, text_of
+from faults import Text, text_of
 from nodes.sensory.reading import Reading, finite_number, scaled, vector
 
-from .connector import Arrived, Settings, Timed, nearest
-from .servers import Background, phone_address
+from .connector import Arrived, Timed, nearest
+from .servers import PhoneConnector
 
 if TYPE_CHECKING:
     from aiohttp import ClientSession
@@ -175,20 +175,16 @@ def _buffer(buffers: Mapping[str, object], name: str) -> tuple[str, Sequence[obj
 
 
 _ASK_EVERY_S = 0.05
-_TRY_AGAIN_S = (0.5, 1.0, 2.0, 5.0)
 _ANSWER_S = 5.0
 _MOST_BYTES = 4_000_000
 _LOST_S = 2.0  # so long without anything new, and its times are asked for anew
 _MOST_READINGS = 2_000  # of one answer: the last ones, after a pause
 
 
-class PhyphoxConnector:
+class PhyphoxConnector(PhoneConnector):
     """Asks a phone some twenty times a second, and again when it was away."""
 
-    def __init__(self, settings: Settings) -> None:
-        self._settings = settings
-        self._host, self._port = settings.address, settings.port
-        self._background = Background(self._ask)
+    app = "phyphox"
 
     @property
     def where(self) -> Text:
@@ -205,22 +201,7 @@ class PhyphoxConnector:
             port=self._port,
         )
 
-    def open(self) -> None:
-        """Begin to ask; raises ParameterError for an address that is none."""
-        self._host, self._port = phone_address(
-            self._settings.address, self._settings.port, "phyphox"
-        )
-        self._background.start()
-
-    def readings(self, until_s: float) -> list[Arrived]:
-        """What the phone answered until then."""
-        return self._background.take(until_s)
-
-    def close(self) -> None:
-        """Stop asking."""
-        self._background.stop()
-
-    async def _ask(self) -> None:
+    async def _listen(self) -> None:
         from aiohttp import ClientError, ClientSession, ClientTimeout
 
         failures = 0
@@ -238,22 +219,17 @@ class PhyphoxConnector:
                         "on, and the phone in the same network?",
                         host=self._host,
                         port=self._port,
-                    )
+                    ),
+                    self._host,
                 )
-            await asyncio.sleep(_TRY_AGAIN_S[min(failures, len(_TRY_AGAIN_S) - 1)])
+            await self._try_again(failures)
             failures += 1
 
     async def _follow(self, session: ClientSession) -> None:
         """Read one experiment until another is opened."""
         experiment = read_config(await _body(session, "/config"))
         if experiment is None:
-            self._say(
-                text_of(
-                    "What answers at {host}, port {port} is not phyphox.",
-                    host=self._host,
-                    port=self._port,
-                )
-            )
+            self._say_strange()
             return
         if experiment.acc is None:
             self._say(
@@ -261,10 +237,17 @@ class PhyphoxConnector:
                     "phyphox shows “{title}”, which has no accelerometer. Open an experiment with "
                     "an accelerometer, such as “Acceleration with g”.",
                     title=experiment.title,
-                )
+                ),
+                self._host,
             )
             return
         await self._read(session, experiment)
+
+    def _say_strange(self) -> None:
+        told = text_of(
+            "What answers at {host}, port {port} is not phyphox.", host=self._host, port=self._port
+        )
+        self._say(told, self._host)
 
     async def _read(self, session: ClientSession, experiment: Experiment) -> None:
         first, started = "", False
@@ -272,13 +255,7 @@ class PhyphoxConnector:
         while True:
             answer = read_answer(await _body(session, "/get", experiment.query()))
             if answer is None:
-                self._say(
-                    text_of(
-                        "What answers at {host}, port {port} is not phyphox.",
-                        host=self._host,
-                        port=self._port,
-                    )
-                )
+                self._say_strange()
                 return
             is_apple = self._settings.units == "apple"
             readings = experiment.take(answer, is_apple=is_apple)
@@ -291,7 +268,10 @@ class PhyphoxConnector:
             elif not started:
                 await _body(session, "/control", [("cmd", "start")])
             elif now_s - ran_s > _LOST_S:
-                self._say("The experiment in phyphox is paused. Press the play button in the app.")
+                self._say(
+                    "The experiment in phyphox is paused. Press the play button in the app.",
+                    self._host,
+                )
             started = True
             if readings:
                 news_s = now_s
@@ -304,10 +284,6 @@ class PhyphoxConnector:
     def _put(self, experiment: Experiment, readings: Sequence[Reading], now_s: float) -> None:
         sources = " + ".join(sensor.source for sensor in experiment.sensors)
         self._background.put(Arrived(self._host, readings, now_s, told=sources))
-
-    def _say(self, trouble: Words) -> None:
-        arrived = Arrived(self._host, arrived_s=time.monotonic(), trouble=trouble)
-        self._background.put(arrived)
 
 
 async def _body(session: ClientSession, path: str, query: Sequence[tuple[str, str]] = ()) -> bytes:

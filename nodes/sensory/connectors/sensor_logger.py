@@ -17,7 +17,7 @@ from faults import Text, text_of
 from nodes.sensory.reading import G_M_S2, NS, Reading, Vector, added, finite_number, scaled, vector
 
 from .connector import Arrived, Ordering, Settings, Timed, nearest
-from .servers import Background, body_of, missing_words, open_tcp, own_addresses, serve
+from .servers import BackgroundConnector, body_of, missing_words, open_tcp, own_addresses, serve
 
 if TYPE_CHECKING:
     from aiohttp import web
@@ -207,14 +207,14 @@ class _Device:
         self.wears_watch = False
 
 
-class SensorLoggerConnector:
+class SensorLoggerConnector(BackgroundConnector):
     """A web server that takes what the app pushes, at every path."""
 
     def __init__(self, settings: Settings) -> None:
+        super().__init__(self._serve)
         self._settings = settings
         self._door: socket.socket | None = None
         self._devices: dict[tuple[str, str], _Device] = {}
-        self._background = Background(self._serve)
 
     @property
     def where(self) -> Text:
@@ -242,13 +242,9 @@ class SensorLoggerConnector:
         self._door = open_tcp(self._settings)
         self._background.start()
 
-    def readings(self, until_s: float) -> list[Arrived]:
-        """What was pushed until then."""
-        return self._background.take(until_s)
-
     def close(self) -> None:
         """Stop serving."""
-        self._background.stop()
+        super().close()
         if self._door is not None:
             self._door.close()
             self._door = None
@@ -265,18 +261,18 @@ class SensorLoggerConnector:
             return web.Response(text=_GREETING)
         body = await body_of(request)
         if body is None:
-            self._complain(
-                sender, text_of("{sender} pushes more than can be taken in at once.", sender=sender)
+            self._say(
+                text_of("{sender} pushes more than can be taken in at once.", sender=sender), sender
             )
             return web.Response(status=413, text=_TOO_LARGE)
         message = read_message(body)
         if message is None or len(message.payload) > _MOST_READINGS:
-            self._complain(
-                sender,
+            self._say(
                 text_of(
                     "{sender} pushes what is no message of Sensor Logger, or too large a one.",
                     sender=sender,
                 ),
+                sender,
             )
             return web.Response(status=400, text=_NO_MESSAGE)
         self._take(sender, message)
@@ -315,9 +311,6 @@ class SensorLoggerConnector:
         trouble = _trouble(device.name, pushed, is_watch=device.wears_watch)
         told = pushed.used if pushed.readings else ""
         self._background.put(Arrived(device.name, pushed.readings, now_s, trouble, told, number))
-
-    def _complain(self, sender: str, trouble: Text) -> None:
-        self._background.put(Arrived(sender, arrived_s=time.monotonic(), trouble=trouble))
 
 
 def _trouble(sender: str, pushed: Pushed, *, is_watch: bool) -> Text:

@@ -15,31 +15,27 @@ import json
 import time
 from typing import TYPE_CHECKING
 
-from faults import Text, Words, text_of
+from faults import Text, text_of
 from nodes.sensory.reading import read_android, read_json
 
-from .connector import Arrived, Settings
-from .servers import Background, phone_address
+from .connector import Arrived
+from .servers import PhoneConnector
 
 if TYPE_CHECKING:
     from aiohttp import ClientSession
 
 ACCELEROMETER, GYROSCOPE = "android.sensor.accelerometer", "android.sensor.gyroscope"
 NOT_FOUND, UNSUPPORTED = 4001, 4002
-_TRY_AGAIN_S = (0.5, 1.0, 2.0, 5.0)
 _CONNECT_S = 5.0
 _HEARTBEAT_S = 5.0
 _MOST_BYTES = 8_192
 _LONG_S = 3.0  # a connection that lasted so long was a good one
 
 
-class SensorServerConnector:
+class SensorServerConnector(PhoneConnector):
     """Connects to a phone, and again when it was away."""
 
-    def __init__(self, settings: Settings) -> None:
-        self._settings = settings
-        self._host, self._port = settings.address, settings.port
-        self._background = Background(self._listen)
+    app = "SensorServer"
 
     @property
     def where(self) -> Text:
@@ -58,21 +54,6 @@ class SensorServerConnector:
             port=self._port,
         )
 
-    def open(self) -> None:
-        """Begin to connect; raises ParameterError for an address that is none."""
-        self._host, self._port = phone_address(
-            self._settings.address, self._settings.port, "SensorServer"
-        )
-        self._background.start()
-
-    def readings(self, until_s: float) -> list[Arrived]:
-        """What the phone sent until then."""
-        return self._background.take(until_s)
-
-    def close(self) -> None:
-        """End the connection."""
-        self._background.stop()
-
     async def _listen(self) -> None:
         from aiohttp import ClientError, ClientSession, ClientTimeout
 
@@ -90,10 +71,11 @@ class SensorServerConnector:
                         "started, and the phone in the same network?",
                         host=self._host,
                         port=self._port,
-                    )
+                    ),
+                    self._host,
                 )
             failures = 0 if time.monotonic() - began_s > _LONG_S else failures + 1
-            await asyncio.sleep(_TRY_AGAIN_S[min(failures, len(_TRY_AGAIN_S) - 1)])
+            await self._try_again(failures)
 
     async def _both(self, session: ClientSession) -> None:
         """Both sensors over one connection, or over one each, or the accelerometer alone."""
@@ -104,7 +86,8 @@ class SensorServerConnector:
                 text_of(
                     "SensorServer at {host} ended the connection. Is it still started?",
                     host=self._host,
-                )
+                ),
+                self._host,
             )
             return
         turning = asyncio.create_task(self._one(session, GYROSCOPE))
@@ -117,7 +100,8 @@ class SensorServerConnector:
             self._say(
                 text_of(
                     "The phone at {host} has no accelerometer. Use another one.", host=self._host
-                )
+                ),
+                self._host,
             )
 
     async def _one(self, session: ClientSession, kind: str) -> int:
@@ -148,9 +132,6 @@ class SensorServerConnector:
             self._say(
                 text_of(
                     "{host} sends values that are not numbers; they are left out.", host=self._host
-                )
+                ),
+                self._host,
             )
-
-    def _say(self, trouble: Words) -> None:
-        arrived = Arrived(self._host, arrived_s=time.monotonic(), trouble=trouble)
-        self._background.put(arrived)

@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Any
 
 import psutil
 
-from faults import Text, reason_of, text_of
+from faults import Text, Words, reason_of, text_of
 from nep_core.errors import ParameterError, PortTaken
 
 from .connector import Arrived, Settings
@@ -232,6 +232,50 @@ class Background:
         self._task = asyncio.current_task()
         if not self._is_stopped:
             await self._serve()
+
+
+class BackgroundConnector:
+    """A way that sensor data come in, by an asyncio program in a thread of its own."""
+
+    def __init__(self, serve: Callable[[], Coroutine[Any, Any, None]]) -> None:
+        self._background = Background(serve)
+
+    def readings(self, until_s: float) -> list[Arrived]:
+        """What has arrived up to then."""
+        return self._background.take(until_s)
+
+    def close(self) -> None:
+        """Stop the program."""
+        self._background.stop()
+
+    def _say(self, trouble: Words, sender: str) -> None:
+        arrived = Arrived(sender, arrived_s=time.monotonic(), trouble=trouble)
+        self._background.put(arrived)
+
+
+class PhoneConnector(BackgroundConnector):
+    """A way to an app that is a server on a phone, whose address the user has given."""
+
+    app: str
+    TRY_AGAIN_S = (0.5, 1.0, 2.0, 5.0)
+
+    def __init__(self, settings: Settings) -> None:
+        super().__init__(self._listen)
+        self._settings = settings
+        self._host, self._port = settings.address, settings.port
+
+    def open(self) -> None:
+        """Begin to connect; raises ParameterError for an address that is none."""
+        settings = self._settings
+        self._host, self._port = phone_address(settings.address, settings.port, self.app)
+        self._background.start()
+
+    async def _listen(self) -> None:
+        raise NotImplementedError
+
+    async def _try_again(self, failures: int) -> None:
+        """Wait before the next try, longer after several that failed."""
+        await asyncio.sleep(self.TRY_AGAIN_S[min(failures, len(self.TRY_AGAIN_S) - 1)])
 
 
 # A small HTTP server that nobody can fill: few connections, small bodies, short waits.

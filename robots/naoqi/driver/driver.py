@@ -10,9 +10,6 @@ from typing import Any
 
 from faults import fault_of
 from robots.body import actions as a
-from robots.body import actions as b
-from robots.body import actions as m
-from robots.body import actions as s
 from robots.body import repertoire as virtual
 from robots.body.actions import Action, Listen
 from robots.body.body import SINGLE_PARTS
@@ -25,7 +22,6 @@ from robots.errors import ActionFailed
 from robots.naoqi.discovery import read_address
 
 from . import link, media, moving, speech
-from . import moving as walking
 from .calls import Calls, waited
 from .link import Heard, Link, Reached, reach
 from .real import RealRobot
@@ -38,18 +34,11 @@ log = logging.getLogger(__name__)
 # Which limbs each action needs, and the task by which a real robot does it.
 
 LIMBS: dict[type[a.Action], frozenset[Limb]] = {
-    s.TakePicture: frozenset(),
-    s.RecordVideo: frozenset(),
+    a.TakePicture: frozenset(),
+    a.RecordVideo: frozenset(),
 }
 """What the virtual robot cannot do needs these; all else needs what it needs there."""
-ANY_MOTORS = (
-    a.Do,
-    b.WakeUp,
-    b.Rest,
-    b.Stiffness,
-    m.SetStiffness,
-    m.Approach,
-)
+ANY_MOTORS = (a.Do, a.WakeUp, a.Rest, a.Stiffness, a.SetStiffness, a.Approach)
 """What is done with motors that are off as well."""
 
 TASKS: dict[type[a.Action], Callable[[RealRobot, Any], Task]] = {
@@ -57,42 +46,42 @@ TASKS: dict[type[a.Action], Callable[[RealRobot, Any], Task]] = {
     a.Do: moving.posture_task,
     a.Imitate: speech.imitate,
     a.Play: speech.play_changed,
-    a.Walk: lambda robot, it: walking.walk(
+    a.Walk: lambda robot, it: moving.walk(
         robot, it.forward_m, it.left_m, math.radians(it.turn_deg)
     ),
-    a.Turn: lambda robot, it: walking.walk(robot, 0.0, 0.0, math.radians(it.degrees)),
-    a.Look: lambda robot, it: walking.look(
+    a.Turn: lambda robot, it: moving.walk(robot, 0.0, 0.0, math.radians(it.degrees)),
+    a.Look: lambda robot, it: moving.look(
         robot, math.radians(it.yaw_deg), math.radians(it.pitch_deg)
     ),
     a.Leds: media.light,
-    b.Hand: moving.move_hands,
-    b.MoveJoint: moving.move_joint,
-    b.Stiffness: lambda robot, it: moving.lock(robot, it.part, on=it.on),
-    b.WakeUp: lambda robot, _: moving.wake_up(robot),
-    b.Rest: lambda robot, _: moving.rest(robot),
-    b.Awareness: moving.set_life,
-    b.Breathing: moving.set_life,
-    b.WalkFreely: walking.walk_freely,
-    b.LookAt: lambda robot, it: walking.look_at(robot, (it.x_m, it.y_m, it.z_m), it.frame),
-    b.LookAtSeen: lambda robot, it: walking.look_at_seen(robot, it.thing),
-    b.PointAt: walking.point_at,
-    b.Track: walking.track,
-    m.Approach: moving.approach,
-    m.ReachAngles: moving.reach_angles,
-    m.MoveThrough: moving.move_through,
-    m.SetStiffness: moving.set_stiffness,
-    m.Silence: lambda _, it: waited(it.seconds),
-    s.Volume: speech.set_volume,
-    s.SetLanguage: speech.set_language,
-    s.Intensity: media.set_intensity,
-    s.ResetLeds: media.reset,
-    s.RandomEyes: media.play_of_colours,
-    s.RotateEyes: media.play_of_colours,
-    s.LearnFace: media.learn_face,
-    s.ForgetFace: media.forget_face,
-    s.TakePicture: media.take_picture,
-    s.RecordVideo: media.record_video,
-    s.PlaySound: media.play_sound,
+    a.Hand: moving.move_hands,
+    a.MoveJoint: moving.move_joint,
+    a.Stiffness: lambda robot, it: moving.lock(robot, it.part, on=it.on),
+    a.WakeUp: lambda robot, _: moving.wake_up(robot),
+    a.Rest: lambda robot, _: moving.rest(robot),
+    a.Awareness: moving.set_life,
+    a.Breathing: moving.set_life,
+    a.WalkFreely: moving.walk_freely,
+    a.LookAt: lambda robot, it: moving.look_at(robot, (it.x_m, it.y_m, it.z_m), it.frame),
+    a.LookAtSeen: lambda robot, it: moving.look_at_seen(robot, it.thing),
+    a.PointAt: moving.point_at,
+    a.Track: moving.track,
+    a.Approach: moving.approach,
+    a.ReachAngles: moving.reach_angles,
+    a.MoveThrough: moving.move_through,
+    a.SetStiffness: moving.set_stiffness,
+    a.Silence: lambda _, it: waited(it.seconds),
+    a.Volume: speech.set_volume,
+    a.SetLanguage: speech.set_language,
+    a.Intensity: media.set_intensity,
+    a.ResetLeds: media.reset,
+    a.RandomEyes: media.play_of_colours,
+    a.RotateEyes: media.play_of_colours,
+    a.LearnFace: media.learn_face,
+    a.ForgetFace: media.forget_face,
+    a.TakePicture: media.take_picture,
+    a.RecordVideo: media.record_video,
+    a.PlaySound: media.play_sound,
 }
 """How a real robot does each action; a test sees that none is missing."""
 
@@ -265,11 +254,11 @@ class NaoqiDriver:
         joint, heat = self._watching.hottest
         warning = None
         if self._robot.battery < link.LOWEST_BATTERY:
-            warning = link.low_battery(known.name, self._robot.battery)
+            warning = link.low_battery(robot=known.name, battery=f"{self._robot.battery * 100:.0f}")
         elif heat >= link.HOTTEST_C:
-            warning = link.too_hot(known.name, joint, heat)
+            warning = link.too_hot(robot=known.name, joint=joint, celsius=f"{heat:.0f}")
         elif known.released >= set(self._robot.parts) and not self._running:
-            warning = link.asleep(known.name)
+            warning = link.asleep(robot=known.name)
         if warning is None:
             words = fault_of("{name} at {place} is connected.", name=known.name, place=place)
             self._link.connection = Connection("connected", words)
@@ -287,4 +276,4 @@ class NaoqiDriver:
         except (TypeError, ValueError, LookupError, ArithmeticError):
             log.exception("what the robot answered to %s", command_id)
             del self._running[command_id]
-            return Ended(command_id, "failed", link.strange_answer(self._robot.name))
+            return Ended(command_id, "failed", link.strange_answer(robot=self._robot.name))

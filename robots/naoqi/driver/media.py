@@ -5,7 +5,6 @@ from __future__ import annotations
 from pathlib import PurePosixPath
 
 from robots.body import actions as a
-from robots.body import actions as s
 from robots.body import body
 from robots.body.schedule import Task
 from robots.errors import ActionFailed
@@ -21,7 +20,7 @@ VIDEO_RATE_HZ = 10.0
 LEARNING_S, FILE_S, LONGEST_SOUND_S = 15.0, 10.0, 3600.0
 
 
-def learn_face(robot: RealRobot, action: s.LearnFace) -> Task:
+def learn_face(robot: RealRobot, action: a.LearnFace) -> Task:
     """Learn the face of the person in front."""
     learnt = yield from robot.call("ALFaceDetection", "learnFace", action.name, limit_s=LEARNING_S)
     if not learnt:
@@ -33,7 +32,7 @@ def learn_face(robot: RealRobot, action: s.LearnFace) -> Task:
     return ""
 
 
-def forget_face(robot: RealRobot, action: s.ForgetFace) -> Task:
+def forget_face(robot: RealRobot, action: a.ForgetFace) -> Task:
     """Forget a face."""
     forgotten = yield from robot.call("ALFaceDetection", "forgetPerson", action.name)
     if not forgotten:
@@ -43,7 +42,7 @@ def forget_face(robot: RealRobot, action: s.ForgetFace) -> Task:
     return ""
 
 
-def take_picture(robot: RealRobot, action: s.TakePicture) -> Task:
+def take_picture(robot: RealRobot, action: a.TakePicture) -> Task:
     """Take a picture into a file on the robot."""
     service = "ALPhotoCapture"
     yield from robot.call(service, "setCameraID", CAMERAS[action.camera])
@@ -56,7 +55,7 @@ def take_picture(robot: RealRobot, action: s.TakePicture) -> Task:
     return f"{robot.name} keeps it in {made[0] if isinstance(made, list) else made}"
 
 
-def record_video(robot: RealRobot, action: s.RecordVideo) -> Task:
+def record_video(robot: RealRobot, action: a.RecordVideo) -> Task:
     """Record a video into a file on the robot."""
     service = "ALVideoRecorder"
     yield from robot.call(service, "setCameraID", CAMERAS[action.camera])
@@ -81,7 +80,7 @@ def record_video(robot: RealRobot, action: s.RecordVideo) -> Task:
     return f"{robot.name} keeps it in {made[-1] if isinstance(made, list) else made}"
 
 
-def play_sound(robot: RealRobot, action: s.PlaySound) -> Task:
+def play_sound(robot: RealRobot, action: a.PlaySound) -> Task:
     """Play a sound file that is on the robot, to its end."""
     file = HOME / action.file  # a path that begins with / stays as it is
     robot.known.settings["playing"] = str(file)
@@ -116,7 +115,7 @@ def light(robot: RealRobot, action: a.Leds) -> Task:
     return ""
 
 
-def set_intensity(robot: RealRobot, action: s.Intensity) -> Task:
+def set_intensity(robot: RealRobot, action: a.Intensity) -> Task:
     """Make lights brighter or darker, with the hue that they have."""
     for name in body.lights(action.group):
         before = robot.known.leds[name] or body.AT_START[name] or body.WHITE
@@ -129,7 +128,7 @@ def set_intensity(robot: RealRobot, action: s.Intensity) -> Task:
     return ""
 
 
-def reset(robot: RealRobot, action: s.ResetLeds) -> Task:
+def reset(robot: RealRobot, action: a.ResetLeds) -> Task:
     """Light a group as it was when the robot started."""
     yield from robot.call("ALLeds", "reset", action.group)
     for name in body.lights(action.group):
@@ -137,9 +136,9 @@ def reset(robot: RealRobot, action: s.ResetLeds) -> Task:
     return ""
 
 
-def play_of_colours(robot: RealRobot, action: s.RandomEyes | s.RotateEyes) -> Task:
+def play_of_colours(robot: RealRobot, action: a.RandomEyes | a.RotateEyes) -> Task:
     """Let the eyes change colours for some seconds, then be as they were."""
-    method = "randomEyes" if isinstance(action, s.RandomEyes) else "rasta"
+    method = "randomEyes" if isinstance(action, a.RandomEyes) else "rasta"
     eyes = body.lights("FaceLeds")
     before = {name: robot.known.leds[name] for name in eyes}
     seconds = float(action.seconds)

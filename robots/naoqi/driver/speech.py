@@ -6,17 +6,17 @@ import logging
 
 from faults import Fault
 from robots.body import actions as a
-from robots.body import actions as s
 from robots.body.animations import NO_GESTURE, Animation
 from robots.body.keyframes import Keyframes
 from robots.body.schedule import Task
 from robots.body.speech import Spoken, speaking_time_s
 from robots.body.tasks import at_once, changed, fitted, spoken
 from robots.errors import ActionFailed
+from robots.naoqi.services.arguments import NAMES
 
 from .calls import waited
 from .moving import play_keyframes, return_to_posture, take_posture
-from .real import LANGUAGES, RealRobot, language_code
+from .real import RealRobot, language_code
 
 log = logging.getLogger(__name__)
 
@@ -79,7 +79,7 @@ def play(robot: RealRobot, animation: Animation, keyframes: Keyframes | None = N
     return (yield from beside(tasks))
 
 
-def set_volume(robot: RealRobot, action: s.Volume) -> Task:
+def set_volume(robot: RealRobot, action: a.Volume) -> Task:
     """Set how loud the robot is, and look that it is."""
     percent = round(action.percent)
     yield from robot.call("ALAudioDevice", "setOutputVolume", percent)
@@ -95,7 +95,7 @@ def set_volume(robot: RealRobot, action: s.Volume) -> Task:
     return ""
 
 
-def set_language(robot: RealRobot, action: s.SetLanguage) -> Task:
+def set_language(robot: RealRobot, action: a.SetLanguage) -> Task:
     """Set the language that the robot speaks and understands."""
     name = yield from _language_name(robot, action.language)
     yield from robot.call("ALTextToSpeech", "setLanguage", name, limit_s=10.0)
@@ -134,7 +134,7 @@ def _gestures(robot: RealRobot, parts: list[Spoken], speed: float) -> Task:
 
 
 def _language_name(robot: RealRobot, code: str) -> Task:
-    name = LANGUAGES.get(code, code)
+    name = NAMES.get(code, code)
     known = yield from robot.call("ALTextToSpeech", "getAvailableLanguages")
     if name not in known:
         spoken = ", ".join(language_code(one) for one in known)
@@ -219,7 +219,7 @@ class Hearing:
             self._change, self._refused, self._problem = None, wanted, problem.fault
             log.warning("%s does not listen: %s", self._robot.name, problem)
 
-    def listen(self, action: s.Listen) -> Task:
+    def listen(self, action: a.Listen) -> Task:
         """Listen for words for some seconds; they come as human states. No words: common ones."""
         language = str(self._robot.known.settings.get("language", "en"))
         words = tuple(action.words) or common_words(language)

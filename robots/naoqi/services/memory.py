@@ -293,23 +293,16 @@ TOUCH_NAMES = {
 MEASURES = {
     f"{DEVICE}/US/Left/Sensor/Value": "sonar_left",
     f"{DEVICE}/US/Right/Sensor/Value": "sonar_right",
-    f"{DEVICE}/InertialSensor/AccelerometerX/Sensor/Value": "acc_x",
-    f"{DEVICE}/InertialSensor/AccelerometerY/Sensor/Value": "acc_y",
-    f"{DEVICE}/InertialSensor/AccelerometerZ/Sensor/Value": "acc_z",
-    f"{DEVICE}/InertialSensor/GyroscopeX/Sensor/Value": "gyro_x",
-    f"{DEVICE}/InertialSensor/GyroscopeY/Sensor/Value": "gyro_y",
-    f"{DEVICE}/InertialSensor/GyroscopeZ/Sensor/Value": "gyro_z",
+    **{
+        f"{DEVICE}/InertialSensor/{name}{axis}/Sensor/Value": f"{ours}_{axis.lower()}"
+        for name, ours in (("Accelerometer", "acc"), ("Gyroscope", "gyro"))
+        for axis in "XYZ"
+    },
     f"{DEVICE}/LFoot/FSR/TotalWeight/Sensor/Value": "foot_left",
     f"{DEVICE}/RFoot/FSR/TotalWeight/Sensor/Value": "foot_right",
     "leftFootTotalWeight": "foot_left",
     "rightFootTotalWeight": "foot_right",
-    f"{DEVICE}/Head/Touch/Front/Sensor/Value": "head_front",
-    f"{DEVICE}/Head/Touch/Middle/Sensor/Value": "head_middle",
-    f"{DEVICE}/Head/Touch/Rear/Sensor/Value": "head_rear",
-    f"{DEVICE}/LHand/Touch/Back/Sensor/Value": "hand_left",
-    f"{DEVICE}/RHand/Touch/Back/Sensor/Value": "hand_right",
-    f"{DEVICE}/LFoot/Bumper/Left/Sensor/Value": "bumper_left",
-    f"{DEVICE}/RFoot/Bumper/Right/Sensor/Value": "bumper_right",
+    **{f"{DEVICE}/{name}/Sensor/Value": sensor for sensor, name in TOUCH_NAMES.items()},
     f"{DEVICE}/ChestBoard/Button/Sensor/Value": "chest_button",
     **{event: sensor for sensor, event in TOUCH_EVENTS.items()},
 }

@@ -250,10 +250,8 @@ Write = Callable[[bytearray, Any, ObjectHost | None], None]
 def encode(type_text: str, value: Any, host: ObjectHost | None = None) -> bytes:
     """Return the bytes of a value as this type. Raises WrongArguments when it is not of it."""
     out = bytearray()
-    # Write one value. Raises WrongArguments, whatever the value is
-    write = writer_of(type_text)
     try:
-        write(out, value, host)
+        writer_of(type_text)(out, value, host)
     except (struct.error, TypeError, ValueError, OverflowError, RecursionError) as problem:
         text = repr(value) if not isinstance(problem, RecursionError) else "This"
         raise WrongArguments(
