@@ -42,8 +42,7 @@ class Hit(NamedTuple):
 def places(eye: Points, rays: Pixels, ways: Pixels) -> Pixels:
     """Return where rays are after so many of their lengths, seen from a place; 0 for inf."""
     reached = np.where(np.isfinite(ways), ways, 0.0)[..., None]
-    found: Pixels = (eye + rays * reached).astype(np.float32)
-    return found
+    return (eye + rays * reached).astype(np.float32)
 
 
 def ball(eye: Points, rays: Pixels, centre: Points, radius: float) -> Hit:

@@ -90,9 +90,7 @@ class Keyframes:
         """Return the movement as seen in a mirror: left is right and right is left."""
         return Keyframes(
             {
-                ({"L": "R", "R": "L"}.get(name[0], name[0]) + name[1:]): track.negated()
-                if _turns_sideways(name)
-                else track
+                _other_side(name): track.negated() if _turns_sideways(name) else track
                 for name, track in self.tracks.items()
             }
         )
@@ -127,6 +125,10 @@ def mirror_angle(name: str, angle: float) -> float:
     return -angle if _turns_sideways(name) else angle
 
 
+def _other_side(name: str) -> str:
+    return {"L": "R", "R": "L"}.get(name[0], name[0]) + name[1:]
+
+
 def _turns_sideways(name: str) -> bool:
     return name.endswith(("Roll", "Yaw"))
 
@@ -148,8 +150,7 @@ def minimum_jerk(s: Angles) -> Angles:
 
     Source: T. Flash and N. Hogan, The coordination of arm movements, J. Neurosci. 5, 1985.
     """
-    progress: Angles = s**3 * (10.0 - 15.0 * s + 6.0 * s**2)
-    return progress
+    return s**3 * (10.0 - 15.0 * s + 6.0 * s**2)
 
 
 def ticks(duration_s: float, tick_s: float) -> Angles:

@@ -115,8 +115,7 @@ class Skeleton:
         """Return the outline of a foot's sole in the torso's frame."""
         frame = frames[..., self.index[link], :, :]
         points = self.soles[link] @ np.swapaxes(frame[..., :3, :3], -1, -2)
-        sole: Points = points + frame[..., None, :3, 3]
-        return sole
+        return points + frame[..., None, :3, 3]
 
     def resting_turn(self, angles: Angles, down: Vector = UPRIGHT) -> Frames:
         """Return how the torso is turned (3, 3) when the body lies or stands still on a floor.

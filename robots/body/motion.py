@@ -130,8 +130,7 @@ def braking_way_s() -> Angles:
     The speed falls as (1 - s)², s being the part of BRAKING_S that has passed.
     """
     s = ticks(BRAKING_S, TICK_S) / BRAKING_S
-    way_s: Angles = (1.0 - (1.0 - s) ** 3) / 3.0 * BRAKING_S
-    return way_s
+    return (1.0 - (1.0 - s) ** 3) / 3.0 * BRAKING_S
 
 
 def _allowed(

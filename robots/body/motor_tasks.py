@@ -227,8 +227,7 @@ def _next_speed(
     wanted = np.sign(way) * np.minimum(np.minimum(fastest, stopping), np.abs(way) / TICK_S)
     changed = speed + np.clip(wanted - speed, -change, change)
     arrived = (np.abs(way) <= NEAR_RAD + change * TICK_S) & (np.abs(speed) <= 2.0 * change)
-    last: Angles = np.where(arrived, np.where(np.abs(way) > NEAR_RAD, way / TICK_S, 0.0), changed)
-    return last
+    return np.where(arrived, np.where(np.abs(way) > NEAR_RAD, way / TICK_S, 0.0), changed)
 
 
 def _parts(body: Body, targets: dict[str, m.Target]) -> Angles:

@@ -180,14 +180,12 @@ class Stance:
     @property
     def touching(self) -> Touching:
         """Which of the skeleton's outline points touch the floor (points,), true or false."""
-        touching: Touching = self.places[:, 2] < TOUCHING_M
-        return touching
+        return self.places[:, 2] < TOUCHING_M
 
     @property
     def centre_of_mass(self) -> Points:
         """Where the centre of mass is in the room (3,), m."""
-        centre: Points = self.turn @ self._centre + self.place
-        return centre
+        return self.turn @ self._centre + self.place
 
     def link_place(self, link: str, offset: Vector = (0.0, 0.0, 0.0)) -> Points:
         """Return where a place of a link is in the room (3,), m."""

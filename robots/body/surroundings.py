@@ -65,8 +65,7 @@ def ways_m(thing: Thing, start: Points, rays: Points) -> Points:
     enters = np.minimum(first, last).max(axis=1)
     leaves = np.maximum(first, last).min(axis=1)
     meets = (leaves >= np.maximum(enters, 0.0)) & (leaves >= 0.0)
-    ways: Points = np.where(meets, np.maximum(enters, 0.0), np.inf)
-    return ways
+    return np.where(meets, np.maximum(enters, 0.0), np.inf)
 
 
 def _ways_to_circle_m(origin: Points, rays: Points, radius_m: float) -> Points:
@@ -74,8 +73,7 @@ def _ways_to_circle_m(origin: Points, rays: Points, radius_m: float) -> Points:
     beside = float(origin @ origin) - along**2
     inside = np.maximum(radius_m**2 - beside, 0.0)
     meets = (beside <= radius_m**2) & (along >= 0.0)
-    ways: Points = np.where(meets, np.maximum(along - np.sqrt(inside), 0.0), np.inf)
-    return ways
+    return np.where(meets, np.maximum(along - np.sqrt(inside), 0.0), np.inf)
 
 
 def half_size(thing: Thing) -> tuple[float, float]:

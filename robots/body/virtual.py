@@ -89,8 +89,7 @@ def turning_rad_s(before: Angles, after: Angles, seconds: float) -> Angles:
     rates = np.array(
         [change[2, 1] - change[1, 2], change[0, 2] - change[2, 0], change[1, 0] - change[0, 1]]
     )
-    turning: Angles = rates / 2.0 / seconds
-    return turning
+    return rates / 2.0 / seconds
 
 
 def weights_kg(stance: Stance) -> dict[str, float]:

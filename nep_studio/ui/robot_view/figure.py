@@ -115,8 +115,7 @@ class Placed:
         Directions are (k, 3), or (parts, k, 3) where they differ.
         """
         points = self.assembly.solids.farthest(ways @ self.turns)
-        reached: Array = self.origins[:, None] + points @ self.turns.transpose(0, 2, 1)
-        return reached
+        return self.origins[:, None] + points @ self.turns.transpose(0, 2, 1)
 
     def corners(self) -> Array:
         """Points (14 * parts, 3) that no part goes far beyond, to fit a camera."""

@@ -128,8 +128,7 @@ def _strip(rings: int, corners: int) -> Array:
     # Flat shapes turn what is nearly nothing into something: let it be nothing.
     ways = ways.round(9)
     zigzag = np.stack([ways[:-1], ways[1:]], axis=2).reshape(rings, -1, 3)
-    joined: Array = np.concatenate([zigzag[:, :1], zigzag, zigzag[:, -1:]], axis=1).reshape(-1, 3)
-    return joined
+    return np.concatenate([zigzag[:, :1], zigzag, zigzag[:, -1:]], axis=1).reshape(-1, 3)
 
 
 # Places, colours and lights of parts as the numbers that the programs of the GPU read.
@@ -164,8 +163,7 @@ def _matrix(lens: Lens) -> list[float]:
     clip[0, 0], clip[1, 1] = width, height
     clip[2, 2], clip[2, 3] = -(FAR_M + NEAR_M) / deep, -2 * FAR_M * NEAR_M / deep
     clip[3, 2] = -1.0
-    numbers: list[float] = (clip @ view).ravel().tolist()
-    return numbers
+    return (clip @ view).ravel().tolist()
 
 
 def rows_of(placed: Placed, dress: Dress, lens: Lens, shades: Shades) -> NDArray[np.float32]:

@@ -115,8 +115,7 @@ class Solids:
         reach = np.einsum("mkc,mkc->mk", points, ways)
         best = np.argmax(reach[self.table], axis=1)
         chosen = np.take_along_axis(self.table, best, axis=1)
-        found: Array = points[chosen, np.arange(ways.shape[1])]
-        return found
+        return points[chosen, np.arange(ways.shape[1])]
 
 
 def _farthest_of_boxes(size: Array, powers: Array, ways: Array) -> Array:
@@ -130,8 +129,7 @@ def _farthest_of_boxes(size: Array, powers: Array, ways: Array) -> Array:
     whole = (flat + part_z) ** (1 - 1 / along)
     shared = flat / (both * whole)
     point = np.stack([part_x * shared / x, part_y * shared / y, part_z / (whole * z)], axis=2)
-    result: Array = point * np.sign(ways) * size[:, None]
-    return result
+    return point * np.sign(ways) * size[:, None]
 
 
 Triple = tuple[float, float, float]

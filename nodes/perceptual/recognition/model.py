@@ -338,8 +338,7 @@ def _array(content: bytes) -> NDArray[Any]:
     ):
         raise ValueError("an array does not hold what it claims")
     file.seek(0)
-    array: NDArray[Any] = np.lib.format.read_array(file, allow_pickle=False)
-    return array
+    return np.lib.format.read_array(file, allow_pickle=False)
 
 
 # Gesture models in files: numbers and plain text, never code.

@@ -67,8 +67,7 @@ def energy_of(t: Floats, acc: Floats, gyr: Floats | None) -> Floats:
     power = (((acc - slow) / _ACC_M_S2) ** 2).sum(axis=1)
     if gyr is not None:
         power = power + ((gyr / _GYR_RAD_S) ** 2).sum(axis=1)
-    energy: Floats = np.sqrt(np.maximum(_averaged(power[:, None], _SMOOTH_S * rate_hz)[:, 0], 0))
-    return energy
+    return np.sqrt(np.maximum(_averaged(power[:, None], _SMOOTH_S * rate_hz)[:, 0], 0))
 
 
 class MovementFinder:
@@ -346,8 +345,7 @@ class PerformanceFinder:
         )
 
     def _rest(self) -> Floats:
-        rest: Floats = np.median(self._rests, axis=0)
-        return rest
+        return np.median(self._rests, axis=0)
 
     def _held(self, start_s: float, end_s: float) -> Floats | None:
         """The direction of gravity in a stretch; None when it is not felt."""

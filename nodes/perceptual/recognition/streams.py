@@ -125,8 +125,7 @@ def _interpolated(at: Floats, t: Floats, values: Floats) -> Floats:
         return np.repeat(values, len(at), axis=0)
     before = np.clip(np.searchsorted(t, at, side="right") - 1, 0, len(t) - 2)
     part = np.clip((at - t[before]) / (t[before + 1] - t[before]), 0.0, 1.0)[:, None]
-    between: Floats = values[before] * (1 - part) + values[before + 1] * part
-    return between
+    return values[before] * (1 - part) + values[before + 1] * part
 
 
 def _within_limits(values: Floats) -> Floats:

@@ -355,5 +355,4 @@ def _usual_scores(
             best[take.gesture].append(_best_near(found, take, column))
     every = [value for values in best.values() for value in values]
     middle = float(np.median(every)) or UNCHECKED_SCORE
-    usual: Floats = np.full(len(gestures), middle**_OWN * USUAL_SCORE ** (1 - _OWN))
-    return usual
+    return np.full(len(gestures), middle**_OWN * USUAL_SCORE ** (1 - _OWN))

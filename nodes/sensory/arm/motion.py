@@ -195,8 +195,7 @@ class Motion:
 def minimum_jerk(part: Floats) -> Floats:
     """From 0 to 1 as people move: no speed and no acceleration at either end (Hogan 1984)."""
     part = np.clip(part, 0.0, 1.0)
-    smooth: Floats = part**3 * (10 - 15 * part + 6 * part**2)
-    return smooth
+    return part**3 * (10 - 15 * part + 6 * part**2)
 
 
 # What an accelerometer and a gyroscope feel on a moving wrist.

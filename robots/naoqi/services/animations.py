@@ -164,10 +164,9 @@ class ALBehaviorManager(Module):
             return False
         return True
 
-    @method("isBehaviorRunning::b(s)", "isBehaviorLoaded::b(s)")
-    def is_behavior_running(self, path: str) -> bool:
-        """Return whether a behavior is played."""
-        return path in self._running
+    is_behavior_running = method("isBehaviorRunning::b(s)", "isBehaviorLoaded::b(s)")(
+        lambda self, path: path in self._running
+    )
 
     @method(
         "getInstalledBehaviors::[s]()", "getBehaviorNames::[s]()", "getSystemBehaviorNames::[s]()"
@@ -182,18 +181,14 @@ class ALBehaviorManager(Module):
         lambda self: list(self._running)
     )
 
-    @method("getBehaviorsByTag::[s](s)")
-    def behaviors_by_tag(self, tag: str) -> list[str]:
-        """Return the behaviors with a tag."""
-        return list(self._names.tags.get(tag, []))
-
+    behaviors_by_tag = method("getBehaviorsByTag::[s](s)")(
+        lambda self, tag: list(self._names.tags.get(tag, []))
+    )
     tag_list = method("getTagList::[s]()")(lambda self: sorted(self._names.tags))
 
-    @method("getBehaviorTags::[s](s)")
-    def behavior_tags(self, path: str) -> list[str]:
-        """Return the tags of a behavior."""
-        return [tag for tag, paths in self._names.tags.items() if path in paths]
-
+    behavior_tags = method("getBehaviorTags::[s](s)")(
+        lambda self, path: [tag for tag, paths in self._names.tags.items() if path in paths]
+    )
     default_behaviors = method("getDefaultBehaviors::[s]()")(lambda self: list(self._defaults))
 
     @method("addDefaultBehavior::v(s)")

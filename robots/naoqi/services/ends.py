@@ -18,8 +18,7 @@ from robots.body.pose import VirtualRobot
 from robots.naoqi.serving import ServedRobot
 from robots.naoqi.wire.errors import CallFailed
 
-from .arguments import EVERYTHING, number, rows, within
-from .module import one_of
+from .arguments import EVERYTHING, number, one_of, rows, within
 
 Frame = NDArray[np.float64]
 Point = tuple[float, float, float]

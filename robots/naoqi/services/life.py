@@ -11,9 +11,9 @@ from robots.naoqi.serving import ServedRobot
 from robots.naoqi.wire.errors import CallFailed
 from robots.naoqi.wire.service import method
 
-from .arguments import chains_of
+from .arguments import chains_of, one_of
 from .memory import TOUCH_NAMES
-from .module import Module, always, kept, kept_each, one_of
+from .module import Module, always, kept, kept_each
 
 STATES = ("solitary", "interactive", "disabled", "safeguard")
 STIMULI = ("Sound", "Movement", "NavigationMotion", "People", "Touch", "TabletTouch")
@@ -44,11 +44,9 @@ class ALBasicAwareness(Module):
 
     set_enabled = method("setEnabled::v(b)")(lambda self, is_on: self._do("awareness", on=is_on))
 
-    @method("isEnabled::b()", "isRunning::b()", "isAwarenessRunning::b()")
-    def is_enabled(self) -> bool:
-        """Return whether it looks at people by itself."""
-        return bool(self._robot.state().settings["awareness"])
-
+    is_enabled = method("isEnabled::b()", "isRunning::b()", "isAwarenessRunning::b()")(
+        lambda self: bool(self._robot.state().settings["awareness"])
+    )
     begin = method("startAwareness::v()", "resumeAwareness::v()")(
         lambda self: self.set_enabled(True)
     )
@@ -124,10 +122,9 @@ class ALBackgroundMovement(Module):
 
     set_enabled = method("setEnabled::v(b)")(lambda self, is_on: self._do("breathing", on=is_on))
 
-    @method("isEnabled::b()", "isRunning::b()")
-    def is_enabled(self) -> bool:
-        """Return whether it moves a little."""
-        return bool(self._robot.state().settings["breathing"])
+    is_enabled = method("isEnabled::b()", "isRunning::b()")(
+        lambda self: bool(self._robot.state().settings["breathing"])
+    )
 
 
 class ALSpeakingMovement(Module):
@@ -138,10 +135,9 @@ class ALSpeakingMovement(Module):
         "setMode::v(s)", "getMode::s()", "contextual", ("contextual", "random", "disabled")
     )
 
-    @method("isRunning::b()")
-    def runs(self) -> bool:
-        """Return whether it speaks and may move."""
-        return bool(self.enabled() and self._robot.state().saying)
+    runs = method("isRunning::b()")(
+        lambda self: bool(self.enabled() and self._robot.state().saying)
+    )
 
 
 class ALListeningMovement(Module):
@@ -149,10 +145,9 @@ class ALListeningMovement(Module):
 
     set_enabled, enabled = kept("setEnabled::v(b)", "isEnabled::b()", True)
 
-    @method("isRunning::b()")
-    def runs(self) -> bool:
-        """Return whether it listens and may move."""
-        return bool(self.enabled() and self._robot.state().listening)
+    runs = method("isRunning::b()")(
+        lambda self: bool(self.enabled() and self._robot.state().listening)
+    )
 
 
 class ALAutonomousBlinking(Module):
@@ -219,11 +214,9 @@ class ALSystem(Module):
 class ALRobotModel(Module):
     """What kind of robot it is."""
 
-    @method("getRobotType::s()")
-    def robot_type(self) -> str:
-        """Return the kind of robot."""
-        return Path(self._robot.robot.model).name.capitalize() or "Nao"
-
+    robot_type = method("getRobotType::s()")(
+        lambda self: Path(self._robot.robot.model).name.capitalize() or "Nao"
+    )
     config = always(
         "Body/Type nao\nHead/BaseVersion VERSION_60\nBody/BaseVersion VERSION_60", "getConfig::s()"
     )

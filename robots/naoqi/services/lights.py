@@ -9,8 +9,8 @@ from robots.naoqi.serving import ServedRobot
 from robots.naoqi.wire.errors import CallFailed
 from robots.naoqi.wire.service import method
 
-from .arguments import lists, number, within
-from .module import Module, one_by_one, one_of, play_script
+from .arguments import lists, number, one_of, within
+from .module import Module, one_by_one, play_script
 
 COLOURS = {
     "white": 0xFFFFFF,
@@ -96,10 +96,9 @@ class ALLeds(Module):
             for shift in (16, 8, 0)
         ]
 
-    @method("randomEyes::v(f)")
-    def random_eyes(self, seconds: float) -> Any:
-        """Let the eyes shine in colours by chance."""
-        return self._do("random_eyes", seconds=number(seconds))
+    random_eyes = method("randomEyes::v(f)")(
+        lambda self, seconds: self._do("random_eyes", seconds=number(seconds))
+    )
 
     @method("rasta::v(f)")
     def rasta(self, seconds: float) -> Any:
@@ -133,11 +132,9 @@ class ALLeds(Module):
 
     list_groups = method("listGroups::[s]()")(lambda self: [*body.GROUPS, *self._made])
 
-    @method("listGroup::[s](s)", "listLED::[s](s)")
-    def list_group(self, name: str) -> list[str]:
-        """Return the lights of a group."""
-        return [light for group in self._groups(name) for light in body.lights(group)]
-
+    list_group = method("listGroup::[s](s)", "listLED::[s](s)")(
+        lambda self, name: [light for group in self._groups(name) for light in body.lights(group)]
+    )
     list_leds = method("listLEDs::[s]()")(lambda self: list(body.lights("AllLeds")))
 
     def _groups(self, name: str) -> list[str]:

@@ -107,10 +107,9 @@ class ALMemory(Module):
             if self._data.pop(key, None) is None:
                 raise CallFailed("ALMemory has no data “{key}”.", key=key)
 
-    @method("getDataList::[s](s)")
-    def data_list(self, part: str) -> list[str]:
-        """Return the keys that have a text in their name."""
-        return [key for key in self.data_list_name() if part in key]
+    data_list = method("getDataList::[s](s)")(
+        lambda self, part: [key for key in self.data_list_name() if part in key]
+    )
 
     @method("getDataListName::[s]()")
     def data_list_name(self) -> list[str]:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Generator
-from string import Formatter
 from typing import Any
 
 from faults import Text
@@ -130,18 +129,6 @@ def always(value: Any, *signatures: str) -> Callable[..., Any]:
         return value
 
     return answer
-
-
-def one_of(value: Any, choices: Collection[Any], sentence: str) -> Any:
-    """Return a value that is one of the choices. Raises CallFailed with the sentence.
-
-    The sentence has two places, for the value and for all choices, or only the first one.
-    """
-    if value not in choices:
-        places = [place for _, place, _, _ in Formatter().parse(sentence) if place]
-        told = (value, ", ".join(map(str, choices)))
-        raise CallFailed(sentence, **dict(zip(places, told, strict=False)))
-    return value
 
 
 # Several actions one after the other, as one call of a program: it waits for the last one.

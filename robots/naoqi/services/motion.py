@@ -29,13 +29,14 @@ from .arguments import (
     lists,
     number,
     numbers,
+    one_of,
     rows,
     texts,
     within,
     words,
 )
 from .ends import Ends, six_numbers
-from .module import Module, kept, kept_each, one_by_one, one_of, play_script
+from .module import Module, kept, kept_each, one_by_one, play_script
 
 CYCLE_MS = 10
 TORQUE = 0.0
@@ -164,10 +165,9 @@ class ALMotion(Module):
         """Return what moves it: name, number, who asked, priority, joints."""
         return [self._task(command) for command in self._moving()]
 
-    @method("areResourcesAvailable::b([s])")
-    def are_resources_available(self, names: list[str]) -> bool:
-        """Return whether nothing uses some joints or chains."""
-        return not self._limbs(names) & self._robot.busy_limbs()
+    are_resources_available = method("areResourcesAvailable::b([s])")(
+        lambda self, names: not self._limbs(names) & self._robot.busy_limbs()
+    )
 
     @method("killTask::b(i)")
     def kill_task(self, number: int) -> bool:
@@ -211,10 +211,9 @@ class ALMotion(Module):
 
     # Walking
 
-    @method("moveInit::v()", "walkInit::v()")
-    def move_init(self) -> Any:
-        """Stand ready to walk."""
-        return self._do("do", posture="posture_stand_init")
+    move_init = method("moveInit::v()", "walkInit::v()")(
+        lambda self: self._do("do", posture="posture_stand_init")
+    )
 
     @method("moveTo::b(fff)", "moveTo::b(fffm)", "walkTo::b(fff)", "walkTo::b(fffm)")
     def move_to(self, x: float, y: float, theta: float, config: Any = ()) -> Any:
@@ -264,10 +263,9 @@ class ALMotion(Module):
         promise.on_cancel = lambda: promise.cancelled() if stop() else None
         return promise.future
 
-    @method("moveIsActive::b()", "walkIsActive::b()")
-    def move_is_active(self) -> bool:
-        """Return whether it walks."""
-        return any(map(_is_walk, self._robot.commands()))
+    move_is_active = method("moveIsActive::b()", "walkIsActive::b()")(
+        lambda self: any(map(_is_walk, self._robot.commands()))
+    )
 
     @method("stopMove::b()", "stopWalk::b()")
     def stop_move(self) -> bool:
@@ -422,10 +420,9 @@ class ALMotion(Module):
     wake_up = method("wakeUp::b()")(lambda self: self._do("wake_up", True, stopped=False))
     rest = method("rest::v()")(lambda self: self._do("rest"))  # Go down, and let all motors loose
 
-    @method("robotIsWakeUp::b()")
-    def robot_is_wake_up(self) -> bool:
-        """Return whether motors hold and it does not rest."""
-        return bool(self._robot.state().settings["awake"])
+    robot_is_wake_up = method("robotIsWakeUp::b()")(
+        lambda self: bool(self._robot.state().settings["awake"])
+    )
 
     @method("setStiffnesses::v(mm)")
     def set_stiffnesses(self, names: Any, stiffnesses: Any) -> Any:

@@ -15,8 +15,8 @@ from robots.naoqi.serving import ServedRobot
 from robots.naoqi.wire.errors import CallFailed
 from robots.naoqi.wire.service import method
 
-from .arguments import CODES, code_of
-from .module import Asked, Module, always, kept, one_of
+from .arguments import CODES, code_of, one_of
+from .module import Asked, Module, always, kept
 
 PERIOD_MS = 500
 PRECISION = 1.0
@@ -203,15 +203,12 @@ class ALFaceDetection(PausableExtractor):
     )
     set_tracking, tracking = kept("setTrackingEnabled::v(b)", "isTrackingEnabled::b()", False)
 
-    @method("learnFace::b(s)", "reLearnFace::b(s)")
-    def learn_face(self, name: str) -> Any:
-        """Learn the face in front of it."""
-        return self._do("learn_face", True, name=name)
-
-    @method("forgetPerson::b(s)")
-    def forget_person(self, name: str) -> Any:
-        """Forget a face."""
-        return self._do("forget_face", True, name=name)
+    learn_face = method("learnFace::b(s)", "reLearnFace::b(s)")(
+        lambda self, name: self._do("learn_face", True, name=name)
+    )
+    forget_person = method("forgetPerson::b(s)")(
+        lambda self, name: self._do("forget_face", True, name=name)
+    )
 
     @method("clearDatabase::b()")
     def clear_database(self) -> bool:

@@ -11,8 +11,8 @@ from robots.body.limbs import Limb
 from robots.body.pose import VirtualRobot
 from robots.naoqi.wire.service import method
 
-from .arguments import within
-from .module import Module, one_of
+from .arguments import one_of, within
+from .module import Module
 
 UNKNOWN = "Unknown"
 FAMILIES = {"standing": "Standing", "sitting": "Sitting", "crouching": "Crouching"}
@@ -83,10 +83,9 @@ class ALRobotPosture(Module):
         with self._robot.lock:
             return posture_of(self._robot.robot)
 
-    @method("getPostureList::[s]()")
-    def posture_list(self) -> list[str]:
-        """Return the postures that it can go to."""
-        return posture_names(self._robot.robot.body)
+    posture_list = method("getPostureList::[s]()")(
+        lambda self: posture_names(self._robot.robot.body)
+    )
 
     @method("getPostureFamily::s()")
     def posture_family(self) -> str:
@@ -94,7 +93,6 @@ class ALRobotPosture(Module):
         with self._robot.lock:
             return family_of(self._robot.robot)
 
-    @method("getPostureFamilyList::[s]()")
-    def posture_family_list(self) -> list[str]:
-        """Return the families that there are."""
-        return ["Standing", "Crouching", "Sitting", "LyingBelly", "LyingBack"]
+    posture_family_list = method("getPostureFamilyList::[s]()")(
+        lambda self: ["Standing", "Crouching", "Sitting", "LyingBelly", "LyingBack"]
+    )

@@ -16,8 +16,8 @@ from robots.naoqi.wire.errors import CallFailed
 from robots.naoqi.wire.service import method
 
 from .animations import AnimationNames
-from .arguments import CODES, NAMES, code_of, number, texts, within, words
-from .module import Asked, Begin, Module, Plot, Script, always, one_of, play_script
+from .arguments import CODES, NAMES, code_of, number, one_of, texts, within, words
+from .module import Asked, Begin, Module, Plot, Script, always, play_script
 
 # Reads text to be said: its tags for the voice, and the instructions of animated speech.
 #
@@ -160,16 +160,12 @@ class ALTextToSpeech(Module):
         """Stop saying anything."""
         self._robot.stop(lambda command: Limb.VOICE in command.limbs)
 
-    @method("setLanguage::v(s)")
-    def set_language(self, language: str) -> Any:
-        """Choose the language."""
-        return self._do("language", language=code_of(language))
-
-    @method("getLanguage::s()")
-    def language(self) -> str:
-        """Return the language that it speaks."""
-        return NAMES.get(str(self._robot.state().settings["language"]), "English")
-
+    set_language = method("setLanguage::v(s)")(
+        lambda self, language: self._do("language", language=code_of(language))
+    )
+    language = method("getLanguage::s()")(
+        lambda self: NAMES.get(str(self._robot.state().settings["language"]), "English")
+    )
     available_languages = always(
         list(CODES), "getAvailableLanguages::[s]()", "getSupportedLanguages::[s]()"
     )
@@ -282,10 +278,9 @@ class ALAnimatedSpeech(Module):
         """Let it move while it speaks, or not."""
         self._mode = "contextual" if is_on else "disabled"
 
-    @method("isBodyLanguageEnabled::b()", "isBodyTalkEnabled::b()")
-    def body_language(self) -> bool:
-        """Return whether it moves while it speaks."""
-        return self._mode != "disabled"
+    body_language = method("isBodyLanguageEnabled::b()", "isBodyTalkEnabled::b()")(
+        lambda self: self._mode != "disabled"
+    )
 
     @method("declareTagForAnimations::v(m)")
     def declare_tags(self, tags: Any) -> None:

@@ -9,8 +9,8 @@ from robots.naoqi.serving import ServedRobot
 from robots.naoqi.wire.errors import CallFailed
 from robots.naoqi.wire.service import method
 
-from .arguments import number, within
-from .module import Module, kept, one_of
+from .arguments import number, one_of, within
+from .module import Module, kept
 
 FRAMES = ("torso", "world", "robot")
 """By NAOqi's numbers."""
@@ -91,10 +91,9 @@ class ALTracker(Module):
     is_active = method("isActive::b()")(lambda self: bool(self._active))
     is_target_lost = method("isTargetLost::b()")(lambda self: self._place() is None)
 
-    @method("isNewTargetDetected::b()")
-    def is_new_target_detected(self) -> bool:
-        """Return whether what it follows is in sight."""
-        return self._place() is not None
+    is_new_target_detected = method("isNewTargetDetected::b()")(
+        lambda self: self._place() is not None
+    )
 
     @method("getTargetPosition::[f](i)")
     def target_position(self, frame: int) -> list[float]:
