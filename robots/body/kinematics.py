@@ -9,7 +9,7 @@ from itertools import product
 import numpy as np
 from numpy.typing import NDArray
 
-from .body import Angles, Body, Joint, Link, Vector
+from .body import Angles, Body, Link, Vector
 from .settling import settled, tilt_for
 
 Frames = NDArray[np.float64]
@@ -35,8 +35,14 @@ class Skeleton:
         self.links: tuple[str, ...] = (TORSO, *(joint.child for _, joint in turning))
         self.index = {link: i for i, link in enumerate(self.links)}
         self._columns = np.array([i for i, _ in turning], dtype=int)
-        self._place = np.array([_at_rest(joint) for _, joint in turning]).reshape(-1, 4, 4)
-        cross = np.array([_cross(joint.axis) for _, joint in turning]).reshape(-1, 4, 4)
+        # How each link is placed at rest, and the cross product with the axis that turns it.
+        count = len(turning)
+        self._place, cross = np.tile(np.eye(4), (count, 1, 1)), np.zeros((count, 4, 4))
+        for i, (_, joint) in enumerate(turning):
+            self._place[i, :3, :3] = rotation(*joint.turn_rad)
+            self._place[i, :3, 3] = joint.origin_m
+            x, y, z = np.array(joint.axis) / np.linalg.norm(joint.axis)
+            cross[i, :3, :3] = [[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]]
         self._cross = self._place @ cross
         self._square = self._cross @ cross
         # Links and their parents, grouped by how many joints lie between them and the torso
@@ -189,20 +195,6 @@ _CORNERS = np.vstack(
 def _outline(link: Link) -> list[list[float]]:
     hull = [(np.array(at) + radius * _CORNERS).tolist() for *at, radius in link.hull_m]
     return [*(point for points in hull for point in points), *map(list, link.sole_m)]
-
-
-def _at_rest(joint: Joint) -> Frames:
-    frame = np.eye(4)
-    frame[:3, :3] = rotation(*joint.turn_rad)
-    frame[:3, 3] = joint.origin_m
-    return frame
-
-
-def _cross(axis: Vector) -> Frames:
-    x, y, z = np.array(axis) / np.linalg.norm(axis)
-    cross = np.zeros((4, 4))
-    cross[:3, :3] = [[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]]
-    return cross
 
 
 # The joint angles that put NAO's feet where they should be: inverse kinematics of its legs.

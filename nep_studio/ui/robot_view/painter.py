@@ -6,6 +6,7 @@ import logging
 import math
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
@@ -26,12 +27,15 @@ from nep_studio.ui.theme.colours import Theme
 
 from .bodies import Bodies, Dress
 from .camera import Lens
-from .drawing import NoContext, OnGpu
+from .drawing import NoContext
 from .figure import Placed
 from .gestures import head_of
 from .scene import FloorPlace, Scene, placed_thing, thing_colours
 from .shading import Shades, Shadow, cast_shadow, fading
 from .silhouettes import polygons
+
+if TYPE_CHECKING:
+    from .gl_bodies import GlBodies
 
 log = logging.getLogger(__name__)
 
@@ -249,7 +253,7 @@ def paint_path(painter: QPainter, lens: Lens, theme: Theme, path: Sequence[Floor
 class ScenePainter:
     """Paints scenes in the colours of a theme; keeps what did not change from frame to frame."""
 
-    def __init__(self, theme: Theme, gl: OnGpu | None = None) -> None:
+    def __init__(self, theme: Theme, gl: GlBodies | None = None) -> None:
         self.shades = Shades(theme)
         self.gl = gl
         self._floor: tuple[object, QPixmap] | None = None

@@ -263,9 +263,10 @@ class ALMotion(Module):
         promise.on_cancel = lambda: promise.cancelled() if stop() else None
         return promise.future
 
-    move_is_active = method("moveIsActive::b()", "walkIsActive::b()")(
-        lambda self: any(map(_is_walk, self._robot.commands()))
-    )
+    @method("moveIsActive::b()", "walkIsActive::b()")
+    def move_is_active(self) -> bool:
+        """Return whether it walks."""
+        return any(map(_is_walk, self._robot.commands()))
 
     @method("stopMove::b()", "stopWalk::b()")
     def stop_move(self) -> bool:
