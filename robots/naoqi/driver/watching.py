@@ -88,15 +88,12 @@ class Watching:
                 self._ask_place()
         if now_s >= self._next_slow_s:
             self._next_slow_s = now_s + SLOW_PERIOD_S
-            self._ask_slowly()
-
-    def _ask_slowly(self) -> None:
-        settings = self._robot.known.settings
-        self._ask(self._on_slow, "ALMemory", "getListData", self._slow)
-        self._ask_place()
-        self._ask(self._on_posture, "ALRobotPosture", "getPosture")
-        for name, read, *call in SETTINGS:
-            self._ask(partial(_keep, settings, name, read), *call)
+            settings = self._robot.known.settings
+            self._ask(self._on_slow, "ALMemory", "getListData", self._slow)
+            self._ask_place()
+            self._ask(self._on_posture, "ALRobotPosture", "getPosture")
+            for name, read, *call in SETTINGS:
+                self._ask(partial(_keep, settings, name, read), *call)
 
     def _ask_place(self) -> None:
         self._ask(self._on_base, "ALMotion", "getRobotPosition", True)
