@@ -385,4 +385,4 @@ def _bubbles(scene: Scene, lens: Lens, font: QFont) -> list[Bubble]:
             size = robot.figure.top_m * lens.scale / depth
             at = QPointF(*lens.project(head).tolist())
             said.append(Said(robot.state.saying, at, size * 0.55))
-    return placed_bubbles(said, font, lens.width, lens.height)
+    return placed_bubbles(said, font, lens.width, lens.height) if said else []

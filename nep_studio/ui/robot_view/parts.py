@@ -254,23 +254,19 @@ def read_view(path: Path) -> ViewFile:
 def all_parts(view: ViewFile) -> Iterator[Shaped]:
     """Every part with its copies round an axis and on the other side."""
     for part in view.part:
-        for copy, spin in _repeated(part):
+        around = part.repeat or Repeat(count=1, at=(0, 0, 0), axis=(0, 0, 1), step_deg=0)
+        axis, about = np.array(around.axis), np.array(around.at)
+        for number in range(around.count):
+            turn = rotation(axis, math.radians(around.step_deg * number))
+            spin = about - turn @ about, turn
+            name, light = (
+                text.replace("{n}", str(around.first + number)) if part.repeat else text
+                for text in (part.name, part.light)
+            )
+            copy = msgspec.structs.replace(part, name=name, light=light)
             yield _shaped(copy, spin, is_mirrored=False)
             if part.mirror:
                 yield _shaped(_other_side(copy), spin, is_mirrored=True)
-
-
-def _repeated(part: Part) -> Iterator[tuple[Part, tuple[Array, Array]]]:
-    if part.repeat is None:
-        yield part, (np.zeros(3), np.eye(3))
-        return
-    axis, about, first = np.array(part.repeat.axis), np.array(part.repeat.at), part.repeat.first
-    for number in range(part.repeat.count):
-        turn = rotation(axis, math.radians(part.repeat.step_deg * number))
-        texts = {
-            key: getattr(part, key).replace("{n}", str(first + number)) for key in ("name", "light")
-        }
-        yield msgspec.structs.replace(part, **texts), (about - turn @ about, turn)
 
 
 def _other_side(part: Part) -> Part:
