@@ -21,7 +21,7 @@ from robots.body.schedule import Running, Task, advance
 from robots.errors import ActionFailed
 from robots.naoqi.discovery import read_address
 
-from . import link, media, moving, speech
+from . import link, moving, speech
 from .calls import Calls, waited
 from .link import Heard, Link, Reached, reach
 from .real import RealRobot
@@ -53,7 +53,7 @@ TASKS: dict[type[a.Action], Callable[[RealRobot, Any], Task]] = {
     a.Look: lambda robot, it: moving.look(
         robot, math.radians(it.yaw_deg), math.radians(it.pitch_deg)
     ),
-    a.Leds: media.light,
+    a.Leds: speech.light,
     a.Hand: moving.move_hands,
     a.MoveJoint: moving.move_joint,
     a.Stiffness: lambda robot, it: moving.lock(robot, it.part, on=it.on),
@@ -73,15 +73,15 @@ TASKS: dict[type[a.Action], Callable[[RealRobot, Any], Task]] = {
     a.Silence: lambda _, it: waited(it.seconds),
     a.Volume: speech.set_volume,
     a.SetLanguage: speech.set_language,
-    a.Intensity: media.set_intensity,
-    a.ResetLeds: media.reset,
-    a.RandomEyes: media.play_of_colours,
-    a.RotateEyes: media.play_of_colours,
-    a.LearnFace: media.learn_face,
-    a.ForgetFace: media.forget_face,
-    a.TakePicture: media.take_picture,
-    a.RecordVideo: media.record_video,
-    a.PlaySound: media.play_sound,
+    a.Intensity: speech.set_intensity,
+    a.ResetLeds: speech.reset,
+    a.RandomEyes: speech.play_of_colours,
+    a.RotateEyes: speech.play_of_colours,
+    a.LearnFace: speech.learn_face,
+    a.ForgetFace: speech.forget_face,
+    a.TakePicture: speech.take_picture,
+    a.RecordVideo: speech.record_video,
+    a.PlaySound: speech.play_sound,
 }
 """How a real robot does each action; a test sees that none is missing."""
 

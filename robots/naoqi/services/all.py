@@ -18,7 +18,6 @@ from robots.naoqi.wire.line import Login
 
 from . import life, media, perception
 from .animations import ALAnimationPlayer, ALBehaviorManager, load_animation_names
-from .lights import ALLeds
 from .memory import TOUCH_EVENTS, TOUCH_NAMES, ALMemory, keys_of
 from .module import Module
 from .motion import ALMotion
@@ -171,7 +170,7 @@ class Services:
         simple = (
             ALMotion,
             ALRobotPosture,
-            ALLeds,
+            media.ALLeds,
             ALTracker,
             ALSpeechRecognition,
             perception.ALFaceDetection,
