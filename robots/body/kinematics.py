@@ -67,11 +67,14 @@ class Skeleton:
         self.masses_kg = masses
         self._mass_part = masses / self.mass_kg if self.mass_kg else masses
         self._centres = np.array([[*link.centre_m, 1.0] for link in links])
-        points = [point for link in links for point in _outline(link)]
+        outlines = [
+            [*(np.array(at) + radius * way for *at, radius in link.hull_m for way in _CORNERS)]
+            + [np.array(point) for point in link.sole_m]
+            for link in links
+        ]
+        points = [point for outline in outlines for point in outline]
         self._points = np.array([[*point, 1.0] for point in points]).reshape(-1, 4)
-        self.point_links = np.array(
-            [i for i, link in enumerate(links) for _ in _outline(link)], dtype=int
-        )
+        self.point_links = np.repeat(np.arange(len(links)), [len(one) for one in outlines])
         self.soles: dict[str, Points] = {
             name: np.array(link.sole_m)
             for name, link in zip(self.links, links, strict=True)
@@ -190,11 +193,6 @@ _CORNERS = np.vstack(
     [np.eye(3), -np.eye(3), np.array(list(product((-1.0, 1.0), repeat=3))) / math.sqrt(3.0)]
 )
 """Directions in which a round shape is taken to reach out."""
-
-
-def _outline(link: Link) -> list[list[float]]:
-    hull = [(np.array(at) + radius * _CORNERS).tolist() for *at, radius in link.hull_m]
-    return [*(point for points in hull for point in points), *map(list, link.sole_m)]
 
 
 # The joint angles that put NAO's feet where they should be: inverse kinematics of its legs.

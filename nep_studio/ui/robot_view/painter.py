@@ -73,7 +73,18 @@ def placed_bubbles(said: Iterable[Said], font: QFont, width: float, height: floa
     placed: list[Bubble] = []
     for one in sorted(said, key=lambda item: item.head.x()):
         bubble = _placed(one, QFontMetricsF(font), width, height)
-        placed.append(_freed(bubble, placed, width))
+        box = QRectF(bubble.box)
+        # It is moved off those that are there already.
+        for other in placed:
+            if not box.intersects(other.box):
+                continue
+            if other.box.top() - box.height() - 6 >= 0:
+                box.moveBottom(other.box.top() - 6)
+            elif other.box.right() + 6 + box.width() <= width:
+                box.moveLeft(other.box.right() + 6)
+            else:
+                box.moveTop(other.box.bottom() + 6)
+        placed.append(Bubble(bubble.words, box, bubble.tip))
     return placed
 
 
@@ -114,21 +125,6 @@ def _fitting(words: str, metrics: QFontMetricsF, width: float, height: float) ->
         words = words[: len(words) * 9 // 10].rstrip(" …") + "…"
         size = metrics.boundingRect(endless, FLAGS.value, words)
     return words, size
-
-
-def _freed(bubble: Bubble, others: Sequence[Bubble], width: float) -> Bubble:
-    """The bubble moved off those that are there already."""
-    box = QRectF(bubble.box)
-    for other in others:
-        if not box.intersects(other.box):
-            continue
-        if other.box.top() - box.height() - 6 >= 0:
-            box.moveBottom(other.box.top() - 6)
-        elif other.box.right() + 6 + box.width() <= width:
-            box.moveLeft(other.box.right() + 6)
-        else:
-            box.moveTop(other.box.bottom() + 6)
-    return Bubble(bubble.words, box, bubble.tip)
 
 
 def paint_bubble(painter: QPainter, bubble: Bubble, theme: Theme, font: QFont) -> None:
@@ -287,7 +283,7 @@ class ScenePainter:
             if shadow is not None:
                 shadow.paint(painter, lens)
         self._shadows = kept
-        if not self._paint_with_gl(painter, scene, lens):
+        if self.gl is None or not self._paint_with_gl(self.gl, painter, scene, lens):
             bodies = self.bodies_of(scene, lens)
             if bodies is not None:
                 bodies.paint(painter, self.shades)
@@ -303,12 +299,10 @@ class ScenePainter:
             self._bodies = key, Bodies.through(lens, groups_of(scene))
         return self._bodies[1]
 
-    def _paint_with_gl(self, painter: QPainter, scene: Scene, lens: Lens) -> bool:
+    def _paint_with_gl(self, gl: GlBodies, painter: QPainter, scene: Scene, lens: Lens) -> bool:
         """Paint the bodies with OpenGL; whether that went well."""
-        if self.gl is None:
-            return False
         try:
-            picture = self.gl.picture(groups_of(scene), lens, self.shades)
+            picture = gl.picture(groups_of(scene), lens, self.shades)
         except NoContext as error:
             log.warning("Robots are painted without OpenGL from now on: %s", error)
             self.gl = None
