@@ -288,8 +288,7 @@ class _Performance:
         speed = pace * (1 + warp * np.sin(2 * np.pi * within))
         # 1 where there is a recording, and smoothly 0 before and after it; (n,)
         outside_s = np.maximum(np.maximum(take.t[0] - recorded_s, recorded_s - take.t[-1]), 0.0)
-        fading: Floats = 1 - minimum_jerk(outside_s / _RAMP_S)
-        there = fading
+        there = 1 - minimum_jerk(outside_s / _RAMP_S)
         moving = _at(recorded_s, take.t, take.moving) * (reach * speed**2 * there)[:, None]
         gyr = _at(recorded_s, take.t, take.gyr) * (speed * there)[:, None]
         if take.up is None:
