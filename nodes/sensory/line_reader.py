@@ -390,14 +390,11 @@ class _Form:
                 self._guess()
             reading = self.layout.reading(row)
             return [] if reading is None else [reading]
-        if not self._has_enough(now_s):
+        waited_s = now_s - self.arrived_s[0]
+        if not (self.count >= _ENOUGH or (self.count >= _ENOUGH_FEW and waited_s > _ENOUGH_S)):
             return []
         self._guess()
         return self._all() if self.layout else []
-
-    def _has_enough(self, now_s: float) -> bool:
-        waited_s = now_s - self.arrived_s[0]
-        return self.count >= _ENOUGH or (self.count >= _ENOUGH_FEW and waited_s > _ENOUGH_S)
 
     def _guess(self) -> None:
         rows, arrived_s = list(self.rows), list(self.arrived_s)
@@ -465,31 +462,17 @@ class LineReader:
         if is_of_paper_watch(line):
             return read_paper_watch(line)
         if line.startswith("{"):
-            return self._json(line, now_s)
+            message = read_json(line)
+            if message is None:
+                return None
+            if is_of_an_app(message):
+                return read_app(message)
+            return self._named(dict(_numbers(message)), now_s)
         cells = _split(line)
         if len(cells) > _MOST_COLUMNS:
             return None
         if pairs := _pairs(cells):
             return self._named(pairs, now_s)
-        return self._cells(cells, now_s)
-
-    def _json(self, line: str, now_s: float) -> list[Reading] | None:
-        message = read_json(line)
-        if message is None:
-            return None
-        if is_of_an_app(message):
-            return read_app(message)
-        return self._named(dict(_numbers(message)), now_s)
-
-    def _named(self, values: dict[str, object], now_s: float) -> list[Reading] | None:
-        names = tuple(values)
-        given = named_columns(names)
-        row = _row(list(values.values()))
-        if given is None or row is None:
-            return None
-        return self._read(names, given, row, now_s)
-
-    def _cells(self, cells: list[str], now_s: float) -> list[Reading] | None:
         row = _row(cells)
         if row is None:
             return self._names(cells)
@@ -501,6 +484,14 @@ class LineReader:
         if self._given is not None and len(row) < len(self._given.roles):
             return None
         return self._read(len(row), given, row, now_s)
+
+    def _named(self, values: dict[str, object], now_s: float) -> list[Reading] | None:
+        names = tuple(values)
+        given = named_columns(names)
+        row = _row(list(values.values()))
+        if given is None or row is None:
+            return None
+        return self._read(names, given, row, now_s)
 
     def _names(self, cells: list[str]) -> list[Reading] | None:
         """A header line, which names the columns of those that follow; None for any other text."""

@@ -134,10 +134,24 @@ def read_app(message: Mapping[str, object]) -> list[Reading] | None:
     if "sensordata" in message:
         return _read_zig_sim(message)
     if message.get("op") == "hyperimu":
-        return _read_hyper_imu(message)
+        acc, gyr = vector(message.get("accelerometer")), vector(message.get("gyroscope"))
+        if acc is None and gyr is None:
+            return None
+        return [Reading(acc, gyr, finite_number(message.get("timestamp")), _MS)]
     if "type" in message:
         return read_android(message)
-    return _read_streamer(message)
+    readings: list[Reading] = []
+    for name in ("accelerometer", "gyroscope"):
+        part = message.get(name)
+        if not isinstance(part, dict):
+            continue
+        values = vector(part.get("value", part))
+        stamp = finite_number(part.get("timestamp"))
+        if values is not None and name == "accelerometer":
+            readings.append(Reading(acc=values, stamp=stamp, stamp_unit_s=NS))
+        elif values is not None:
+            readings.append(Reading(gyr=values, stamp=stamp, stamp_unit_s=NS))
+    return readings or None
 
 
 def read_android(message: Mapping[str, object], kind: str = "") -> list[Reading] | None:
@@ -155,28 +169,6 @@ def read_android(message: Mapping[str, object], kind: str = "") -> list[Reading]
 
 def _is_streamer(part: object) -> bool:
     return isinstance(part, dict) and "timestamp" in part and ("value" in part or "x" in part)
-
-
-def _read_streamer(message: Mapping[str, object]) -> list[Reading] | None:
-    readings: list[Reading] = []
-    for name in ("accelerometer", "gyroscope"):
-        part = message.get(name)
-        if not isinstance(part, dict):
-            continue
-        values = vector(part.get("value", part))
-        stamp = finite_number(part.get("timestamp"))
-        if values is not None and name == "accelerometer":
-            readings.append(Reading(acc=values, stamp=stamp, stamp_unit_s=NS))
-        elif values is not None:
-            readings.append(Reading(gyr=values, stamp=stamp, stamp_unit_s=NS))
-    return readings or None
-
-
-def _read_hyper_imu(message: Mapping[str, object]) -> list[Reading] | None:
-    acc, gyr = vector(message.get("accelerometer")), vector(message.get("gyroscope"))
-    if acc is None and gyr is None:
-        return None
-    return [Reading(acc, gyr, finite_number(message.get("timestamp")), _MS)]
 
 
 def _read_zig_sim(message: Mapping[str, object]) -> list[Reading] | None:

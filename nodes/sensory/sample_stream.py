@@ -276,7 +276,12 @@ class _SenderClock:
         stamp_s = reading.stamp * self._unit_of(reading.stamp, reading.stamp_unit_s)
         self._last_stamp = reading.stamp
         if self._zero_s is None or not self._is_near(stamp_s - self._zero_s, arrived_s):
-            self._start_anew(stamp_s, since_s)
+            if self._zero_s is not None:
+                step_s = stamp_s - self._zero_s - self._last_s
+                if abs(step_s - since_s) > _LATEST_S:  # else it was silent for so long
+                    self.jump_s = step_s
+                self.fit = ClockFit()
+            self._zero_s = stamp_s - self._last_s - max(since_s, _SHORT_S)
         t = stamp_s - (self._zero_s or 0.0)
         self._last_s = max(self._last_s, t)
         return t
@@ -284,14 +289,6 @@ class _SenderClock:
     def note_arrival(self, arrived_s: float) -> None:
         """The reading that was timed last arrived then."""
         self.fit.add(self._last_s, arrived_s)
-
-    def _start_anew(self, stamp_s: float, since_s: float) -> None:
-        if self._zero_s is not None:
-            step_s = stamp_s - self._zero_s - self._last_s
-            if abs(step_s - since_s) > _LATEST_S:  # else it was silent for so long
-                self.jump_s = step_s
-            self.fit = ClockFit()
-        self._zero_s = stamp_s - self._last_s - max(since_s, _SHORT_S)
 
     def _is_near(self, t: float, arrived_s: float) -> bool:
         step_s = t - self._last_s
@@ -303,12 +300,9 @@ class _SenderClock:
         if told_s is not None:
             return told_s
         if self._unit_s is None and self._zero_s is not None and stamp > self._last_stamp:
-            self._unit_s = _unit_of_step(stamp - self._last_stamp)
+            # The unit of stamps that are ``step`` apart, for sensors of about 1 to 1,000 Hz
+            step = stamp - self._last_stamp
+            limits = ((0.9, 1.0), (900, 1e-3), (9e5, 1e-6))
+            self._unit_s = next((unit_s for limit, unit_s in limits if step < limit), NS)
             self._zero_s = self._last_stamp * self._unit_s - self._last_s
         return self._unit_s or 1.0
-
-
-def _unit_of_step(step: float) -> float:
-    """The unit of stamps that are ``step`` apart, for sensors of about 1 to 1,000 Hz."""
-    limits = ((0.9, 1.0), (900, 1e-3), (9e5, 1e-6))
-    return next((unit_s for limit, unit_s in limits if step < limit), NS)

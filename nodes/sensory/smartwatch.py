@@ -168,18 +168,14 @@ class Hearing:
 
     def _tell_troubles(self, arrived: Arrived, now_s: float) -> None:
         if jump_s := self._stream.take_jump_s():
-            seconds = f"{abs(jump_s):.0f}"
-            ahead = text_of(
-                "The clock of {sender} jumped ahead by {seconds} s; time goes on.",
+            told = text_of(
+                "The clock of {sender} jumped ahead by {seconds} s; time goes on."
+                if jump_s > 0
+                else "The clock of {sender} jumped back by {seconds} s; time goes on.",
                 sender=self._sender,
-                seconds=seconds,
+                seconds=f"{abs(jump_s):.0f}",
             )
-            back = text_of(
-                "The clock of {sender} jumped back by {seconds} s; time goes on.",
-                sender=self._sender,
-                seconds=seconds,
-            )
-            self._complaints.tell(ahead if jump_s > 0 else back, now_s, of="jump")
+            self._complaints.tell(told, now_s, of="jump")
         if arrived.dropped:
             self._complaints.tell(
                 text_of(

@@ -284,7 +284,21 @@ class _Performance:
         count = int((lasts_s + 2 * LEAD_S) * rate_hz)
         t = np.arange(count) / rate_hz - LEAD_S
         self._is_made = (t >= 0) & (t < lasts_s)
-        self._made = _perform(take, t, pace, reach, warp, up)
+        # A take at times of its performance (n,), at a pace, with a reach, its middle shifted
+        duration_s = take.duration_s
+        within = np.clip(t * pace / duration_s, 0.0, 1.0)
+        recorded_s = t * pace + warp * duration_s * (1 - np.cos(2 * np.pi * within)) / (2 * np.pi)
+        speed = pace * (1 + warp * np.sin(2 * np.pi * within))
+        # 1 where there is a recording, and smoothly 0 before and after it; (n,)
+        outside_s = np.maximum(np.maximum(take.t[0] - recorded_s, recorded_s - take.t[-1]), 0.0)
+        there = 1 - minimum_jerk(outside_s / _RAMP_S)
+        moving = _at(recorded_s, take.t, take.moving) * (reach * speed**2 * there)[:, None]
+        gyr = _at(recorded_s, take.t, take.gyr) * (speed * there)[:, None]
+        if take.up is None:
+            gravity = _turned_along(up, gyr, float(t[1] - t[0]))
+        else:
+            gravity = _at(recorded_s, take.t, take.up)
+        self._made = _Made(moving, gravity, gyr, np.empty(0), np.empty(0))
         self._made.weight = minimum_jerk((t + LEAD_S) / LEAD_S)
         self._made.weight *= minimum_jerk((lasts_s + LEAD_S - t) / LEAD_S)
         self._made.change_hz = np.gradient(self._made.weight, 1 / rate_hz)
@@ -310,33 +324,8 @@ class _Performance:
         return Samples(felt.t, acc, gyr, labels)
 
 
-def _perform(
-    take: RecordedTake, t: Floats, pace: float, reach: float, warp: float, up: Floats
-) -> _Made:
-    """A take at times of its performance (n,), at a pace, with a reach, its middle shifted."""
-    duration_s = take.duration_s
-    within = np.clip(t * pace / duration_s, 0.0, 1.0)
-    recorded_s = t * pace + warp * duration_s * (1 - np.cos(2 * np.pi * within)) / (2 * np.pi)
-    speed = pace * (1 + warp * np.sin(2 * np.pi * within))
-    there = _fading(recorded_s, take.t[0], take.t[-1])
-    moving = _at(recorded_s, take.t, take.moving) * (reach * speed**2 * there)[:, None]
-    gyr = _at(recorded_s, take.t, take.gyr) * (speed * there)[:, None]
-    if take.up is None:
-        gravity = _turned_along(up, gyr, float(t[1] - t[0]))
-    else:
-        gravity = _at(recorded_s, take.t, take.up)
-    return _Made(moving, gravity, gyr, np.empty(0), np.empty(0))
-
-
 def _at(times_s: Floats, t: Floats, values: Floats) -> Floats:
     return np.column_stack([np.interp(times_s, t, column) for column in values.T])
-
-
-def _fading(times_s: Floats, first_s: float, last_s: float) -> Floats:
-    """1 where there is a recording, and smoothly 0 before and after it; (n,)."""
-    outside_s = np.maximum(np.maximum(first_s - times_s, times_s - last_s), 0.0)
-    fading: Floats = 1 - minimum_jerk(outside_s / _RAMP_S)
-    return fading
 
 
 def _turned_along(up: Floats, gyr: Floats, step_s: float) -> Floats:

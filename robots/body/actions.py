@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from typing import Annotated, Any, Literal
 
 import msgspec
@@ -16,6 +17,13 @@ from .limbs import Limb
 # The arguments of what programs can ask of single motors, and of a voice that says nothing.
 
 Firmness = Annotated[float, Meta(ge=0.0, le=1.0)]
+
+
+def _by_word(*kinds: tuple[type[msgspec.Struct], ...]) -> dict[str, type[msgspec.Struct]]:
+    """Actions by the words for them: WakeUp is wake_up."""
+    return {
+        re.sub(r"\B([A-Z])", r"_\1", kind.__name__).lower(): kind for some in kinds for kind in some
+    }
 
 
 class Target(msgspec.Struct, frozen=True):
@@ -89,15 +97,6 @@ class Silence(msgspec.Struct, frozen=True):
 def _check_angles(angles: dict[str, float]) -> None:
     if not all(abs(angle) <= LARGEST for angle in angles.values()):
         raise ValueError("an angle is infinite or not a number")
-
-
-MOTOR_ACTIONS: dict[str, type[msgspec.Struct]] = {
-    "set_angles": SetAngles,
-    "reach_angles": ReachAngles,
-    "move_through": MoveThrough,
-    "set_stiffness": SetStiffness,
-    "silence": Silence,
-}
 
 
 # The arguments of what a robot can be asked to do with its body.
@@ -203,20 +202,10 @@ class Track(msgspec.Struct, frozen=True):
     using: Literal["head", "body", "off"] = "head"
 
 
-BODY_ACTIONS: dict[str, type[msgspec.Struct]] = {
-    "hand": Hand,
-    "move_joint": MoveJoint,
-    "stiffness": Stiffness,
-    "wake_up": WakeUp,
-    "rest": Rest,
-    "awareness": Awareness,
-    "breathing": Breathing,
-    "walk_freely": WalkFreely,
-    "look_at": LookAt,
-    "point_at": PointAt,
-    "look_at_seen": LookAtSeen,
-    "track": Track,
-}
+BODY_ACTIONS = _by_word(
+    (Hand, MoveJoint, Stiffness, WakeUp, Rest, Awareness, Breathing, WalkFreely),
+    (LookAt, PointAt, LookAtSeen, Track),
+)
 
 
 # The arguments of what a robot can be asked to do with its voice, lights, eyes and ears.
@@ -309,20 +298,11 @@ class PlaySound(msgspec.Struct, frozen=True):
     again: bool = False
 
 
-SENSE_ACTIONS: dict[str, type[msgspec.Struct]] = {
-    "volume": Volume,
-    "language": SetLanguage,
-    "listen": Listen,
-    "intensity": Intensity,
-    "reset_leds": ResetLeds,
-    "random_eyes": RandomEyes,
-    "rotate_eyes": RotateEyes,
-    "learn_face": LearnFace,
-    "forget_face": ForgetFace,
-    "take_picture": TakePicture,
-    "record_video": RecordVideo,
-    "play_sound": PlaySound,
-}
+_SETTINGS: dict[str, type[msgspec.Struct]] = {"volume": Volume, "language": SetLanguage}
+SENSE_ACTIONS = _SETTINGS | _by_word(
+    (Listen, Intensity, ResetLeds, RandomEyes, RotateEyes),
+    (LearnFace, ForgetFace, TakePicture, RecordVideo, PlaySound),
+)
 
 
 LONGEST_TEXT = 5000
@@ -428,19 +408,11 @@ AT_ONCE = (Stop, StopMoving)
 """What is done before anything else, and never waits."""
 
 ACTIONS: dict[str, type[Action]] = {
-    "say": Say,
-    "do": Do,
-    "imitate": Imitate,
-    "play": Play,
-    "walk": Walk,
-    "turn": Turn,
-    "look": Look,
-    "leds": Leds,
+    **_by_word((Say, Do, Imitate, Play, Walk, Turn, Look, Leds)),
     **BODY_ACTIONS,
     **SENSE_ACTIONS,
-    **MOTOR_ACTIONS,
-    "stop": Stop,
-    "stop_moving": StopMoving,
+    **_by_word((SetAngles, ReachAngles, MoveThrough, SetStiffness, Silence)),
+    **_by_word((Stop, StopMoving)),
 }
 
 
@@ -459,21 +431,17 @@ def read_action(name: str, args: dict[str, Any]) -> Action:
     try:
         return msgspec.convert(args, kind)
     except msgspec.ValidationError as error:
-        told, fields = _plain(error), _fields(kind)
+        # Msgspec's "Expected `float`, got `str` - at `$.degrees`" as people say it
+        what, _, place = str(error).partition(" - at `$.")
+        for word, plain in PLAIN_WORDS.items():
+            what = what.replace(word, plain)
+        told, fields = f"{place.rstrip('`')} {what}.".strip().replace("`", ""), _fields(kind)
         raise ActionFailed(
             '"{name}" cannot be done: {told} It takes {fields}.',
             name=name,
             told=told,
             fields=fields,
         ) from error
-
-
-def _plain(error: msgspec.ValidationError) -> str:
-    """Return msgspec's "Expected `float`, got `str` - at `$.degrees`" as people say it."""
-    what, _, place = str(error).partition(" - at `$.")
-    for word, plain in PLAIN_WORDS.items():
-        what = what.replace(word, plain)
-    return f"{place.rstrip('`')} {what}.".strip().replace("`", "")
 
 
 def _fields(kind: type[Action]) -> str:

@@ -60,22 +60,19 @@ class Actor:
             return [self._result(request.id, "failed", problem.fault)]
         ended = self._end_free_walk() if Limb.LEGS in limbs else []
         if isinstance(action, SetAngles):
-            self._aim(action)
+            # Change where joints go; limbs that are not on their way begin when it is their turn
+            for joint, angle in action.angles.items():
+                (limb,) = self.driver.limbs(SetAngles({joint: angle}))
+                approach = self._approaches().get(limb)
+                if approach is None:
+                    approach = Approach(limb, {})
+                    self.schedule.add(Command(f"{APPROACHING}_{limb}", approach, frozenset({limb})))
+                approach.targets[joint] = Target(angle, action.speed)
             return [*ended, self._result(request.id, "done")]
         self.schedule.add(Command(request.id, action, limbs, request.priority))
         if isinstance(action, WalkFreely) and action.unless_asked_s:
             self._asked_s[request.id] = self._now_s
         return [*ended, self._result(request.id, "accepted")]
-
-    def _aim(self, action: SetAngles) -> None:
-        """Change where joints go; limbs that are not on their way begin when it is their turn."""
-        for joint, angle in action.angles.items():
-            (limb,) = self.driver.limbs(SetAngles({joint: angle}))
-            approach = self._approaches().get(limb)
-            if approach is None:
-                approach = Approach(limb, {})
-                self.schedule.add(Command(f"{APPROACHING}_{limb}", approach, frozenset({limb})))
-            approach.targets[joint] = Target(angle, action.speed)
 
     def _approaches(self) -> dict[Limb, Approach]:
         actions = [command.action for command in self._commands()]
@@ -90,15 +87,12 @@ class Actor:
         states = self.driver.sense(request)
         state = self.driver.state()
         if state and request.value > 0 and state.settings.get("tracking") == request.sense:
-            self._follow(request.sense)
+            command = Command(FOLLOWING, LookAtSeen(request.sense), frozenset({Limb.HEAD}))
+            if all(known.id != FOLLOWING for known in self.schedule.waiting):
+                if any(known.id == FOLLOWING for known in self.schedule.running):
+                    self.stop(FOLLOWING)
+                self.schedule.add(command)
         return states
-
-    def _follow(self, thing: str) -> None:
-        command = Command(FOLLOWING, LookAtSeen(thing), frozenset({Limb.HEAD}))
-        if all(known.id != FOLLOWING for known in self.schedule.waiting):
-            if any(known.id == FOLLOWING for known in self.schedule.running):
-                self.stop(FOLLOWING)
-            self.schedule.add(command)
 
     def stop(self, only: str = "") -> list[ActionResult]:
         """End what is running and what waits, at once; or one request of these."""

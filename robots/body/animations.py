@@ -157,7 +157,10 @@ def load_animation(path: Path, body: Body) -> Animation:
     """Read one animation. Raises FilesUnusable, which names file and place."""
     try:
         file = msgspec.toml.decode(path.read_bytes(), type=_AnimationFile)
-        tracks = _tracks(file)
+        if file.joints and file.poses:
+            raise ValueError("poses: there are joints too; a file has either of them")
+        keys = {name: Track(j.times, j.keys, j.handles) for name, j in file.joints.items()}
+        tracks = keys or tracks_of(file.poses)
     except (OSError, ValueError) as error:
         raise _unusable(path, str(error)) from error
     if problem := _problem(file, tracks, body):
@@ -172,13 +175,6 @@ def load_animation(path: Path, body: Body) -> Animation:
         keyframes=Keyframes(tracks),
         joint_limbs=body.limbs_of(tracks),
     )
-
-
-def _tracks(file: _AnimationFile) -> dict[str, Track]:
-    if file.joints and file.poses:
-        raise ValueError("poses: there are joints too; a file has either of them")
-    keys = {name: Track(j.times, j.keys, j.handles) for name, j in file.joints.items()}
-    return keys or tracks_of(file.poses)
 
 
 def _problem(file: _AnimationFile, tracks: dict[str, Track], body: Body) -> str:

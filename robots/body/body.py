@@ -358,18 +358,18 @@ def _plain(word: str) -> str:
 # The parts of NAO's body that can be locked and released, with the joints of each.
 
 PART_OF_LIMB = {Limb.HEAD: "head", Limb.LEFT_ARM: "left_arm", Limb.RIGHT_ARM: "right_arm"}
-SINGLE_PARTS = ("head", "left_arm", "right_arm", "left_leg", "right_leg")
-PARTS: dict[str, tuple[str, ...]] = {part: (part,) for part in SINGLE_PARTS} | {
-    "arms": ("left_arm", "right_arm"),
-    "legs": ("left_leg", "right_leg"),
-    "body": SINGLE_PARTS,
-}
 PLAIN_NAMES = {
     "head": "head",
     "left_arm": "left arm",
     "right_arm": "right arm",
     "left_leg": "left leg",
     "right_leg": "right leg",
+}
+SINGLE_PARTS = tuple(PLAIN_NAMES)
+PARTS: dict[str, tuple[str, ...]] = {part: (part,) for part in SINGLE_PARTS} | {
+    "arms": ("left_arm", "right_arm"),
+    "legs": ("left_leg", "right_leg"),
+    "body": SINGLE_PARTS,
 }
 
 

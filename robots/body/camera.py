@@ -42,8 +42,7 @@ class Hit(NamedTuple):
 def places(eye: Points, rays: Pixels, ways: Pixels) -> Pixels:
     """Return where rays are after so many of their lengths, seen from a place; 0 for inf."""
     reached = np.where(np.isfinite(ways), ways, 0.0)[..., None]
-    found: Pixels = (eye + rays * reached).astype(np.float32)
-    return found
+    return (eye + rays * reached).astype(np.float32)
 
 
 def ball(eye: Points, rays: Pixels, centre: Points, radius: float) -> Hit:
@@ -81,7 +80,8 @@ def box(eye: Points, rays: Pixels, centre: Points, heading: float, half: Points)
     ``eye`` (3,) is where they begin, ``rays`` their directions; ``centre`` (3,) is the box's,
     m, ``heading`` how it is turned, rad.
     """
-    turn = _turned(heading)
+    cosine, sine = math.cos(heading), math.sin(heading)
+    turn = np.array([[cosine, -sine, 0.0], [sine, cosine, 0.0], [0.0, 0.0, 1.0]])
     start, into = (eye - centre) @ turn, rays @ turn
     safe = np.where(np.abs(into) < 1e-9, 1e-9, into)
     first, last = (-half - start) / safe, (half - start) / safe
@@ -119,11 +119,6 @@ def on_disc(hit: Hit, eye: Points, rays: Pixels, centre: Points, heading: float)
     met = places(eye - centre, rays, hit.ways)
     right = met[..., :2] @ np.array([-math.sin(heading), math.cos(heading)])
     return np.stack([right, met[..., 2]], axis=-1).astype(np.float32)
-
-
-def _turned(heading: float) -> Points:
-    cosine, sine = math.cos(heading), math.sin(heading)
-    return np.array([[cosine, -sine, 0.0], [sine, cosine, 0.0], [0.0, 0.0, 1.0]])
 
 
 def _first_way(square: Pixels, towards: Pixels, rest: float) -> Pixels:
@@ -209,17 +204,7 @@ def picture(robot: VirtualRobot, camera: Camera, size: tuple[int, int] = SIZE) -
     stance = robot.stance
     eye = stance.link_place("Head", camera.at_m)
     view = _View(eye, stance.link_turn("Head") @ rotation(0.0, camera.down_rad, 0.0), size)
-    _paint_room(view)
-    for thing in robot.things:
-        middle = _above(thing, 0.5 * thing.size[2])
-        window = view.window(middle, 0.5 * math.hypot(*thing.size))
-        if window:
-            _PAINTERS[thing.kind](view, window, thing)
-    return np.clip(view.colours, 0, 255).astype(np.uint8)
-
-
-def _paint_room(view: _View) -> None:
-    """Paint a floor with lines, as far as one sees, and what is above it."""
+    # Paint a floor with lines, as far as one sees, and what is above it
     up = view.rays[..., 2]
     is_floor = up < -1e-4 if view.eye[2] > 0.0 else np.zeros_like(up, bool)
     height = np.clip(up / np.linalg.norm(view.rays, axis=-1), 0.0, 1.0)[..., None]
@@ -233,6 +218,12 @@ def _paint_room(view: _View) -> None:
     clear = np.exp(-ways / HAZY_M)[:, None]
     view.colours[is_floor] = colours * clear + np.array(HAZE, np.float32) * (1.0 - clear)
     view.ways[is_floor] = ways
+    for thing in robot.things:
+        middle = _above(thing, 0.5 * thing.size[2])
+        window = view.window(middle, 0.5 * math.hypot(*thing.size))
+        if window:
+            _PAINTERS[thing.kind](view, window, thing)
+    return np.clip(view.colours, 0, 255).astype(np.uint8)
 
 
 def _paint_ball(view: _View, window: Window, thing: Thing) -> None:

@@ -61,14 +61,6 @@ class _Unknown(Exception):
     """Something that is neither a number, nor a text, nor a list of these."""
 
 
-def movement_lists(text: str) -> list[tuple[Value, Value, Value]]:
-    """Return the (names, times, keys) of each movement in a program, in their order."""
-    lists = _Lists()
-    for statement in _statements(text):
-        lists.take(statement)
-    return lists.movements()
-
-
 class _Lists:
     """The lists of a program so far."""
 
@@ -84,26 +76,23 @@ class _Lists:
         """Follow one statement; what cannot fill a list is passed over."""
         try:
             (node,) = ast.parse(statement).body
-            self._follow(node)
+            match node:
+                case ast.Assign(targets=[ast.Subscript() as place], value=value):
+                    self._put(place, self._value(value))
+                case ast.Assign(targets=[target], value=value):
+                    self._assign(_name(target), self._value(value))
+                case ast.Expr(value=ast.Call(func=ast.Attribute(attr=call), args=arguments)) if (
+                    call in CALLS and len(arguments) >= 3
+                ):
+                    self._use(dict(zip(CALLS[call], map(self._value, arguments), strict=False)))
+                case ast.Expr(
+                    value=ast.Call(
+                        func=ast.Attribute(value=target, attr="append" | "push_back"), args=[value]
+                    )
+                ):
+                    self._row(_name(target)).append(self._value(value))
         except (SyntaxError, ValueError, RecursionError, MemoryError, _Unknown, ArithmeticError):
             return
-
-    def _follow(self, node: ast.stmt) -> None:
-        match node:
-            case ast.Assign(targets=[ast.Subscript() as place], value=value):
-                self._put(place, self._value(value))
-            case ast.Assign(targets=[target], value=value):
-                self._assign(_name(target), self._value(value))
-            case ast.Expr(value=ast.Call(func=ast.Attribute(attr=call), args=arguments)) if (
-                call in CALLS and len(arguments) >= 3
-            ):
-                self._use(dict(zip(CALLS[call], map(self._value, arguments), strict=False)))
-            case ast.Expr(
-                value=ast.Call(
-                    func=ast.Attribute(value=target, attr="append" | "push_back"), args=[value]
-                )
-            ):
-                self._row(_name(target)).append(self._value(value))
 
     def _assign(self, name: str, value: Value) -> None:
         if name == "names":
@@ -239,7 +228,11 @@ def read_choregraphe(text: str) -> Keyframes:
             "The text is too long for a movement: it has more than 2 million letters.",
             checklist=EXPORTING,
         )
-    found = movement_lists(text)
+    # The (names, times, keys) of each movement in a program, in their order
+    lists = _Lists()
+    for statement in _statements(text):
+        lists.take(statement)
+    found = lists.movements()
     if not found:
         raise KeyframesUnreadable(
             "The text has no joint names, times and keys in it.", checklist=EXPORTING

@@ -120,13 +120,13 @@ class Keyframes:
         return Keyframes({name: change(track) for name, track in self.tracks.items()})
 
 
-def _other_side(name: str) -> str:
-    return {"L": "R", "R": "L"}.get(name[0], name[0]) + name[1:]
-
-
 def mirror_angle(name: str, angle: float) -> float:
     """Return the angle of the joint of this name on the other side, as seen in a mirror."""
     return -angle if _turns_sideways(name) else angle
+
+
+def _other_side(name: str) -> str:
+    return {"L": "R", "R": "L"}.get(name[0], name[0]) + name[1:]
 
 
 def _turns_sideways(name: str) -> bool:

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from itertools import product
 
 import numpy as np
 from numpy.typing import NDArray
 
-from .body import Angles, Body, Joint, Link, Vector
+from .body import Angles, Body, Link, Vector
 from .settling import settled, tilt_for
 
 Frames = NDArray[np.float64]
@@ -34,11 +35,29 @@ class Skeleton:
         self.links: tuple[str, ...] = (TORSO, *(joint.child for _, joint in turning))
         self.index = {link: i for i, link in enumerate(self.links)}
         self._columns = np.array([i for i, _ in turning], dtype=int)
-        self._place = np.array([_at_rest(joint) for _, joint in turning]).reshape(-1, 4, 4)
-        cross = np.array([_cross(joint.axis) for _, joint in turning]).reshape(-1, 4, 4)
+        # How each link is placed at rest, and the cross product with the axis that turns it.
+        count = len(turning)
+        self._place, cross = np.tile(np.eye(4), (count, 1, 1)), np.zeros((count, 4, 4))
+        for i, (_, joint) in enumerate(turning):
+            self._place[i, :3, :3] = rotation(*joint.turn_rad)
+            self._place[i, :3, 3] = joint.origin_m
+            x, y, z = np.array(joint.axis) / np.linalg.norm(joint.axis)
+            cross[i, :3, :3] = [[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]]
         self._cross = self._place @ cross
         self._square = self._cross @ cross
-        self._levels = _levels([self.index[joint.parent] for _, joint in turning])
+        # Links and their parents, grouped by how many joints lie between them and the torso
+        parents = [self.index[joint.parent] for _, joint in turning]
+        depth = {0: 0}
+        while len(depth) <= len(parents):
+            for link, parent in enumerate(parents, start=1):
+                if parent in depth:
+                    depth[link] = depth[parent] + 1
+        deepest = max(depth.values())
+        levels = []
+        for level in range(1, deepest + 1):
+            links = [link for link in depth if depth[link] == level]
+            levels.append((np.array(links), np.array([parents[link - 1] for link in links])))
+        self._levels = levels
         self._load_shape()
 
     def _load_shape(self) -> None:
@@ -48,11 +67,14 @@ class Skeleton:
         self.masses_kg = masses
         self._mass_part = masses / self.mass_kg if self.mass_kg else masses
         self._centres = np.array([[*link.centre_m, 1.0] for link in links])
-        points = [point for link in links for point in _outline(link)]
+        outlines = [
+            [*(np.array(at) + radius * way for *at, radius in link.hull_m for way in _CORNERS)]
+            + [np.array(point) for point in link.sole_m]
+            for link in links
+        ]
+        points = [point for outline in outlines for point in outline]
         self._points = np.array([[*point, 1.0] for point in points]).reshape(-1, 4)
-        self.point_links = np.array(
-            [i for i, link in enumerate(links) for _ in _outline(link)], dtype=int
-        )
+        self.point_links = np.repeat(np.arange(len(links)), [len(one) for one in outlines])
         self.soles: dict[str, Points] = {
             name: np.array(link.sole_m)
             for name, link in zip(self.links, links, strict=True)
@@ -102,8 +124,7 @@ class Skeleton:
         """Return the outline of a foot's sole in the torso's frame."""
         frame = frames[..., self.index[link], :, :]
         points = self.soles[link] @ np.swapaxes(frame[..., :3, :3], -1, -2)
-        sole: Points = points + frame[..., None, :3, 3]
-        return sole
+        return points + frame[..., None, :3, 3]
 
     def resting_turn(self, angles: Angles, down: Vector = UPRIGHT) -> Frames:
         """Return how the torso is turned (3, 3) when the body lies or stands still on a floor.
@@ -168,54 +189,10 @@ def rotation(roll: float, pitch: float, yaw: float) -> Frames:
     return whole
 
 
-_CORNERS = np.array(
-    [*np.eye(3), *-np.eye(3)]
-    + [
-        np.array([x, y, z]) / math.sqrt(3.0)
-        for x in (-1.0, 1.0)
-        for y in (-1.0, 1.0)
-        for z in (-1.0, 1.0)
-    ]
+_CORNERS = np.vstack(
+    [np.eye(3), -np.eye(3), np.array(list(product((-1.0, 1.0), repeat=3))) / math.sqrt(3.0)]
 )
 """Directions in which a round shape is taken to reach out."""
-
-
-def _outline(link: Link) -> list[list[float]]:
-    round_points = [
-        (np.array([x, y, z]) + radius * corner).tolist()
-        for x, y, z, radius in link.hull_m
-        for corner in _CORNERS
-    ]
-    return [*round_points, *(list(point) for point in link.sole_m)]
-
-
-def _at_rest(joint: Joint) -> Frames:
-    frame = np.eye(4)
-    frame[:3, :3] = rotation(*joint.turn_rad)
-    frame[:3, 3] = joint.origin_m
-    return frame
-
-
-def _cross(axis: Vector) -> Frames:
-    x, y, z = np.array(axis) / np.linalg.norm(axis)
-    cross = np.zeros((4, 4))
-    cross[:3, :3] = [[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]]
-    return cross
-
-
-def _levels(parents: list[int]) -> list[tuple[NDArray[np.int_], NDArray[np.int_]]]:
-    """Return links and their parents, grouped by how many joints lie between them and the torso."""
-    depth = {0: 0}
-    while len(depth) <= len(parents):
-        for link, parent in enumerate(parents, start=1):
-            if parent in depth:
-                depth[link] = depth[parent] + 1
-    deepest = max(depth.values())
-    levels = []
-    for level in range(1, deepest + 1):
-        links = [link for link in depth if depth[link] == level]
-        levels.append((np.array(links), np.array([parents[link - 1] for link in links])))
-    return levels
 
 
 # The joint angles that put NAO's feet where they should be: inverse kinematics of its legs.

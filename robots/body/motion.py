@@ -86,7 +86,13 @@ def keyframe_motion(
             longest_s=f"{LONGEST_S:.0f}",
         )
     columns = [body.index[name] for name in keyframes.tracks]
-    return _allowed(body, pose, columns, _sampled(body, pose, keyframes), notes)
+    times_s = ticks(keyframes.duration_s, TICK_S)
+    curves = []
+    for name, track in keyframes.tracks.items():
+        column = body.index[name]
+        start, fastest = float(pose[column]), float(body.max_speed[column])
+        curves.append(track_angles(track, start, times_s, fastest))
+    return _allowed(body, pose, columns, np.column_stack(curves), notes)
 
 
 def playable(
@@ -100,7 +106,13 @@ def playable(
     ``body`` is what moves.
     """
     notes: list[str] = []
-    keyframes = _with_coupled_joints(body, keyframes)
+    # Give the joints that share a motor the same track: the leader's where it has one
+    tracks = dict(keyframes.tracks)
+    for follower, leader in body.same_motor.items():
+        shared = tracks.get(leader) or tracks.get(follower)
+        if shared:
+            tracks[leader] = tracks[follower] = shared
+    keyframes = Keyframes(tracks)
     if softly:
         keyframes = keyframes.delayed(approach_delay_s(body, pose, keyframes))
     given_s = keyframes.duration_s
@@ -129,8 +141,7 @@ def braking_way_s() -> Angles:
     The speed falls as (1 - s)², s being the part of BRAKING_S that has passed.
     """
     s = ticks(BRAKING_S, TICK_S) / BRAKING_S
-    way_s: Angles = (1.0 - (1.0 - s) ** 3) / 3.0 * BRAKING_S
-    return way_s
+    return (1.0 - (1.0 - s) ** 3) / 3.0 * BRAKING_S
 
 
 def _allowed(
@@ -145,16 +156,6 @@ def _allowed(
     if body.head[0] in columns:
         columns = sorted({*columns, *body.head})
     return Motion(tuple(columns), allowed[:, columns], tuple(notes))
-
-
-def _with_coupled_joints(body: Body, keyframes: Keyframes) -> Keyframes:
-    """Give the joints that share a motor the same track: the leader's where it has one."""
-    tracks = dict(keyframes.tracks)
-    for follower, leader in body.same_motor.items():
-        shared = tracks.get(leader) or tracks.get(follower)
-        if shared:
-            tracks[leader] = tracks[follower] = shared
-    return Keyframes(tracks)
 
 
 def approach_delay_s(body: Body, pose: Angles, keyframes: Keyframes) -> float:
@@ -176,13 +177,3 @@ def _slowdown(body: Body, pose: Angles, keyframes: Keyframes) -> float:
         start, fastest = float(pose[column]), float(body.max_speed[column])
         worst = max(worst, peak_speed(track, start, fastest) / fastest)
     return worst * SPEED_MARGIN if worst > 1.0 else 1.0
-
-
-def _sampled(body: Body, pose: Angles, keyframes: Keyframes) -> Angles:
-    times_s = ticks(keyframes.duration_s, TICK_S)
-    curves = []
-    for name, track in keyframes.tracks.items():
-        column = body.index[name]
-        start, fastest = float(pose[column]), float(body.max_speed[column])
-        curves.append(track_angles(track, start, times_s, fastest))
-    return np.column_stack(curves)

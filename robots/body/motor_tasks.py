@@ -12,7 +12,6 @@ import numpy as np
 
 from robots.errors import ActionFailed
 
-from . import actions
 from . import actions as m
 from .actions import MoveJoint, WalkFreely
 from .body import SINGLE_PARTS, Angles, Body, part_of, single_parts
@@ -39,16 +38,6 @@ def move_hands(robot: VirtualRobot, side: str, *, is_open: bool) -> Task:
     goal[columns] = 1.0 if is_open else 0.0
     motion = move(robot.body, robot.angles, goal, columns, speed=HAND_SPEED)
     return (yield from play_motion(robot, motion))
-
-
-def check_joint(body: Body, joint: str) -> None:
-    """Raise ActionFailed with the joints that there are when there is no such one."""
-    if joint not in body.index:
-        raise ActionFailed(
-            'There is no joint "{joint}". Possible: {names}.',
-            joint=joint,
-            names=", ".join(body.names),
-        )
 
 
 def move_joint(robot: VirtualRobot, action: MoveJoint) -> Task:
@@ -106,7 +95,7 @@ def walk_freely(robot: VirtualRobot, action: WalkFreely) -> Task:
         yield from walk(robot, forward, left, turn, at_least_steps=STEPS_AT_ONCE)
 
 
-def track(robot: VirtualRobot, action: actions.Track) -> Task:
+def track(robot: VirtualRobot, action: m.Track) -> Task:
     """Turn to something, and remember to follow it with the head."""
     robot.settings["tracking"] = "" if action.using == "off" else action.thing
     if action.using == "off":
@@ -119,7 +108,7 @@ def track(robot: VirtualRobot, action: actions.Track) -> Task:
     return (yield from look_at_seen(robot, action.thing))
 
 
-def tracking_limbs(action: actions.Track) -> frozenset[Limb]:
+def tracking_limbs(action: m.Track) -> frozenset[Limb]:
     """Return what following something moves."""
     if action.using == "off":
         return frozenset()
@@ -129,38 +118,6 @@ def tracking_limbs(action: actions.Track) -> frozenset[Limb]:
 TO_FULL_SPEED_S = 0.15
 """In this time a joint gets from rest to its top speed."""
 NEAR_RAD = 1e-4
-
-
-def motor_limbs(robot: VirtualRobot, action: object) -> frozenset[Limb]:
-    """Return the limbs that an action of the motors needs. Raises ActionFailed."""
-    match action:
-        case m.Approach(limb=limb):
-            return frozenset({limb})
-        case m.SetAngles(angles=joints) | m.ReachAngles(angles=joints):
-            return _limbs(robot.body, joints)
-        case m.MoveThrough(tracks=joints):
-            return _limbs(robot.body, joints)
-        case m.SetStiffness(joints=joints):
-            _limbs(robot.body, joints)
-        case m.Silence():
-            return frozenset({Limb.VOICE})
-    return frozenset()
-
-
-def motor_task(robot: VirtualRobot, action: object) -> Task | None:
-    """Return the task for an action of the motors, None for any other action."""
-    match action:
-        case m.Approach():
-            return approach(robot, action)
-        case m.ReachAngles():
-            return reach(robot, action)
-        case m.MoveThrough():
-            return move_through(robot, action)
-        case m.SetStiffness():
-            return set_stiffness(robot, action)
-        case m.Silence():
-            return wait(action.seconds)
-    return None
 
 
 def stiffness(robot: VirtualRobot, joint: str) -> float:
@@ -270,8 +227,7 @@ def _next_speed(
     wanted = np.sign(way) * np.minimum(np.minimum(fastest, stopping), np.abs(way) / TICK_S)
     changed = speed + np.clip(wanted - speed, -change, change)
     arrived = (np.abs(way) <= NEAR_RAD + change * TICK_S) & (np.abs(speed) <= 2.0 * change)
-    last: Angles = np.where(arrived, np.where(np.abs(way) > NEAR_RAD, way / TICK_S, 0.0), changed)
-    return last
+    return np.where(arrived, np.where(np.abs(way) > NEAR_RAD, way / TICK_S, 0.0), changed)
 
 
 def _parts(body: Body, targets: dict[str, m.Target]) -> Angles:
@@ -313,10 +269,16 @@ def _columns(body: Body, joints: Iterable[str]) -> list[int]:
     return [i for i, name in enumerate(body.names) if body.same_motor.get(name, name) in motors]
 
 
-def _limbs(body: Body, joints: Iterable[str]) -> frozenset[Limb]:
+def limbs_of_joints(body: Body, joints: Iterable[str]) -> frozenset[Limb]:
+    """Return the limbs that joints are in. Raises ActionFailed when there is no such joint."""
     names = list(joints)
-    for name in names:
-        check_joint(body, name)
+    for joint in names:
+        if joint not in body.index:
+            raise ActionFailed(
+                'There is no joint "{joint}". Possible: {names}.',
+                joint=joint,
+                names=", ".join(body.names),
+            )
     return body.limbs_of(names)
 
 

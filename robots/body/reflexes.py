@@ -14,7 +14,6 @@ from faults import Text, text_of
 
 from .body import Angles, part_of, parts_of_limbs
 from .inverse import Place, head_angles, in_torso
-from .kinematics import Skeleton
 from .limbs import Limb
 from .motion import TICK_S, move
 from .pose import VirtualRobot
@@ -123,7 +122,24 @@ class Sagging:
 
     def __init__(self, robot: VirtualRobot) -> None:
         self._robot = robot
-        self._lever = _levers(robot.stance.skeleton)
+        # For each joint's column its link, and all links that hang on it
+        skeleton = robot.stance.skeleton
+        joints = skeleton.body.joints
+        parents = {joint.child: joint.parent for joint in joints if joint.child}
+
+        def hangs_on(link: str, root: str) -> bool:
+            while link and link != root:
+                link = parents.get(link, "")
+            return link == root
+
+        self._lever = {
+            column: (
+                skeleton.index[joint.child],
+                [skeleton.index[link] for link in parents if hangs_on(link, joint.child)],
+            )
+            for column, joint in enumerate(joints)
+            if joint.child
+        }
         self._rested: frozenset[str] | None = frozenset()
 
     @property
@@ -145,18 +161,7 @@ class Sagging:
         columns = [
             i for i, name in enumerate(robot.body.names) if part_of(robot.body, name) in loose
         ]
-        torque = self._torques()[columns]
-        pulled = np.sign(torque) * np.maximum(np.abs(torque) - STICKING_NM, 0.0)
-        fastest = FASTEST_PART * robot.body.max_speed[columns]
-        goal = robot.angles.copy()
-        goal[columns] += np.clip(RAD_S_PER_NM * pulled, -fastest, fastest) * TICK_S
-        allowed, _ = robot.body.clamped(goal)
-        moved = np.abs(allowed[columns] - robot.angles[columns]).max(initial=0.0)
-        robot.angles[columns] = allowed[columns]
-        self._rested = loose if moved < 1e-5 else None
-
-    def _torques(self) -> Angles:
-        """Return how hard the weight of what hangs on each joint turns it, Nm."""
+        # How hard the weight of what hangs on each joint turns it, Nm
         stance = self._robot.stance
         centres, masses = stance.skeleton.mass_centres(stance.frames), stance.skeleton.masses_kg
         torques = np.zeros(len(self._robot.body.names))
@@ -167,33 +172,21 @@ class Sagging:
             # the pull of all links together: numpy's cross product is slow for single vectors
             arm = masses[carried] @ (centres[carried] - frame[:3, 3])
             torques[column] = GRAVITY_M_S2 * _triple(axis, arm, down)
-        return torques
+        torque = torques[columns]
+        pulled = np.sign(torque) * np.maximum(np.abs(torque) - STICKING_NM, 0.0)
+        fastest = FASTEST_PART * robot.body.max_speed[columns]
+        goal = robot.angles.copy()
+        goal[columns] += np.clip(RAD_S_PER_NM * pulled, -fastest, fastest) * TICK_S
+        allowed, _ = robot.body.clamped(goal)
+        moved = np.abs(allowed[columns] - robot.angles[columns]).max(initial=0.0)
+        robot.angles[columns] = allowed[columns]
+        self._rested = loose if moved < 1e-5 else None
 
 
 def _triple(a: Angles, b: Angles, c: Angles) -> float:
     """Return how much of the cross product of b and c is along a."""
     (ax, ay, az), (bx, by, bz), (cx, cy, cz) = a.tolist(), b.tolist(), c.tolist()
     return float(ax * (by * cz - bz * cy) + ay * (bz * cx - bx * cz) + az * (bx * cy - by * cx))
-
-
-def _levers(skeleton: Skeleton) -> dict[int, tuple[int, list[int]]]:
-    """Return for each joint's column its link, and all links that hang on it."""
-    joints = skeleton.body.joints
-    parents = {joint.child: joint.parent for joint in joints if joint.child}
-
-    def hangs_on(link: str, root: str) -> bool:
-        while link and link != root:
-            link = parents.get(link, "")
-        return link == root
-
-    return {
-        column: (
-            skeleton.index[joint.child],
-            [skeleton.index[link] for link in parents if hangs_on(link, joint.child)],
-        )
-        for column, joint in enumerate(joints)
-        if joint.child
-    }
 
 
 # What a virtual robot does by itself with limbs that nothing uses: breathe, look at people.
@@ -241,9 +234,26 @@ class Idling:
 
     def step(self, used: Collection[Limb], now_s: float) -> None:
         """Go on by one tick with the limbs that are not used."""
-        self._breathe(used, now_s)
+        for limb, depths in BREATH_RAD.items():
+            if limb in used or not self._is_held(limb):
+                self._centres.pop(limb, None)
+            elif self._breathes or limb in self._centres:
+                self._move_with_breath(limb, depths, now_s)
         self._swing_arms(used)
-        self._turn_head(used)
+        robot = self._robot
+        place = self._target()
+        if place is None or Limb.HEAD in used or "head" in robot.released:
+            self._is_turning = False
+            return
+        head = list(robot.body.head)
+        missing, far = self._missing(place)
+        self._is_turning = far > (STOPS_AT_RAD if self._is_turning else STARTS_AT_RAD)
+        if self._is_turning:
+            goal = robot.angles.copy()
+            speed = np.clip(GAIN_PER_S * missing, -LOOKING_RAD_S, LOOKING_RAD_S)
+            goal[head] += speed * TICK_S
+            allowed, _ = robot.body.clamped(goal)
+            robot.angles[head] = allowed[head]
 
     @property
     def _looks_away(self) -> bool:
@@ -256,13 +266,6 @@ class Idling:
     @property
     def _breathes(self) -> bool:
         return bool(self._robot.settings["breathing"]) and not self._robot.fallen
-
-    def _breathe(self, used: Collection[Limb], now_s: float) -> None:
-        for limb, depths in BREATH_RAD.items():
-            if limb in used or not self._is_held(limb):
-                self._centres.pop(limb, None)
-            elif self._breathes or limb in self._centres:
-                self._move_with_breath(limb, depths, now_s)
 
     def _move_with_breath(self, limb: Limb, depths: dict[str, float], now_s: float) -> None:
         robot = self._robot
@@ -303,22 +306,6 @@ class Idling:
         if parts_of_limbs(frozenset({limb})) & self._robot.released:
             return False
         return limb is not Limb.LEGS or self._robot.family == "standing"
-
-    def _turn_head(self, used: Collection[Limb]) -> None:
-        robot = self._robot
-        place = self._target()
-        if place is None or Limb.HEAD in used or "head" in robot.released:
-            self._is_turning = False
-            return
-        head = list(robot.body.head)
-        missing, far = self._missing(place)
-        self._is_turning = far > (STOPS_AT_RAD if self._is_turning else STARTS_AT_RAD)
-        if self._is_turning:
-            goal = robot.angles.copy()
-            speed = np.clip(GAIN_PER_S * missing, -LOOKING_RAD_S, LOOKING_RAD_S)
-            goal[head] += speed * TICK_S
-            allowed, _ = robot.body.clamped(goal)
-            robot.angles[head] = allowed[head]
 
     def _missing(self, place: Place) -> tuple[Angles, float]:
         """Return how far the head's joints are from looking at a place, and the farther one."""

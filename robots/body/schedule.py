@@ -95,3 +95,12 @@ def advance(running: dict[str, Running], command_id: str) -> Ended | None:
         return None
     del running[command_id]
     return ended
+
+
+def is_over(task: Task) -> bool:
+    """Advance a task by one step, and return whether that was its end."""
+    try:
+        next(task)
+    except StopIteration:
+        return True
+    return False

@@ -258,8 +258,22 @@ def length_s(file: Path) -> float:
         if sound[:4] == b"RIFF" and sound[8:12] == b"WAVE":
             return _wav_s(sound)
         if sound[:4] == b"OggS":
-            return _ogg_s(sound)
-        return _mp3_s(sound)
+            # The place of the last page, in samples, by the samples a second
+            (samples,) = struct.unpack_from("<q", sound, sound.rindex(b"OggS") + 6)
+            head = sound.find(b"\x01vorbis")
+            if head < 0:
+                return float(max(0, samples) / (OPUS_HZ if b"OpusHead" in sound[:200] else 0))
+            (rate_hz,) = struct.unpack_from("<I", sound, head + 12)
+            return float(max(0, samples) / rate_hz)
+        # The size by the bits a second of the first frame: right where all frames have the same
+        start = 0
+        if sound[:3] == b"ID3":
+            start = ID3_HEAD + sum((sound[6 + i] & 0x7F) << (21 - 7 * i) for i in range(4))
+        if sound[start] != 0xFF or sound[start + 1] & 0xE6 != 0xE2:
+            raise ValueError("no sound of a known kind")
+        is_mpeg_1 = sound[start + 1] & 0x18 == 0x18
+        kbps = (MP3_KBPS if is_mpeg_1 else MP3_KBPS_OF_LOW_RATES)[sound[start + 2] >> 4]
+        return (len(sound) - start) * 8.0 / (kbps * 1000.0)
     except (struct.error, ZeroDivisionError, IndexError) as error:
         raise ValueError(f"{file.name} is broken") from error
 
@@ -275,28 +289,6 @@ def _wav_s(sound: bytes) -> float:
             return float(min(size, len(sound) - at - 8) / bytes_per_s)
         at += 8 + size + size % 2
     raise ValueError("no sound data")
-
-
-def _ogg_s(sound: bytes) -> float:
-    """The place of the last page, in samples, by the samples a second."""
-    (samples,) = struct.unpack_from("<q", sound, sound.rindex(b"OggS") + 6)
-    head = sound.find(b"\x01vorbis")
-    if head < 0:
-        return float(max(0, samples) / (OPUS_HZ if b"OpusHead" in sound[:200] else 0))
-    (rate_hz,) = struct.unpack_from("<I", sound, head + 12)
-    return float(max(0, samples) / rate_hz)
-
-
-def _mp3_s(sound: bytes) -> float:
-    """The size by the bits a second of the first frame: right where all frames have the same."""
-    start = 0
-    if sound[:3] == b"ID3":
-        start = ID3_HEAD + sum((sound[6 + i] & 0x7F) << (21 - 7 * i) for i in range(4))
-    if sound[start] != 0xFF or sound[start + 1] & 0xE6 != 0xE2:
-        raise ValueError("no sound of a known kind")
-    is_mpeg_1 = sound[start + 1] & 0x18 == 0x18
-    kbps = (MP3_KBPS if is_mpeg_1 else MP3_KBPS_OF_LOW_RATES)[sound[start + 2] >> 4]
-    return (len(sound) - start) * 8.0 / (kbps * 1000.0)
 
 
 # What a virtual robot does to play a sound: it is busy with it for as long as it lasts.

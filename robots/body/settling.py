@@ -22,40 +22,47 @@ MOST_TIPPINGS = 60
 
 def settled(points: Points, turn: Rotation) -> Rotation:
     """Return how a body is turned once it has tipped until it is steady."""
-    turn, _ = tipped(points, turn, math.inf)
-    return turn
+    return tipped(points, turn, math.inf)[0]
 
 
 def tipped(points: Points, turn: Rotation, at_most_rad: float) -> tuple[Rotation, float]:
-    """Let a body tip by at most an angle; return how it is turned, and how much of that is left.
+    """Let a body tip by at most an angle (inf: until it is steady).
+
+    Return how it is turned, and how much of that angle is left.
 
     Something is left when the body has become steady.
     """
     left_rad = at_most_rad
     for _ in range(MOST_TIPPINGS):
         places = points @ turn.T
-        nearest = nearest_support(places)
+        # Of the body's support on the floor what is nearest to below its centre
+        heights = places[:, 2]
+        lowest = float(heights.min())
+        nearest = np.array([*nearest_in_hull(places[heights < lowest + TOUCHING_M, :2]), lowest])
         away = math.hypot(nearest[0], nearest[1])
         if away < STEADY_M:
             return turn, left_rad
         towards = -nearest[:2] / away
-        angle = min(_angle_until_touching(places, nearest, towards), left_rad)
-        turn = _tilted(towards, angle) @ turn
+        # How far a body tips about its support until the next point touches the floor
+        ahead = (places[:, :2] - nearest[:2]) @ towards
+        above = places[:, 2] - nearest[2]
+        free = above >= TOUCHING_M
+        angles = np.arctan2(above[free], ahead[free])
+        angle = min(float(angles.min(initial=math.pi)), left_rad)
+        # The rotation that tips what is up towards a horizontal direction
+        x, y = towards
+        cosine, sine = math.cos(angle), math.sin(angle)
+        rest = 1.0 - cosine
+        tip = [
+            [1.0 - rest * x * x, -rest * x * y, sine * x],
+            [-rest * x * y, 1.0 - rest * y * y, sine * y],
+            [-sine * x, -sine * y, cosine],
+        ]
+        turn = np.array(tip) @ turn
         left_rad -= angle
         if left_rad <= 0.0:
             return turn, 0.0
     return turn, left_rad
-
-
-def nearest_support(places: Points) -> Points:
-    """Return the place of the body's support on the floor that is nearest to below its centre.
-
-    Its x and y are 0 where the body is steady. ``places``: the points, turned as the body is.
-    """
-    heights = places[:, 2]
-    lowest = float(heights.min())
-    x, y = nearest_in_hull(places[heights < lowest + TOUCHING_M, :2])
-    return np.array([x, y, lowest])
 
 
 def nearest_in_hull(feet: Points) -> tuple[float, float]:
@@ -104,29 +111,6 @@ def _chain(points: list[tuple[float, ...]]) -> list[tuple[float, ...]]:
             chain.pop()
         chain.append((x, y))
     return chain
-
-
-def _angle_until_touching(places: Points, pivot: Points, towards: Points) -> float:
-    """Return how far a body tips about its support until the next point touches the floor."""
-    ahead = (places[:, :2] - pivot[:2]) @ towards
-    above = places[:, 2] - pivot[2]
-    free = above >= TOUCHING_M
-    angles = np.arctan2(above[free], ahead[free])
-    return float(angles.min(initial=math.pi))
-
-
-def _tilted(towards: Points, angle: float) -> Rotation:
-    """Return the rotation that tips what is up towards a horizontal direction."""
-    x, y = towards
-    cosine, sine = math.cos(angle), math.sin(angle)
-    rest = 1.0 - cosine
-    return np.array(
-        [
-            [1.0 - rest * x * x, -rest * x * y, sine * x],
-            [-rest * x * y, 1.0 - rest * y * y, sine * y],
-            [-sine * x, -sine * y, cosine],
-        ]
-    )
 
 
 def tilt_for(down: Points) -> Rotation:

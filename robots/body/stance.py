@@ -63,7 +63,10 @@ class Stance:
         """How a task held the torso at the last tick, if one did."""
         self._speed_rad_s = FOLLOWING_RAD_S
         self._angles: Angles = angles
-        self._places: Points = np.zeros((0, 3))
+        self.places: Points = np.zeros((0, 3))
+        """Where the skeleton's outline points are in the room (points, 3), m."""
+        self.frames: Frames = np.zeros((0, 4, 4))
+        """Where each link is in the torso's frame (links, 4, 4)."""
         self.put_down(angles, np.zeros(3), down)
 
     def put_down(self, angles: Angles, base: Angles, down: Vector) -> None:
@@ -109,20 +112,30 @@ class Stance:
         self.last_guide = guide
         if guide is None and self.is_steady and np.array_equal(angles, self._angles):
             return
-        before = self._places
+        before = self.places
         touched = self.touching
         self._angles = angles.copy()
-        self._frames = self.skeleton.transforms(angles)
-        self._centre = self.skeleton.mass_centre(self._frames)
-        outline = self.skeleton.outline(self._frames)
+        self.frames = self.skeleton.transforms(angles)
+        self._centre = self.skeleton.mass_centre(self.frames)
+        outline = self.skeleton.outline(self.frames)
         self._turn_by(guide, outline, tick_s)
         places = outline @ self.turn.T
         if isinstance(guide, Carried):
             self.place = np.array([guide.x, guide.y, 0.0])
         else:
-            places = self._keep_touching_places(places, outline, before, touched)
+            # Move the body over the floor so that what touches it slides as little as it can
+            low = places[:, 2] < places[:, 2].min() + TOUCHING_M
+            both = low & touched
+            kept = both if both.any() else touched
+            new, old = places[kept, :2], before[kept, :2]
+            new_middle, old_middle = new.mean(axis=0), old.mean(axis=0)
+            turn = turned(_turn_between(new - new_middle, old - old_middle))
+            self.turn = turn @ self.turn
+            x, y = old_middle - turn[:2, :2] @ new_middle
+            self.place = np.array([x, y, 0.0])
+            places = outline @ self.turn.T
         self.place[2] = -places[:, 2].min()
-        self._places = places + self.place
+        self.places = places + self.place
 
     def _turn_by(self, guide: Leaning | Carried | None, outline: Points, tick_s: float) -> None:
         if isinstance(guide, Carried):
@@ -146,30 +159,13 @@ class Stance:
         if float(self.down @ self._steady_down) < math.cos(LOST_RAD):
             self.has_lost_balance = True
 
-    def _keep_touching_places(
-        self, places: Points, outline: Points, before: Points, touched: Touching
-    ) -> Points:
-        """Move the body over the floor so that what touches it slides as little as it can."""
-        low = places[:, 2] < places[:, 2].min() + TOUCHING_M
-        both = low & touched
-        kept = both if both.any() else touched
-        new, old = places[kept, :2], before[kept, :2]
-        new_middle, old_middle = new.mean(axis=0), old.mean(axis=0)
-        yaw = _turn_between(new - new_middle, old - old_middle)
-        turn = turned(yaw)
-        self.turn = turn @ self.turn
-        x, y = old_middle - turn[:2, :2] @ new_middle
-        self.place = np.array([x, y, 0.0])
-        turned_places: Points = outline @ self.turn.T
-        return turned_places
-
     def _take_places(self, angles: Angles) -> None:
         self._angles = angles.copy()
-        self._frames = self.skeleton.transforms(angles)
-        self._centre = self.skeleton.mass_centre(self._frames)
-        places = self.skeleton.outline(self._frames) @ self.turn.T
+        self.frames = self.skeleton.transforms(angles)
+        self._centre = self.skeleton.mass_centre(self.frames)
+        places = self.skeleton.outline(self.frames) @ self.turn.T
         self.place[2] = -places[:, 2].min()
-        self._places = places + self.place
+        self.places = places + self.place
 
     def push(self, heading: float) -> None:
         """Tip the body over towards a direction on the floor (rad), as a hard push does."""
@@ -184,40 +180,28 @@ class Stance:
     @property
     def touching(self) -> Touching:
         """Which of the skeleton's outline points touch the floor (points,), true or false."""
-        touching: Touching = self._places[:, 2] < TOUCHING_M
-        return touching
-
-    @property
-    def places(self) -> Points:
-        """Where the skeleton's outline points are in the room (points, 3), m."""
-        return self._places
-
-    @property
-    def frames(self) -> Frames:
-        """Where each link is in the torso's frame (links, 4, 4)."""
-        return self._frames
+        return self.places[:, 2] < TOUCHING_M
 
     @property
     def centre_of_mass(self) -> Points:
         """Where the centre of mass is in the room (3,), m."""
-        centre: Points = self.turn @ self._centre + self.place
-        return centre
+        return self.turn @ self._centre + self.place
 
     def link_place(self, link: str, offset: Vector = (0.0, 0.0, 0.0)) -> Points:
         """Return where a place of a link is in the room (3,), m."""
-        frame = self._frames[self.skeleton.index[link]]
+        frame = self.frames[self.skeleton.index[link]]
         place: Points = self.turn @ (frame[:3, :3] @ np.array(offset) + frame[:3, 3]) + self.place
         return place
 
     def link_turn(self, link: str) -> Rotation:
         """Return how a link is turned in the room (3, 3)."""
-        turn: Rotation = self.turn @ self._frames[self.skeleton.index[link]][:3, :3]
+        turn: Rotation = self.turn @ self.frames[self.skeleton.index[link]][:3, :3]
         return turn
 
     @property
     def margin_m(self) -> float:
         """How far the centre of mass is inside the support, seen from above; below 0: outside."""
-        corners = hull(self._places[self.touching, :2])
+        corners = hull(self.places[self.touching, :2])
         x, y, _ = self.centre_of_mass
         return inside_by(corners, (float(x), float(y))) if len(corners) > 2 else -math.inf
 

@@ -31,10 +31,11 @@ def bump(robot: VirtualRobot, way: Angles) -> str:
     """Return what the robot runs into on its way, "" for nothing; bumpers that touch it feel it."""
     robot.bumped = frozenset()
     for thing in robot.things:
-        if thing.place[2] > LOW_M or not _is_near(robot, thing):
+        far_m = distance_m(thing, float(robot.base[0]), float(robot.base[1]))
+        if thing.place[2] > LOW_M or far_m >= 2.0 * HALF_WIDTH_M:
             continue
         touched = {name for name, points in BUMPERS.items() if _touches(robot, thing, points)}
-        if touched or (_body_touches(robot, thing) and _approaches(robot, thing, way)):
+        if touched or (far_m < BODY_M and _approaches(robot, thing, way)):
             robot.bumped = frozenset(touched)
             return PLAIN_KINDS[thing.kind]
     return ""
@@ -64,8 +65,7 @@ def ways_m(thing: Thing, start: Points, rays: Points) -> Points:
     enters = np.minimum(first, last).max(axis=1)
     leaves = np.maximum(first, last).min(axis=1)
     meets = (leaves >= np.maximum(enters, 0.0)) & (leaves >= 0.0)
-    ways: Points = np.where(meets, np.maximum(enters, 0.0), np.inf)
-    return ways
+    return np.where(meets, np.maximum(enters, 0.0), np.inf)
 
 
 def _ways_to_circle_m(origin: Points, rays: Points, radius_m: float) -> Points:
@@ -73,8 +73,7 @@ def _ways_to_circle_m(origin: Points, rays: Points, radius_m: float) -> Points:
     beside = float(origin @ origin) - along**2
     inside = np.maximum(radius_m**2 - beside, 0.0)
     meets = (beside <= radius_m**2) & (along >= 0.0)
-    ways: Points = np.where(meets, np.maximum(along - np.sqrt(inside), 0.0), np.inf)
-    return ways
+    return np.where(meets, np.maximum(along - np.sqrt(inside), 0.0), np.inf)
 
 
 def half_size(thing: Thing) -> tuple[float, float]:
@@ -90,11 +89,6 @@ def seen_from(thing: Thing, places: Points) -> Points:
     return np.column_stack([dx * cosine + dy * sine, dy * cosine - dx * sine])
 
 
-def _is_near(robot: VirtualRobot, thing: Thing) -> bool:
-    x, y, _ = robot.base
-    return distance_m(thing, float(x), float(y)) < 2.0 * HALF_WIDTH_M
-
-
 def _touches(
     robot: VirtualRobot, thing: Thing, points: tuple[tuple[str, tuple[float, float]], ...]
 ) -> bool:
@@ -105,11 +99,6 @@ def _touches(
         if distance_m(thing, float(x), float(y)) <= 0.0:
             return True
     return False
-
-
-def _body_touches(robot: VirtualRobot, thing: Thing) -> bool:
-    x, y, _ = robot.base
-    return distance_m(thing, float(x), float(y)) < BODY_M
 
 
 def _approaches(robot: VirtualRobot, thing: Thing, way: Angles) -> bool:
@@ -291,11 +280,8 @@ def _hides(thing: Thing, eye: Points, target: Points) -> bool:
     low = np.array([*(-np.array(half_size(thing))), bottom])
     high = np.array([*half_size(thing), bottom + thing.size[2]])
     start, end = np.array([*ends[0], eye[2]]), np.array([*ends[1], target[2]])
-    return _crosses(start, end - start, low, high)
-
-
-def _crosses(start: Points, way: Points, low: Points, high: Points) -> bool:
-    """Whether a way from a place goes through a box."""
+    # Whether a way from a place goes through a box
+    way = end - start
     safe = np.where(np.abs(way) < 1e-12, 1e-12, way)
     first, last = (low - start) / safe, (high - start) / safe
     enters = float(np.minimum(first, last).max())

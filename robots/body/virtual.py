@@ -42,7 +42,7 @@ from .reflexes import (
     sunk_sentence,
 )
 from .repertoire import limbs_of, task_of
-from .schedule import Running, Task, advance
+from .schedule import Running, Task, advance, is_over
 from .stance import TOUCHING_M, Stance
 from .surroundings import Notice, distance_word, sonar_m
 
@@ -89,8 +89,7 @@ def turning_rad_s(before: Angles, after: Angles, seconds: float) -> Angles:
     rates = np.array(
         [change[2, 1] - change[1, 2], change[0, 2] - change[2, 0], change[1, 0] - change[0, 1]]
     )
-    turning: Angles = rates / 2.0 / seconds
-    return turning
+    return rates / 2.0 / seconds
 
 
 def weights_kg(stance: Stance) -> dict[str, float]:
@@ -193,7 +192,10 @@ def sense(robot: VirtualRobot, request: SenseRequest) -> list[str]:
     was_touched = robot.felt.get(request.sense, 0.0) > 0.0
     robot.felt[request.sense] = request.value
     if request.sense in TOUCH_SENSORS and request.value > 0.0 and not was_touched:
-        return _touched(request.sense)
+        # The sensor by itself, then the part of the body that it is on
+        sensor = request.sense
+        part = sensor.partition("_")[0]
+        return [f"touched_{sensor}", f"touched_{part}"]
     return []
 
 
@@ -213,12 +215,6 @@ def _see(robot: VirtualRobot, request: SenseRequest) -> list[str]:
     if request.sense == "face":
         states.append(f"person_{distance_word(request.place)}")
     return states
-
-
-def _touched(sensor: str) -> list[str]:
-    """The sensor by itself, then the part of the body that it is on."""
-    part = sensor.partition("_")[0]
-    return [f"touched_{sensor}", f"touched_{part}"]
 
 
 LOOKING_S = 0.1
@@ -386,7 +382,7 @@ class VirtualDriver:
     def _tick(self) -> list[Ended]:
         angles = self.robot.angles.copy()
         self._use_battery(TICK_S)
-        self._braking = [one for one in self._braking if not _is_over(one.task)]
+        self._braking = [one for one in self._braking if not is_over(one.task)]
         ended = [end for name in tuple(self._running) if (end := advance(self._running, name))]
         if not self._braking:
             self._running |= self._held_up
@@ -438,12 +434,3 @@ class VirtualDriver:
             self._running.pop(name).task.close()
         self._braking = [Running(task, limbs)]
         return [Ended(name, "failed", fault_of(why)) for name in moving]
-
-
-def _is_over(task: Task) -> bool:
-    """Advance a task by one tick, and return whether that was its end."""
-    try:
-        next(task)
-    except StopIteration:
-        return True
-    return False

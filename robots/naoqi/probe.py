@@ -89,7 +89,14 @@ def _steps(text: str, login: Login | None, robot: str) -> Iterator[Check]:
         if missing:
             raise _Failed(_missing(missing, robot))
         yield Check("services", True, "All that moves it and lets it speak is there.")
-        about = _about(session)
+        battery = _asked(session, "ALBattery", "getBatteryCharge")
+        about = AboutRobot(
+            name=str(_asked(session, "ALSystem", "robotName") or ""),
+            version=str(_asked(session, "ALSystem", "systemVersion") or ""),
+            battery=float(battery) / 100.0 if isinstance(battery, int | float) else -1.0,
+            body=str(_asked(session, "ALMemory", "getData", "RobotConfig/Body/BaseVersion") or ""),
+            fingerprint=session.fingerprint,
+        )
         yield Check("robot", True, _introduction(about), about=about)
     finally:
         session.close()
@@ -124,7 +131,7 @@ def _knock(where: list[Any], address: Address, robot: str) -> None:
         with socket.create_connection(where[0][4][:2], timeout=LIMIT_S):
             return
     except OSError as error:
-        raise _failed("port", link.no_answer(robot, plain_address(address))) from error
+        raise _failed("port", link.no_answer(robot=robot, place=plain_address(address))) from error
 
 
 def _connect(address: Address, login: Login | None, robot: str) -> Session:
@@ -132,11 +139,11 @@ def _connect(address: Address, login: Login | None, robot: str) -> Session:
     try:
         return open_session(address, login)
     except LoginRefused as error:
-        raise _failed("login", link.login_refused(robot, place)) from error
+        raise _failed("login", link.login_refused(robot=robot, place=place)) from error
     except NeedsTls as error:
-        raise _failed("login", link.needs_tls(robot, place)) from error
+        raise _failed("login", link.needs_tls(robot=robot, place=place)) from error
     except NaoqiError as error:
-        raise _failed("naoqi", link.not_naoqi(robot, place)) from error
+        raise _failed("naoqi", link.not_naoqi(robot=robot, place=place)) from error
 
 
 def _failed(step: StepName, fault: Fault) -> _Failed:
@@ -161,17 +168,6 @@ def _missing(services: list[str], robot: str) -> Check:
         text_of("Switch {robot} off and on again.", robot=robot),
     )
     return Check("services", False, sentence, steps)
-
-
-def _about(session: Session) -> AboutRobot:
-    battery = _asked(session, "ALBattery", "getBatteryCharge")
-    return AboutRobot(
-        name=str(_asked(session, "ALSystem", "robotName") or ""),
-        version=str(_asked(session, "ALSystem", "systemVersion") or ""),
-        battery=float(battery) / 100.0 if isinstance(battery, int | float) else -1.0,
-        body=str(_asked(session, "ALMemory", "getData", "RobotConfig/Body/BaseVersion") or ""),
-        fingerprint=session.fingerprint,
-    )
 
 
 def _asked(session: Session, service: str, method: str, *args: Any) -> Any:

@@ -124,6 +124,7 @@ TEMPLATES = {
     "state": 1,
     "refuse": 0,
     "Connection": 1,
+    "one_of": 2,
 }
 """What takes a template, beside errors, and in which place."""
 
@@ -347,6 +348,7 @@ def _templates_of(call: ast.Call) -> Iterator[str]:
         "Text",
         "told",
         "Connection",
+        "one_of",
     ):
         at = TEMPLATES.get(name, 0)
         for argument in call.args[at : at + 1]:

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+from collections import defaultdict
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from PySide6.QtCore import QPointF, Qt
+from PySide6.QtCore import Qt
 from PySide6.QtGui import QBrush, QPainter, QTransform
 
 from .camera import Lens
@@ -60,38 +61,52 @@ class Bodies:
         if not groups:
             return None
         placed = Placed.joined([one for one, _ in groups])
-        counts = [len(one.parts) for one, _ in groups]
-        whose = np.repeat(np.arange(len(groups)), counts)
+        whose = np.repeat(np.arange(len(groups)), [len(one.parts) for one, _ in groups])
         seen = silhouettes(placed, lens)
-        order = _order(placed, seen, lens)
+        # Parts that lie on others come right after these, where they face the eye.
+        to_eye = lens.eye - placed.origins
+        normals, bare = placed.assembly.normals, placed.assembly.bare
+        faces_eye = np.einsum("pij,pj,pi->p", placed.turns, normals, to_eye) > 0
+        shown = (faces_eye & seen.is_seen).tolist()
+        riders: dict[int, list[int]] = defaultdict(list)
+        for number, carrier in placed.assembly.riders:
+            if shown[number]:
+                riders[carrier].append(number)
+        carriers = drawing_order(placed, seen, lens, bare[seen.is_seen[bare]])
+        order = [part for number in carriers for part in (number, *riders[number])]
         return cls(placed, [dress for _, dress in groups], whose, seen, order)
 
     def paint(self, painter: QPainter, shades: Shades) -> None:
         """Paint all parts."""
         painter.setPen(Qt.PenStyle.NoPen)
         sizes = np.ptp(self.seen.outlines, axis=1).max(axis=1) * self.seen.ratio
-        rims = fitting_polygons(self.seen.grown(OUTLINE_PX), sizes)
+        rims = fitting_polygons(self.seen.outlines + OUTLINE_PX * self.seen.ways, sizes)
         faces = fitting_polygons(self.seen.outlines, sizes)
         has_rim = (sizes > RIM_FROM_PX).tolist()
-        middles, stretches = self.seen.centres.tolist(), self.seen.stretches.tolist()
         glowing = self._glowing()
+        # From the unit circle to the ellipses of the parts.
+        shapes = [
+            QTransform(a, b, b, d, *middle)
+            for middle, ((a, b), (_, d)) in zip(
+                self.seen.centres.tolist(), self.seen.stretches.tolist(), strict=True
+            )
+        ]
         for number in self.order:
             part, dress = self.placed.parts[number], self.dresses[self.whose[number]]
-            shape = _ellipse(middles[number], stretches[number])
             colour, light = dress.colours[part.colour], dress.light_of(part)
             if has_rim[number] and part.finish != "flat":
                 painter.setBrush(shades.outline(colour, dress.is_pale))
                 painter.drawConvexPolygon(rims[number])
             known = shades.round(colour, dress.is_pale, part.finish)
             brush = QBrush(shades.lamp(light) if light else known)
-            brush.setTransform(shape)
+            brush.setTransform(shapes[number])
             painter.setBrush(brush)
             painter.drawConvexPolygon(faces[number])
             if part.gloss and not dress.is_pale:
-                _shed(painter, [(_SPOT * shape, shades.gloss(part.gloss))])
+                _shed(painter, [(_SPOT * shapes[number], shades.gloss(part.gloss))])
             if number in glowing:
-                lamps = ((_ellipse(middles[i], stretches[i]), glow) for i, glow in glowing[number])
-                _shed(painter, [(_HALO * lamp, shades.glow(glow)) for lamp, glow in lamps])
+                lamps = glowing[number]
+                _shed(painter, [(_HALO * shapes[i], shades.glow(light)) for i, light in lamps])
 
     def _glowing(self) -> dict[int, list[tuple[int, int]]]:
         """The lights that are on, with their colours, by what they lie on and shed their light on.
@@ -118,30 +133,18 @@ class Bodies:
         return None
 
 
-def _ellipse(middle: Sequence[float], stretch: Sequence[Sequence[float]]) -> QTransform:
-    """From the unit circle to an ellipse of the picture."""
-    (a, b), (_, d) = stretch
-    return QTransform(a, b, b, d, middle[0], middle[1])
-
-
 _SPOT = QTransform.fromTranslate(-0.4, -0.52).rotate(-38).scale(0.3, 0.2)
 _HALO = QTransform.fromScale(GLOW_GROWTH, GLOW_GROWTH)
 
 
-Spot = tuple[QTransform, QBrush]
-
-
-def _shed(painter: QPainter, spots: list[Spot]) -> None:
+def _shed(painter: QPainter, spots: list[tuple[QTransform, QBrush]]) -> None:
     """Paint spots of light, each a brush on the unit circle."""
     plain = QTransform(painter.transform())
     for shape, brush in spots:
         painter.setTransform(shape * plain)
         painter.setBrush(brush)
-        painter.drawEllipse(_MIDDLE, 1, 1)
+        painter.drawEllipse(-1, -1, 2, 2)
     painter.setTransform(plain)
-
-
-_MIDDLE = QPointF(0, 0)
 
 
 def _holds(outline: NDArray[np.float64], x: float, y: float) -> bool:
@@ -150,25 +153,3 @@ def _holds(outline: NDArray[np.float64], x: float, y: float) -> bool:
     edge = following - outline
     side = edge[:, 0] * (y - outline[:, 1]) - edge[:, 1] * (x - outline[:, 0])
     return bool((side >= -1e-9).all() or (side <= 1e-9).all())
-
-
-def _order(placed: Placed, seen: Silhouettes, lens: Lens) -> list[int]:
-    """All parts that are seen from far to near, those that lie on others right after them."""
-    bare = placed.assembly.bare
-    riders = _riders(placed, seen, lens)
-    order = []
-    for number in drawing_order(placed, seen, lens, bare[seen.is_seen[bare]]):
-        order += [number, *riders.get(number, ())]
-    return order
-
-
-def _riders(placed: Placed, seen: Silhouettes, lens: Lens) -> dict[int, list[int]]:
-    """The parts that lie on others and face the eye, by those others."""
-    to_eye = lens.camera.eye - placed.origins
-    faces_eye = np.einsum("pij,pj,pi->p", placed.turns, placed.normals, to_eye) > 0
-    shown = (faces_eye & seen.is_seen).tolist()
-    riders: dict[int, list[int]] = {}
-    for number, carrier in placed.assembly.riders:
-        if shown[number]:
-            riders.setdefault(carrier, []).append(number)
-    return riders

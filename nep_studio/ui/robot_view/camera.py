@@ -41,21 +41,17 @@ class Camera:
     def orbited(self, yaw: float, pitch: float) -> Camera:
         """Return the camera gone round its target by these angles (rad)."""
         turned = math.remainder(self.yaw + yaw, 2 * math.pi)
-        return replace(self, yaw=turned, pitch=_clamp(self.pitch + pitch, LOWEST_RAD, HIGHEST_RAD))
+        pitch = min(max(self.pitch + pitch, LOWEST_RAD), HIGHEST_RAD)
+        return replace(self, yaw=turned, pitch=pitch)
 
     def zoomed(self, factor: float) -> Camera:
         """Return the camera nearer to its target by a factor."""
-        return replace(self, distance=_clamp(self.distance / factor, NEAREST_M, FARTHEST_M))
+        return replace(self, distance=min(max(self.distance / factor, NEAREST_M), FARTHEST_M))
 
     def panned(self, right_m: float, up_m: float) -> Camera:
         """Return the camera moved with its target, along the picture."""
         moved = np.array(self.target) + right_m * self.axes[0] + up_m * self.axes[1]
         return replace(self, target=(float(moved[0]), float(moved[1]), float(moved[2])))
-
-    def moved(self, x: float, y: float) -> Camera:
-        """Return the camera moved with its target, along the floor."""
-        at = self.target
-        return self if not (x or y) else replace(self, target=(at[0] + x, at[1] + y, at[2]))
 
     @cached_property
     def axes(self) -> Array:
@@ -64,12 +60,6 @@ class Camera:
         forward = np.array([-tilt * turn[0], -tilt * turn[1], -math.sin(self.pitch)])
         right = np.array([-turn[1], turn[0], 0.0])
         return np.stack([right, np.cross(right, forward), forward])
-
-    @cached_property
-    def eye(self) -> Array:
-        """Where the eye is, in the room."""
-        eye: Array = np.array(self.target) - self.distance * self.axes[2]
-        return eye
 
 
 class Lens:
@@ -83,22 +73,24 @@ class Lens:
         self.ratio = ratio
         self.scale = self.height / (2 * math.tan(FIELD_RAD / 2))
         self.middle = np.array([self.width / 2, self.height / 2])
+        self.eye: Array = np.array(camera.target) - camera.distance * camera.axes[2]
+        """Where the eye is, in the room."""
 
     def depths(self, places: Array) -> Array:
         """How far before the eye places (..., 3) are, m."""
-        depth: Array = (places - self.camera.eye) @ self.camera.axes[2]
+        depth: Array = (places - self.eye) @ self.camera.axes[2]
         return depth
 
     def project(self, places: Array) -> Array:
         """Where places (..., 3) of the room are on the picture (..., 2), in pixels."""
-        seen = (places - self.camera.eye) @ self.camera.axes.T
+        seen = (places - self.eye) @ self.camera.axes.T
         depth = np.maximum(seen[..., 2:], BEFORE_EYE_M)
         return self.middle + seen[..., :2] * (self.scale, -self.scale) / depth
 
     def slopes(self, places: Array) -> Array:
         """How pixels change with places (..., 3): (..., 2, 3) pixels a m."""
         axes = self.camera.axes
-        seen = (places - self.camera.eye) @ axes.T
+        seen = (places - self.eye) @ axes.T
         depth = np.maximum(seen[..., 2:], BEFORE_EYE_M)[..., None]
         across = (seen[..., :2] / depth[..., 0])[..., None] * axes[2]
         slope: Array = (axes[:2] - across) * ((self.scale,), (-self.scale,)) / depth
@@ -112,7 +104,7 @@ class Lens:
 
     def floor_at(self, x: float, y: float, above_m: float = 0.0) -> tuple[float, float] | None:
         """The place on the floor under a pixel; None above the horizon."""
-        eye, ray = self.camera.eye, self.rays(np.array([x, y]))
+        eye, ray = self.eye, self.rays(np.array([x, y]))
         if ray[2] > -1e-3:
             return None
         reach = (above_m - eye[2]) / ray[2]
@@ -124,7 +116,7 @@ class Lens:
         """The place under a pixel on the plane that faces the eye through a place."""
         ray = self.rays(np.array([x, y]))
         reach = float(self.depths(np.array(through)))
-        place = self.camera.eye + reach * ray
+        place = self.eye + reach * ray
         return float(place[0]), float(place[1]), float(place[2])
 
 
@@ -141,27 +133,19 @@ def fitted(camera: Camera, places: Array, frame: Frame, air: float) -> Camera:
     """Return the camera moved and set back so that all places (n, 3) are seen; ``air`` around."""
     middle = (places.min(axis=0) + places.max(axis=0)) / 2
     camera = replace(camera, target=(float(middle[0]), float(middle[1]), float(middle[2])))
-    for _ in range(3):
-        camera = _far_enough(camera, places, frame, air)
+    for is_last in (False, False, False, True):
+        # As near to its target as it can be and see all places.
         lens = Lens(camera, frame.width, frame.height)
-        pixels = lens.project(places)
-        off = (pixels.min(axis=0) + pixels.max(axis=0)) / 2 - lens.middle - (0, frame.top / 2)
-        m_per_px = camera.distance / lens.scale
-        camera = camera.panned(off[0] * m_per_px, -off[1] * m_per_px)
-    return _far_enough(camera, places, frame, air)
-
-
-def _far_enough(camera: Camera, places: Array, frame: Frame, air: float) -> Camera:
-    """Return the camera as near to its target as it can be and see all places."""
-    lens = Lens(camera, frame.width, frame.height)
-    across, up, forward = camera.axes @ (places - np.array(camera.target)).T
-    per_px = (1 - air) / lens.scale
-    above, below = lens.height / 2 - frame.top, lens.height / 2
-    sides = np.abs(across) / (per_px * lens.width / 2)
-    heights = np.maximum(up / (per_px * above), -up / (per_px * below))
-    needed = (np.maximum(sides, heights) - forward).max()
-    return replace(camera, distance=_clamp(float(needed), NEAREST_M, FARTHEST_M))
-
-
-def _clamp(value: float, low: float, high: float) -> float:
-    return min(max(value, low), high)
+        across, up, forward = camera.axes @ (places - np.array(camera.target)).T
+        per_px = (1 - air) / lens.scale
+        above, below = lens.height / 2 - frame.top, lens.height / 2
+        sides = np.abs(across) / (per_px * lens.width / 2)
+        heights = np.maximum(up / (per_px * above), -up / (per_px * below))
+        needed = float((np.maximum(sides, heights) - forward).max())
+        camera = replace(camera, distance=min(max(needed, NEAREST_M), FARTHEST_M))
+        if not is_last:  # then what is seen goes into the middle, as it is seen from there
+            pixels = Lens(camera, frame.width, frame.height).project(places)
+            off = (pixels.min(axis=0) + pixels.max(axis=0)) / 2 - lens.middle - (0, frame.top / 2)
+            m_per_px = camera.distance / lens.scale
+            camera = camera.panned(off[0] * m_per_px, -off[1] * m_per_px)
+    return camera

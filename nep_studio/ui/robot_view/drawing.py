@@ -3,18 +3,14 @@
 from __future__ import annotations
 
 import logging
-from collections.abc import Sequence
 from functools import cache
-from typing import TYPE_CHECKING, Literal, Protocol
-
-from PySide6.QtGui import QImage
+from typing import TYPE_CHECKING, Literal
 
 from .bodies import Dress
-from .camera import Lens
 from .figure import Placed
-from .shading import Shades
 
 if TYPE_CHECKING:
+    from .gl_bodies import GlBodies
     from .gl_context import GlContext
 
 log = logging.getLogger(__name__)
@@ -28,18 +24,7 @@ class NoContext(Exception):
     """There is no OpenGL here that can be used; the text says why."""
 
 
-class OnGpu(Protocol):
-    """Paints bodies with a GPU."""
-
-    @property
-    def renderer(self) -> str:
-        """What paints, in the words of the driver."""
-
-    def picture(self, groups: Sequence[Group], lens: Lens, shades: Shades) -> QImage:
-        """The bodies on nothing. Raises NoContext when the GPU is gone or too small."""
-
-
-def gl_bodies(drawing: Drawing) -> OnGpu | None:
+def gl_bodies(drawing: Drawing) -> GlBodies | None:
     """What paints with OpenGL, the same for all views; None to paint with QPainter."""
     if drawing == "painter":
         return None
@@ -61,7 +46,7 @@ def _context() -> GlContext:
 
 
 @cache
-def _bodies() -> OnGpu:
+def _bodies() -> GlBodies:
     context = _context()
     from .gl_bodies import GlBodies
 

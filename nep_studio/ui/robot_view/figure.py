@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cache, cached_property, lru_cache
+from itertools import product
 from pathlib import Path
 
 import numpy as np
@@ -23,7 +24,7 @@ from .parts import VIEW_FILE, Part, Shaped, Solids, all_parts, read_view, rotati
 
 Array = NDArray[np.float64]
 Indices = NDArray[np.intp]
-UP, ASIDE, AHEAD = np.array([0.0, 0.0, 1.0]), np.array([0.0, 1.0, 0.0]), np.array([1.0, 0.0, 0.0])
+UP = np.array([0.0, 0.0, 1.0])
 THIN_M = 0.009
 """Parts that are thinner somewhere cast no shadow of their own."""
 
@@ -102,38 +103,25 @@ class Placed:
         """What the parts are."""
         return self.assembly.parts
 
-    @property
-    def solids(self) -> Solids:
-        """The shapes of the parts."""
-        return self.assembly.solids
-
-    @property
-    def normals(self) -> Array:
-        """Where the parts (parts, 3) face, along their own axes."""
-        return self.assembly.normals
-
-    def casting(self) -> Placed:
-        """The parts that cast shadows, where they are."""
-        numbers, assembly = self.assembly.casting
-        return Placed(assembly, self.origins[numbers], self.turns[numbers], {})
-
     def middles(self) -> Array:
         """The middles (parts, 3) of the parts."""
-        middles: Array = self.origins + np.einsum("pij,pj->pi", self.turns, self.solids.middle)
+        along = np.einsum("pij,pj->pi", self.turns, self.assembly.solids.middle)
+        middles: Array = self.origins + along
         return middles
 
-    def farthest(self, way: Array) -> Array:
-        """The farthest point (parts, 3) of each part in one direction of the room."""
-        ways = np.einsum("pij,i->pj", self.turns, way)[:, None]
-        points = self.solids.farthest(ways)[:, 0]
-        reached: Array = self.origins + np.einsum("pij,pj->pi", self.turns, points)
-        return reached
+    def farthest(self, ways: Array) -> Array:
+        """The farthest points (parts, k, 3) of the parts in directions of the room.
+
+        Directions are (k, 3), or (parts, k, 3) where they differ.
+        """
+        points = self.assembly.solids.farthest(ways @ self.turns)
+        return self.origins[:, None] + points @ self.turns.transpose(0, 2, 1)
 
     def corners(self) -> Array:
         """Points (14 * parts, 3) that no part goes far beyond, to fit a camera."""
-        ways = [AHEAD, -AHEAD, ASIDE, -ASIDE, UP, -UP]
-        ways += [x + y + z for x in (AHEAD, -AHEAD) for y in (ASIDE, -ASIDE) for z in (UP, -UP)]
-        return np.concatenate([self.farthest(way) for way in ways])
+        steps = [np.array(step) for step in product((-1.0, 0.0, 1.0), repeat=3)]
+        ways = np.stack([step for step in steps if np.abs(step).sum() in (1, 3)])
+        return self.farthest(ways).reshape(-1, 3)
 
     @staticmethod
     def joined(many: Sequence[Placed]) -> Placed:
@@ -155,7 +143,18 @@ class RobotFigure:
         view = read_view(folder / VIEW_FILE)
         self.colours, self.head, self.top_m = view.colours, view.head, view.top_m
         shaped = list(all_parts(view))
-        _check_links(folder, shaped, self.skeleton.links)
+        links = self.skeleton.links
+        wrong = next((one.part for one in shaped if one.part.link not in links), None)
+        if wrong is not None:
+            raise NodeStartError(
+                "The robot in {folder} has no link {link} for its part {name}.",
+                checklist=("Name a link of body.json in {view_file}: {links}.",),
+                folder=folder,
+                link=wrong.link,
+                name=wrong.name,
+                view_file=VIEW_FILE,
+                links=", ".join(links),
+            )
         self.assembly = Assembly.of(shaped)
         self.parts = self.assembly.parts
         self.sensors = tuple(dict.fromkeys(p.sensor for p in self.parts if p.sensor))
@@ -163,32 +162,24 @@ class RobotFigure:
         self._turn = np.array([one.turn for one in shaped])
         self._link_names = tuple(dict.fromkeys(part.link for part in self.parts))
         self._link = np.array([self._link_names.index(part.link) for part in self.parts])
-        self._hinges = _Hinges(shaped)
+        self._hinges = [(i, part.hinge) for i, part in enumerate(self.parts) if part.hinge]
         self._resting = lru_cache(maxsize=4)(self._rest)
 
     def pose(self, state: RobotState) -> Placed:
         """Place all parts; on its feet, or its lowest point, where the torso is not told."""
-        angles = self.angles(state.joints)
-        frames = dict(self.skeleton.frames(angles))
-        torso = self._torso(state)
-        links = {name: torso @ frame for name, frame in frames.items()}
+        angles = np.array([state.joints.get(name, 0.0) for name in self.body.names])
+        # A torso that is not told lies or stands as its posture does.
+        told = state.torso or self._resting(tuple(angles), state.base, state.posture)
+        torso = np.eye(4)
+        torso[:3, :3], torso[:3, 3] = turned_by(*told[3:]), told[:3]
+        links = {name: torso @ frame for name, frame in self.skeleton.frames(angles).items()}
+        placed = self._placed(links, state.joints)
         if state.torso is None:
-            self._drop(links, state)
-        return self._placed(links, state.joints)
-
-    def angles(self, joints: Mapping[str, float]) -> Array:
-        """The angles of a state in the body's joint order."""
-        return np.array([joints.get(name, 0.0) for name in self.body.names])
-
-    def _torso(self, state: RobotState) -> Array:
-        """The torso's frame; one that is not told lies or stands as its posture does."""
-        told = state.torso
-        if told is None:
-            told = self._resting(tuple(self.angles(state.joints)), state.base, state.posture)
-        x, y, z, roll, pitch, yaw = told
-        frame = np.eye(4)
-        frame[:3, :3], frame[:3, 3] = turned_by(roll, pitch, yaw), (x, y, z)
-        return frame
+            low = np.array([0.0, 0.0, placed.farthest(-UP[None])[..., 2].min()])
+            for frame in links.values():
+                frame[:3, 3] -= low
+            placed = replace(placed, origins=placed.origins - low)
+        return placed
 
     def _rest(
         self, angles: tuple[float, ...], base: tuple[float, float, float], posture: str
@@ -197,54 +188,18 @@ class RobotFigure:
         down = UPRIGHT if known is None else known.down
         return self.skeleton.torso_over_floor(np.array(angles), base, down)
 
-    def _drop(self, links: dict[str, Array], state: RobotState) -> None:
-        """Let the robot down until its lowest point is on the floor."""
-        placed = self._placed(links, state.joints)
-        lowest = float(placed.farthest(-UP)[:, 2].min())
-        for name, frame in links.items():
-            links[name] = frame.copy()
-            links[name][2, 3] -= lowest
-
     def _placed(self, links: Mapping[str, Array], joints: Mapping[str, float]) -> Placed:
         frames = np.stack([links[name] for name in self._link_names])[self._link]
-        at, turn = self._hinges.opened(self._at, self._turn, joints)
-        origins = frames[:, :3, 3] + np.einsum("pij,pj->pi", frames[:, :3, :3], at)
-        turns = frames[:, :3, :3] @ turn
-        return Placed(self.assembly, origins, turns, links)
-
-
-def _check_links(folder: Path, shaped: Sequence[Shaped], links: Sequence[str]) -> None:
-    wrong = [one.part for one in shaped if one.part.link not in links]
-    if wrong:
-        raise NodeStartError(
-            "The robot in {folder} has no link {link} for its part {name}.",
-            checklist=("Name a link of body.json in {view_file}: {links}.",),
-            folder=folder,
-            link=wrong[0].link,
-            name=wrong[0].name,
-            view_file=VIEW_FILE,
-            links=", ".join(links),
-        )
-
-
-class _Hinges:
-    """The parts that joints outside of the skeleton turn, such as fingers."""
-
-    def __init__(self, shaped: list[Shaped]) -> None:
-        self._found = [(i, s.part.hinge) for i, s in enumerate(shaped) if s.part.hinge is not None]
-
-    def opened(self, at: Array, turn: Array, joints: Mapping[str, float]) -> tuple[Array, Array]:
-        """The places and turns of all parts, with these turned as far as their joints are open."""
-        if not self._found:
-            return at, turn
-        at, turn = at.copy(), turn.copy()
-        for part, hinge in self._found:
+        at, turn = self._at.copy(), self._turn.copy()
+        # Joints outside of the skeleton turn parts too, such as fingers, as far as they are open.
+        for part, hinge in self._hinges:
             opened = joints.get(hinge.joint, 0.5)
             degrees = hinge.closed_deg + (hinge.open_deg - hinge.closed_deg) * opened
             spin, about = rotation(np.array(hinge.axis), math.radians(degrees)), np.array(hinge.at)
             at[part] = about + spin @ (at[part] - about)
             turn[part] = spin @ turn[part]
-        return at, turn
+        origins = frames[:, :3, 3] + np.einsum("pij,pj->pi", frames[:, :3, :3], at)
+        return Placed(self.assembly, origins, frames[:, :3, :3] @ turn, links)
 
 
 @cache

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Protocol
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
@@ -90,10 +90,10 @@ def place_of_sensor(bodies: Bodies | None, scene: Scene, robot: str, sensor: str
 RAD_PER_PX = 0.009
 
 
-class Gesture(Protocol):
-    """From the press of a button to its release."""
+class Gesture:
+    """From the press of a button to its release; as it stands here, one that does nothing."""
 
-    cursor: Qt.CursorShape
+    cursor = Qt.CursorShape.ClosedHandCursor
 
     def move(self, at: QPointF) -> None:
         """The pointer is somewhere else now."""
@@ -120,10 +120,8 @@ def begun(view: RobotView, event: QMouseEvent, found: Found) -> Gesture:
     return Orbit(view, at, lets_go=not found.robot)
 
 
-class Orbit:
+class Orbit(Gesture):
     """Goes around what is looked at; a click that ``lets_go`` chooses no thing any more."""
-
-    cursor = Qt.CursorShape.ClosedHandCursor
 
     def __init__(self, view: RobotView, at: QPointF, *, lets_go: bool = False) -> None:
         self._view, self._last, self._lets_go = view, at, lets_go
@@ -141,7 +139,7 @@ class Orbit:
             self._view.thing_chosen.emit("")
 
 
-class Pan:
+class Pan(Gesture):
     """Moves what is looked at."""
 
     cursor = Qt.CursorShape.SizeAllCursor
@@ -157,11 +155,8 @@ class Pan:
         self._view.follows = False
         self._view.look_through(camera.panned(-way.x() * m_per_px, way.y() * m_per_px))
 
-    def end(self) -> None:
-        """Stay where it is."""
 
-
-class Touch:
+class Touch(Gesture):
     """Touches a sensor as long as the button is pressed."""
 
     cursor = Qt.CursorShape.PointingHandCursor
@@ -170,18 +165,13 @@ class Touch:
         self._view, self._robot, self._sensor = view, robot, sensor
         view.press(robot, sensor)
 
-    def move(self, at: QPointF) -> None:
-        """Nothing: a touch stays where it began."""
-
     def end(self) -> None:
         """Let go."""
         self._view.release(self._robot, self._sensor)
 
 
-class MoveThing:
+class MoveThing(Gesture):
     """Drags a thing over the floor."""
-
-    cursor = Qt.CursorShape.ClosedHandCursor
 
     def __init__(self, view: RobotView, found: Found, at: QPointF) -> None:
         self._view, self._thing, self._above = view, found.thing, found.place[2]
@@ -197,14 +187,9 @@ class MoveThing:
             x, y = place[0] + self._off[0], place[1] + self._off[1]
             self._view.move_thing(self._thing, x, y)
 
-    def end(self) -> None:
-        """Leave it there."""
 
-
-class DragLimb:
+class DragLimb(Gesture):
     """Drags a limb of a robot that is being posed."""
-
-    cursor = Qt.CursorShape.ClosedHandCursor
 
     def __init__(self, view: RobotView, found: Found) -> None:
         assert found.part is not None
@@ -271,5 +256,4 @@ def at_floor_of(scene: Scene) -> FloorPlace:
 def head_of(robot: SceneRobot) -> Array:
     """The middle of a robot's head, in the room."""
     frame = robot.placed.links[robot.figure.head]
-    place: Array = frame[:3, 3] + frame[:3, 2] * robot.figure.top_m / 2
-    return place
+    return frame[:3, 3] + frame[:3, 2] * robot.figure.top_m / 2

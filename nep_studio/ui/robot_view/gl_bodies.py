@@ -31,7 +31,7 @@ from .gl_context import (
     program,
 )
 from .parts import Solids
-from .shading import Shades, lit_colour, mixed
+from .shading import Shades, mixed
 
 # What the bodies need in the memory of a GPU: triangles, and the places and colours of parts.
 
@@ -128,8 +128,7 @@ def _strip(rings: int, corners: int) -> Array:
     # Flat shapes turn what is nearly nothing into something: let it be nothing.
     ways = ways.round(9)
     zigzag = np.stack([ways[:-1], ways[1:]], axis=2).reshape(rings, -1, 3)
-    joined: Array = np.concatenate([zigzag[:, :1], zigzag, zigzag[:, -1:]], axis=1).reshape(-1, 3)
-    return joined
+    return np.concatenate([zigzag[:, :1], zigzag, zigzag[:, -1:]], axis=1).reshape(-1, 3)
 
 
 # Places, colours and lights of parts as the numbers that the programs of the GPU read.
@@ -150,25 +149,21 @@ def tell_lens(program: QOpenGLShaderProgram, lens: Lens) -> None:
     place = program.uniformLocation("axes")
     if place >= 0:
         program.setUniformValue(place, QMatrix3x3(axes.ravel().tolist()))
-        program.setUniformValue(
-            program.uniformLocation("eye"), QVector3D(*lens.camera.eye.tolist())
-        )
+        program.setUniformValue(program.uniformLocation("eye"), QVector3D(*lens.eye.tolist()))
 
 
 def _matrix(lens: Lens) -> list[float]:
     """From the room to what OpenGL clips, (4, 4) row by row."""
-    axes, eye = lens.camera.axes, lens.camera.eye
     view = np.eye(4)
-    view[:3, :3] = axes * ((1.0,), (1.0,), (-1.0,))
-    view[:3, 3] = -view[:3, :3] @ eye
+    view[:3, :3] = lens.camera.axes * ((1.0,), (1.0,), (-1.0,))
+    view[:3, 3] = -view[:3, :3] @ lens.eye
     width, height = 2 * lens.scale / lens.width, 2 * lens.scale / lens.height
     deep = FAR_M - NEAR_M
     clip = np.zeros((4, 4))
     clip[0, 0], clip[1, 1] = width, height
     clip[2, 2], clip[2, 3] = -(FAR_M + NEAR_M) / deep, -2 * FAR_M * NEAR_M / deep
     clip[3, 2] = -1.0
-    numbers: list[float] = (clip @ view).ravel().tolist()
-    return numbers
+    return (clip @ view).ravel().tolist()
 
 
 def rows_of(placed: Placed, dress: Dress, lens: Lens, shades: Shades) -> NDArray[np.float32]:
@@ -183,7 +178,7 @@ def rows_of(placed: Placed, dress: Dress, lens: Lens, shades: Shades) -> NDArray
         base = shades.base(colour, dress.is_pale)
         strength = PALE_STRENGTH if dress.is_pale else STRENGTHS[part.finish]
         if light:
-            base, strength = mixed(lit_colour(light), QColor("#ffffff"), 0.2), 0.0
+            base, strength = mixed(QColor.fromRgb(light), QColor("#ffffff"), 0.2), 0.0
         rows[number, 3, :3] = base.getRgbF()[:3]  # type: ignore[index]
         rows[number, 4, :3] = shades.outline(colour, dress.is_pale).getRgbF()[:3]  # type: ignore[index]
         rows[number, 5, :2] = strength, 0.0 if dress.is_pale else part.gloss
@@ -192,8 +187,8 @@ def rows_of(placed: Placed, dress: Dress, lens: Lens, shades: Shades) -> NDArray
 
 def _lifts(placed: Placed, lens: Lens) -> Array:
     """How much nearer each part counts; hidden ones lie on the far side of others."""
-    to_eye = lens.camera.eye - placed.origins
-    is_away = np.einsum("pij,pj,pi->p", placed.turns, placed.normals, to_eye) <= 0
+    to_eye = lens.eye - placed.origins
+    is_away = np.einsum("pij,pj,pi->p", placed.turns, placed.assembly.normals, to_eye) <= 0
     layers = placed.assembly.layers
     lifts = np.where(layers > 0, LIFT_M + LAYER_M * layers, 0.0)
     lifts[(layers > 0) & is_away] = HIDDEN
@@ -209,11 +204,11 @@ def glows_of(placed: Placed, dress: Dress, lens: Lens) -> Array:
     for number, light in lights:
         if not light or lifts[number] == HIDDEN:
             continue
-        way = lens.camera.eye - middles[number]
+        way = lens.eye - middles[number]
         middle = middles[number] + way * (GLOW_LIFT_M / np.sqrt(way @ way))
-        size = np.sort(placed.solids.extent[number])
+        size = np.sort(placed.assembly.solids.extent[number])
         radius = GLOW_GROWTH * float(np.sqrt(size[1] * size[2]))
-        colour = lit_colour(light).getRgbF()[:3]  # type: ignore[index]
+        colour = QColor.fromRgb(light).getRgbF()[:3]  # type: ignore[index]
         for x, y in SQUARE:
             place = middle + radius * (x * right + y * up)
             vertices.append([*place.tolist(), x, y, *colour])
@@ -259,23 +254,20 @@ class GlBodies:
         self._calls.glEnable(DEPTH_TEST)
         self._calls.glDepthFunc(LEQUAL)
         self._calls.glDisable(BLEND)
-        self._paint_bodies(groups, lens, shades)
-        self._paint_glows(groups, lens)
-        image = self._sheet.toImage()
-        self._sheet.release()
-        self._gl.leave()
-        image.setDevicePixelRatio(lens.ratio)
-        return image
-
-    def _paint_bodies(self, groups: Sequence[Group], lens: Lens, shades: Shades) -> None:
         self._body.bind()
         tell_lens(self._body, lens)
         for placed, dress in groups:
             if len(placed.parts) > MOST_PARTS:
                 raise NoContext(f"a robot of {len(placed.parts)} parts is too much for it")
             self._rows.fill(rows_of(placed, dress, lens, shades))
-            self._mesh(placed.solids).draw(self._calls, self._body, STRIP)
+            self._mesh(placed.assembly.solids).draw(self._calls, self._body, STRIP)
         self._body.release()
+        self._paint_glows(groups, lens)
+        image = self._sheet.toImage()
+        self._sheet.release()
+        self._gl.leave()
+        image.setDevicePixelRatio(lens.ratio)
+        return image
 
     def _mesh(self, solids: Solids) -> OnGpu:
         known = self._meshes.get(id(solids))

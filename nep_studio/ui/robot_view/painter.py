@@ -3,23 +3,39 @@
 from __future__ import annotations
 
 import logging
+import math
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
-from PySide6.QtCore import QPointF, QRectF, Qt
-from PySide6.QtGui import QFont, QFontMetricsF, QPainter, QPainterPath, QPen, QPixmap, QPolygonF
+import numpy as np
+from numpy.typing import NDArray
+from PySide6.QtCore import QLineF, QPointF, QRectF, Qt
+from PySide6.QtGui import (
+    QColor,
+    QFont,
+    QFontMetricsF,
+    QPainter,
+    QPainterPath,
+    QPen,
+    QPixmap,
+    QPolygonF,
+    QTransform,
+)
 
 from nep_studio.ui.theme.colours import Theme
 
 from .bodies import Bodies, Dress
 from .camera import Lens
-from .drawing import NoContext, OnGpu
+from .drawing import NoContext
 from .figure import Placed
-from .floor import paint_grid, paint_path
 from .gestures import head_of
-from .scene import Scene, SceneRobot, placed_thing, thing_colours
-from .shading import Shades, Shadow, cast_shadow
+from .scene import FloorPlace, Scene, placed_thing, thing_colours
+from .shading import Shades, Shadow, cast_shadow, fading
 from .silhouettes import polygons
+
+if TYPE_CHECKING:
+    from .gl_bodies import GlBodies
 
 log = logging.getLogger(__name__)
 
@@ -57,7 +73,18 @@ def placed_bubbles(said: Iterable[Said], font: QFont, width: float, height: floa
     placed: list[Bubble] = []
     for one in sorted(said, key=lambda item: item.head.x()):
         bubble = _placed(one, QFontMetricsF(font), width, height)
-        placed.append(_freed(bubble, placed, width))
+        box = QRectF(bubble.box)
+        # It is moved off those that are there already.
+        for other in placed:
+            if not box.intersects(other.box):
+                continue
+            if other.box.top() - box.height() - 6 >= 0:
+                box.moveBottom(other.box.top() - 6)
+            elif other.box.right() + 6 + box.width() <= width:
+                box.moveLeft(other.box.right() + 6)
+            else:
+                box.moveTop(other.box.bottom() + 6)
+        placed.append(Bubble(bubble.words, box, bubble.tip))
     return placed
 
 
@@ -84,13 +111,9 @@ def _placed(said: Said, metrics: QFontMetricsF, width: float, height: float) -> 
         box.moveCenter(QPointF(head.x() + half * 0.6, 0))
         box.moveBottom(head.y() - half - line * TAIL)
         tip = QPointF(head.x() + half * 0.25, head.y() - half)
-    _keep_inside(box, width, height, edge)
-    return Bubble(words, box, tip)
-
-
-def _keep_inside(box: QRectF, width: float, height: float, edge: float) -> None:
     box.moveLeft(min(max(box.left(), edge), max(width - box.width() - edge, 0)))
     box.moveTop(min(max(box.top(), edge), max(height - box.height() - edge, 0)))
+    return Bubble(words, box, tip)
 
 
 def _fitting(words: str, metrics: QFontMetricsF, width: float, height: float) -> tuple[str, QRectF]:
@@ -104,33 +127,11 @@ def _fitting(words: str, metrics: QFontMetricsF, width: float, height: float) ->
     return words, size
 
 
-def _freed(bubble: Bubble, others: Sequence[Bubble], width: float) -> Bubble:
-    """The bubble moved off those that are there already."""
-    box = QRectF(bubble.box)
-    for other in others:
-        if not box.intersects(other.box):
-            continue
-        if other.box.top() - box.height() - 6 >= 0:
-            box.moveBottom(other.box.top() - 6)
-        elif other.box.right() + 6 + box.width() <= width:
-            box.moveLeft(other.box.right() + 6)
-        else:
-            box.moveTop(other.box.bottom() + 6)
-    return Bubble(bubble.words, box, bubble.tip)
-
-
 def paint_bubble(painter: QPainter, bubble: Bubble, theme: Theme, font: QFont) -> None:
     """Paint a bubble with its tail and words."""
     line = QFontMetricsF(font).height()
     painter.setPen(QPen(theme.colour("field_line"), max(1.2, line / 13)))
     painter.setBrush(theme.colour("field"))
-    painter.drawPath(_outline(bubble, line))
-    painter.setPen(theme.colour("field_text"))
-    painter.setFont(font)
-    painter.drawText(bubble.box, FLAGS, bubble.words)
-
-
-def _outline(bubble: Bubble, line: float) -> QPainterPath:
     box, tip = bubble.box, bubble.tip
     body, tail = QPainterPath(), QPainterPath()
     body.addRoundedRect(box, line * 0.55, line * 0.55)
@@ -144,24 +145,117 @@ def _outline(bubble: Bubble, line: float) -> QPainterPath:
     short = foot + way * (1 - min(0.25, line * 0.35 / far))
     tail.addPolygon(QPolygonF([foot + aside, short, foot - aside]))
     tail.closeSubpath()
-    return body.united(tail)
+    painter.drawPath(body.united(tail))
+    painter.setPen(theme.colour("field_text"))
+    painter.setFont(font)
+    painter.drawText(bubble.box, FLAGS, bubble.words)
+
+
+# The floor: a grid that fades away, and walked paths.
+
+Array = NDArray[np.float64]
+GRID_M, REACH_M = 0.25, 3.0
+NEAR_M = 0.1
+POOL_M, POOL_DARK, POOL_LIGHT = 1.6, 0.13, 0.6
+
+
+def paint_grid(painter: QPainter, lens: Lens, theme: Theme) -> None:
+    """Paint lines on the floor around what is looked at, paler the farther they are."""
+    if lens.eye[2] <= 0.02:
+        return
+    _paint_pool(painter, lens, theme)
+    x, y = (round(value / GRID_M) * GRID_M for value in lens.camera.target[:2])
+    reach = min(REACH_M, max(1.0, 1.4 * lens.camera.distance))
+    steps = np.arange(-reach, reach + GRID_M / 2, GRID_M)
+    half = np.sqrt(np.maximum(reach * reach - steps * steps, 0))
+    along_x = [((x - h, y + s, 0.0), (x + h, y + s, 0.0)) for s, h in zip(steps, half, strict=True)]
+    along_y = [((x + s, y - h, 0.0), (x + s, y + h, 0.0)) for s, h in zip(steps, half, strict=True)]
+    ends = _before_eye(np.array(along_x + along_y), lens)
+    if not len(ends):
+        return
+    middle = np.array([x, y, 0.0])
+    depth = max(float(lens.depths(middle)), NEAR_M)
+    at = QPointF(*lens.project(middle).tolist())
+    stops = ((0.0, 1.0), (0.45, 0.7), (1.0, 0.0))
+    brush = fading(theme.colour("canvas_dot"), stops, lens.scale * reach / depth, at)
+    painter.setPen(QPen(brush, 1.0))
+    painter.drawLines([QLineF(a, b, c, d) for a, b, c, d in ends.tolist()])
+
+
+def _paint_pool(painter: QPainter, lens: Lens, theme: Theme) -> None:
+    """Paint the light that falls on the floor around what is looked at; shadows need it."""
+    target, yaw = np.array([*lens.camera.target[:2], 0.0]), lens.camera.yaw
+    reach = min(0.8 * lens.camera.distance, POOL_M)
+    to_eye = np.array([math.cos(yaw), math.sin(yaw), 0.0]) * reach
+    aside = np.array([-to_eye[1], to_eye[0], 0.0])
+    sides = (-to_eye - aside, to_eye - aside, to_eye + aside, aside - to_eye)
+    corners = target + np.stack(sides)
+    if (lens.depths(corners) < NEAR_M).any():
+        return
+    seen = QPolygonF([QPointF(a, b) for a, b in lens.project(corners).tolist()])
+    square = QPolygonF([QPointF(a, b) for a, b in ((-1, -1), (1, -1), (1, 1), (-1, 1))])
+    laid = QTransform()
+    if not QTransform.quadToQuad(square, seen, laid):
+        return
+    pool = QPainterPath()
+    pool.addEllipse(QPointF(0, 0), 1, 1)
+    most = POOL_DARK if theme.is_dark else POOL_LIGHT
+    light = fading(QColor(Qt.GlobalColor.white), ((0.0, most), (0.5, 0.62 * most), (1.0, 0.0)))
+    plain = QTransform(painter.transform())
+    painter.setTransform(laid * plain)
+    painter.fillPath(pool, light)
+    painter.setTransform(plain)
+
+
+def _before_eye(ends: Array, lens: Lens) -> Array:
+    """The lines (n, 2, 3) as pixels (m, 4), as far as they are before the eye."""
+    depths = lens.depths(ends)
+    ends, depths = ends[(depths > NEAR_M).any(axis=1)], depths[(depths > NEAR_M).any(axis=1)]
+    for one, other in ((0, 1), (1, 0)):
+        behind = depths[:, one] < NEAR_M
+        share = (NEAR_M - depths[behind, one]) / (depths[behind, other] - depths[behind, one])
+        ends[behind, one] += share[:, None] * (ends[behind, other] - ends[behind, one])
+    return lens.project(ends).reshape(-1, 4)
+
+
+def paint_path(painter: QPainter, lens: Lens, theme: Theme, path: Sequence[FloorPlace]) -> None:
+    """Paint the way that a robot has walked: dots on the floor, and where it began."""
+    if len(path) < 2:
+        return
+    places = np.array([(x, y, 0.001) for x, y in path])
+    places = places[lens.depths(places) > NEAR_M]
+    if len(places) < 2:
+        return
+    line = QPolygonF([QPointF(x, y) for x, y in lens.project(places).tolist()])
+    colour = theme.colour("accent")
+    colour.setAlphaF(0.75)
+    pen = QPen(colour, 2.2, Qt.PenStyle.CustomDashLine, Qt.PenCapStyle.RoundCap)
+    pen.setDashPattern([0.1, 2.4])
+    pen.setJoinStyle(Qt.PenJoinStyle.RoundJoin)
+    painter.setPen(pen)
+    painter.setBrush(Qt.BrushStyle.NoBrush)
+    painter.drawPolyline(line)
+    # Paint a circle on the floor
+    middle = path[0]
+    turns = np.linspace(0, 2 * math.pi, 40)
+    x, y = middle[0] + 0.03 * np.cos(turns), middle[1] + 0.03 * np.sin(turns)
+    places = np.stack([x, y, np.full_like(x, 0.001)], axis=1)
+    if (lens.depths(places) > NEAR_M).all():
+        painter.setPen(QPen(colour, 1.6))
+        painter.setBrush(Qt.BrushStyle.NoBrush)
+        painter.drawPolygon(QPolygonF([QPointF(a, b) for a, b in lens.project(places).tolist()]))
 
 
 class ScenePainter:
     """Paints scenes in the colours of a theme; keeps what did not change from frame to frame."""
 
-    def __init__(self, theme: Theme, gl: OnGpu | None = None) -> None:
+    def __init__(self, theme: Theme, gl: GlBodies | None = None) -> None:
         self.shades = Shades(theme)
         self.gl = gl
         self._floor: tuple[object, QPixmap] | None = None
         self._shadows: dict[object, tuple[Placed, Shadow | None]] = {}
         self._bodies: tuple[object, Bodies | None] = (None, None)
         self.bubbles: list[Bubble] = []
-
-    @property
-    def theme(self) -> Theme:
-        """The theme in use."""
-        return self.shades.theme
 
     def use_theme(self, theme: Theme) -> None:
         """Paint in the colours of another theme from now on."""
@@ -171,61 +265,13 @@ class ScenePainter:
     def paint(self, painter: QPainter, scene: Scene, lens: Lens, font: QFont) -> None:
         """Paint a scene as a lens sees it."""
         painter.setRenderHint(QPainter.RenderHint.Antialiasing)
-        self._paint_floor(painter, scene, lens)
-        self._paint_shadows(painter, groups_of(scene), lens)
-        if not self._paint_with_gl(painter, scene, lens):
-            bodies = self.bodies_of(scene, lens)
-            if bodies is not None:
-                bodies.paint(painter, self.shades)
-        self._paint_marks(painter, scene, lens)
-        self.bubbles = _bubbles(scene, lens, font) if scene.has_bubbles else []
-        for bubble in self.bubbles:
-            paint_bubble(painter, bubble, self.theme, font)
-
-    def bodies_of(self, scene: Scene, lens: Lens) -> Bodies | None:
-        """All parts as a lens sees them; kept until something moves."""
-        key = (scene.robots, scene.things, lens.camera, lens.width, lens.height)
-        if self._bodies[0] != key:
-            self._bodies = key, Bodies.through(lens, groups_of(scene))
-        return self._bodies[1]
-
-    def _paint_with_gl(self, painter: QPainter, scene: Scene, lens: Lens) -> bool:
-        """Paint the bodies with OpenGL; whether that went well."""
-        if self.gl is None:
-            return False
-        try:
-            picture = self.gl.picture(groups_of(scene), lens, self.shades)
-        except NoContext as error:
-            log.warning("Robots are painted without OpenGL from now on: %s", error)
-            self.gl = None
-            return False
-        painter.drawImage(QPointF(0, 0), picture)
-        return True
-
-    def _paint_floor(self, painter: QPainter, scene: Scene, lens: Lens) -> None:
         painter.fillRect(0, 0, int(lens.width) + 1, int(lens.height) + 1, self.shades.canvas)
         if scene.has_floor:
             ratio = painter.device().devicePixelRatioF()
             painter.drawPixmap(0, 0, self._grid(lens, ratio))
         for robot in scene.robots:
-            paint_path(painter, lens, self.theme, robot.path)
-
-    def _grid(self, lens: Lens, ratio: float) -> QPixmap:
-        key = (lens.camera, lens.width, lens.height, ratio)
-        if self._floor is None or self._floor[0] != key:
-            sheet = QPixmap(round(lens.width * ratio), round(lens.height * ratio))
-            sheet.setDevicePixelRatio(ratio)
-            sheet.fill(Qt.GlobalColor.transparent)
-            painter = QPainter(sheet)
-            painter.setRenderHint(QPainter.RenderHint.Antialiasing)
-            paint_grid(painter, lens, self.theme)
-            painter.end()
-            self._floor = key, sheet
-        return self._floor[1]
-
-    def _paint_shadows(
-        self, painter: QPainter, groups: Sequence[tuple[Placed, Dress]], lens: Lens
-    ) -> None:
+            paint_path(painter, lens, self.shades.theme, robot.path)
+        groups = groups_of(scene)
         kept: dict[object, tuple[Placed, Shadow | None]] = {}
         for placed, dress in groups:
             key = (id(placed), round(lens.camera.yaw, 3))
@@ -237,6 +283,45 @@ class ScenePainter:
             if shadow is not None:
                 shadow.paint(painter, lens)
         self._shadows = kept
+        if self.gl is None or not self._paint_with_gl(self.gl, painter, scene, lens):
+            bodies = self.bodies_of(scene, lens)
+            if bodies is not None:
+                bodies.paint(painter, self.shades)
+        self._paint_marks(painter, scene, lens)
+        self.bubbles = _bubbles(scene, lens, font) if scene.has_bubbles else []
+        for bubble in self.bubbles:
+            paint_bubble(painter, bubble, self.shades.theme, font)
+
+    def bodies_of(self, scene: Scene, lens: Lens) -> Bodies | None:
+        """All parts as a lens sees them; kept until something moves."""
+        key = (scene.robots, scene.things, lens.camera, lens.width, lens.height)
+        if self._bodies[0] != key:
+            self._bodies = key, Bodies.through(lens, groups_of(scene))
+        return self._bodies[1]
+
+    def _paint_with_gl(self, gl: GlBodies, painter: QPainter, scene: Scene, lens: Lens) -> bool:
+        """Paint the bodies with OpenGL; whether that went well."""
+        try:
+            picture = gl.picture(groups_of(scene), lens, self.shades)
+        except NoContext as error:
+            log.warning("Robots are painted without OpenGL from now on: %s", error)
+            self.gl = None
+            return False
+        painter.drawImage(QPointF(0, 0), picture)
+        return True
+
+    def _grid(self, lens: Lens, ratio: float) -> QPixmap:
+        key = (lens.camera, lens.width, lens.height, ratio)
+        if self._floor is None or self._floor[0] != key:
+            sheet = QPixmap(round(lens.width * ratio), round(lens.height * ratio))
+            sheet.setDevicePixelRatio(ratio)
+            sheet.fill(Qt.GlobalColor.transparent)
+            painter = QPainter(sheet)
+            painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+            paint_grid(painter, lens, self.shades.theme)
+            painter.end()
+            self._floor = key, sheet
+        return self._floor[1]
 
     def _paint_marks(self, painter: QPainter, scene: Scene, lens: Lens) -> None:
         """Paint rims around what is marked and what is felt."""
@@ -244,10 +329,11 @@ class ScenePainter:
         bodies = self.bodies_of(scene, lens) if numbers else None
         if bodies is None:
             return
-        colour = self.theme.colour("glow" if scene.marked.is_pressed else "focus")
+        colour = self.shades.theme.colour("glow" if scene.marked.is_pressed else "focus")
         painter.setBrush(Qt.BrushStyle.NoBrush)
         visible = [i for i in bodies.order if i in numbers]
-        for polygon in polygons(bodies.seen.grown(2.0)[visible]) if visible else []:
+        rims = (bodies.seen.outlines + 2.0 * bodies.seen.ways)[visible]
+        for polygon in polygons(rims) if visible else []:
             painter.setPen(QPen(colour, 2.0))
             painter.drawConvexPolygon(polygon)
 
@@ -285,16 +371,12 @@ def _marked_parts(scene: Scene) -> set[int]:
 
 
 def _bubbles(scene: Scene, lens: Lens, font: QFont) -> list[Bubble]:
-    said = [_said(robot, lens) for robot in scene.robots if robot.state.saying]
-    return placed_bubbles([one for one in said if one is not None], font, lens.width, lens.height)
-
-
-def _said(robot: SceneRobot, lens: Lens) -> Said | None:
-    """What a robot says, at its head; None behind the eye."""
-    head = head_of(robot)
-    depth = float(lens.depths(head))
-    if depth < 0.05:
-        return None
-    x, y = lens.project(head).tolist()
-    size = robot.figure.top_m * lens.scale / depth
-    return Said(robot.state.saying, QPointF(x, y), size * 0.55)
+    said = []
+    for robot in scene.robots:
+        head = head_of(robot)
+        depth = float(lens.depths(head))
+        if robot.state.saying and depth >= 0.05:
+            size = robot.figure.top_m * lens.scale / depth
+            at = QPointF(*lens.project(head).tolist())
+            said.append(Said(robot.state.saying, at, size * 0.55))
+    return placed_bubbles(said, font, lens.width, lens.height) if said else []

@@ -81,6 +81,11 @@ class Solids:
         parts = (self.centre[kept], self.size[kept], self.powers[kept])
         return self._boxed(owner.astype(np.intp), *parts, len(numbers))
 
+    def scaled(self, scale: Array) -> Solids:
+        """The shapes longer by these factors (3,) along their axes."""
+        parts = (self.centre * scale, self.size * scale, self.powers)
+        return self._boxed(self.owner, *parts, len(self.middle))
+
     @classmethod
     def _boxed(
         cls, owner: Indices, centre: Array, size: Array, powers: Array, count: int
@@ -98,7 +103,10 @@ class Solids:
         ways = directions[self.owner]
         points = np.empty_like(ways)
         is_round = (self.powers == 2.0).all(axis=1)
-        points[is_round] = _farthest_of_ellipsoids(self.size[is_round], ways[is_round])
+        size = self.size[is_round][:, None]
+        stretched = ways[is_round] * size
+        length = np.sqrt(np.einsum("mkc,mkc->mk", stretched, stretched))
+        points[is_round] = stretched * size / np.maximum(length, 1e-12)[..., None]
         edged = ~is_round
         points[edged] = _farthest_of_boxes(self.size[edged], self.powers[edged], ways[edged])
         points += self.centre[:, None]
@@ -107,15 +115,7 @@ class Solids:
         reach = np.einsum("mkc,mkc->mk", points, ways)
         best = np.argmax(reach[self.table], axis=1)
         chosen = np.take_along_axis(self.table, best, axis=1)
-        found: Array = points[chosen, np.arange(ways.shape[1])]
-        return found
-
-
-def _farthest_of_ellipsoids(size: Array, ways: Array) -> Array:
-    stretched = ways * size[:, None]
-    length = np.sqrt(np.einsum("mkc,mkc->mk", stretched, stretched))
-    point: Array = stretched * size[:, None] / np.maximum(length, 1e-12)[..., None]
-    return point
+        return points[chosen, np.arange(ways.shape[1])]
 
 
 def _farthest_of_boxes(size: Array, powers: Array, ways: Array) -> Array:
@@ -129,8 +129,7 @@ def _farthest_of_boxes(size: Array, powers: Array, ways: Array) -> Array:
     whole = (flat + part_z) ** (1 - 1 / along)
     shared = flat / (both * whole)
     point = np.stack([part_x * shared / x, part_y * shared / y, part_z / (whole * z)], axis=2)
-    result: Array = point * np.sign(ways) * size[:, None]
-    return result
+    return point * np.sign(ways) * size[:, None]
 
 
 Triple = tuple[float, float, float]
@@ -236,7 +235,12 @@ def read_view(path: Path) -> ViewFile:
     """Read how a robot or a thing looks. Raises NodeStartError when it cannot be used."""
     try:
         view = msgspec.toml.decode(path.read_bytes(), type=ViewFile)
-        _check(view)
+        names = {part.name for part in view.part}
+        for part in view.part:
+            if part.colour not in view.colours:
+                raise ValueError(f"part {part.name}: there is no colour {part.colour}")
+            if part.on and part.on not in names:
+                raise ValueError(f"part {part.name}: there is no part {part.on} that it lies on")
     except (OSError, msgspec.DecodeError, ValueError) as error:
         raise NodeStartError(
             "The description of how a robot or a thing looks, {path}, cannot be read.",
@@ -247,35 +251,22 @@ def read_view(path: Path) -> ViewFile:
     return view
 
 
-def _check(view: ViewFile) -> None:
-    names = {part.name for part in view.part}
-    for part in view.part:
-        if part.colour not in view.colours:
-            raise ValueError(f"part {part.name}: there is no colour {part.colour}")
-        if part.on and part.on not in names:
-            raise ValueError(f"part {part.name}: there is no part {part.on} that it lies on")
-
-
 def all_parts(view: ViewFile) -> Iterator[Shaped]:
     """Every part with its copies round an axis and on the other side."""
     for part in view.part:
-        for copy, spin in _repeated(part):
+        around = part.repeat or Repeat(count=1, at=(0, 0, 0), axis=(0, 0, 1), step_deg=0)
+        axis, about = np.array(around.axis), np.array(around.at)
+        for number in range(around.count):
+            turn = rotation(axis, math.radians(around.step_deg * number))
+            spin = about - turn @ about, turn
+            name, light = (
+                text.replace("{n}", str(around.first + number)) if part.repeat else text
+                for text in (part.name, part.light)
+            )
+            copy = msgspec.structs.replace(part, name=name, light=light)
             yield _shaped(copy, spin, is_mirrored=False)
             if part.mirror:
                 yield _shaped(_other_side(copy), spin, is_mirrored=True)
-
-
-def _repeated(part: Part) -> Iterator[tuple[Part, tuple[Array, Array]]]:
-    if part.repeat is None:
-        yield part, (np.zeros(3), np.eye(3))
-        return
-    axis, about, first = np.array(part.repeat.axis), np.array(part.repeat.at), part.repeat.first
-    for number in range(part.repeat.count):
-        turn = rotation(axis, math.radians(part.repeat.step_deg * number))
-        texts = {
-            key: getattr(part, key).replace("{n}", str(first + number)) for key in ("name", "light")
-        }
-        yield msgspec.structs.replace(part, **texts), (about - turn @ about, turn)
 
 
 def _other_side(part: Part) -> Part:
@@ -287,79 +278,58 @@ def _other_side(part: Part) -> Part:
         changed[key] = text
     if part.link.startswith("L"):
         changed["link"] = "R" + part.link[1:]
-    if part.hinge is not None:
-        changed["hinge"] = _mirrored_hinge(part.hinge)
+    if (hinge := part.hinge) is not None:
+        (x, y, z), (ax, ay, az) = hinge.at, hinge.axis
+        joint = "R" + hinge.joint[1:] if hinge.joint.startswith("L") else hinge.joint
+        changed["hinge"] = Hinge(
+            joint, (x, -y, z), (-ax, ay, -az), hinge.closed_deg, hinge.open_deg
+        )
     return msgspec.structs.replace(part, **changed)
 
 
-def _mirrored_hinge(hinge: Hinge) -> Hinge:
-    (x, y, z), (ax, ay, az) = hinge.at, hinge.axis
-    joint = "R" + hinge.joint[1:] if hinge.joint.startswith("L") else hinge.joint
-    return msgspec.structs.replace(hinge, joint=joint, at=(x, -y, z), axis=(-ax, ay, -az))
-
-
 def _shaped(part: Part, spin: tuple[Array, Array], *, is_mirrored: bool) -> Shaped:
-    at, turn, blobs = _SHAPES[part.shape](part)
+    turn, blobs = _shape(part)
     normal = turn.T @ facing(np.array(part.facing))[:, 2] if any(part.facing) else UP
-    place, turn = spin[0] + spin[1] @ np.array(at), spin[1] @ turn
+    place, turn = spin[0] + spin[1] @ np.array(part.at), spin[1] @ turn
     if is_mirrored:
         flip = np.diag([1.0, -1.0, 1.0])
         # The blobs are mirrored along their own y too, so that the turn stays a rotation.
         place, turn = flip @ place, flip @ turn @ flip
         normal = flip @ normal
-        blobs = tuple(Blob((b.at[0], -b.at[1], b.at[2]), b.size, b.powers) for b in blobs)
+        blobs = [Blob((b.at[0], -b.at[1], b.at[2]), b.size, b.powers) for b in blobs]
     x, y, z = (float(value) for value in place)
     return Shaped(part, (x, y, z), turn, normal, tuple(blobs))
 
 
-Frame = tuple[Triple, Array, tuple[Blob, ...]]
+LATHE_THIN = 0.12
+"""How thick the slices of a lathe are, in their radii."""
 
 
-def _ball(part: Part) -> Frame:
-    powers = (part.across or 2.0, part.along or 2.0)
-    return part.at, turned(part.turn), (Blob(size=part.size, powers=powers),)
-
-
-def _box(part: Part) -> Frame:
-    powers = (part.across or 4.0, part.along or 4.0)
-    return part.at, turned(part.turn), (Blob(size=part.size, powers=powers),)
-
-
-def _rod(part: Part) -> Frame:
-    way = np.array(part.to) - np.array(part.at)
-    ends = (Blob((0, 0, 0), (part.radii[0],) * 3), Blob((0, 0, length(way)), (part.radii[1],) * 3))
-    return part.at, facing(way), ends
-
-
-def _disc(part: Part) -> Frame:
-    powers = (part.across or 2.0, part.along or 4.0)
-    turn = facing(np.array(part.facing)) @ turned(part.turn)
-    return part.at, turn, (Blob(size=part.size, powers=powers),)
-
-
-def _lathe(part: Part) -> Frame:
-    power = part.along or 3.0
-    thin = 0.12
-    blobs = [Blob((0, 0, z), (r, r, max(r * thin, 1e-3)), (2.0, power)) for z, r in part.profile]
-    return part.at, facing(np.array(part.facing)), tuple(blobs)
-
-
-def _hull(part: Part) -> Frame:
-    blobs = [Blob(one.at, one.size, (one.across, one.along)) for one in part.slices]
-    return part.at, turned(part.turn), tuple(blobs)
-
-
-_SHAPES = {"ball": _ball, "box": _box, "rod": _rod, "disc": _disc, "lathe": _lathe, "hull": _hull}
-
-
-def length(vector: Array) -> float:
-    """How long a vector is."""
-    return float(np.sqrt(vector @ vector))
+def _shape(part: Part) -> tuple[Array, list[Blob]]:
+    """The turn (3, 3) of a part in its link, and its blobs along its own axes."""
+    match part.shape:
+        case "rod":
+            way, (start, end) = np.array(part.to) - np.array(part.at), part.radii
+            far = (0.0, 0.0, float(np.linalg.norm(way)))
+            return facing(way), [Blob(size=(start,) * 3), Blob(far, (end,) * 3)]
+        case "lathe":
+            powers = (2.0, part.along or 3.0)
+            return facing(np.array(part.facing)), [
+                Blob((0, 0, z), (r, r, max(r * LATHE_THIN, 1e-3)), powers) for z, r in part.profile
+            ]
+        case "hull":
+            slices = part.slices
+            return turned(part.turn), [Blob(s.at, s.size, (s.across, s.along)) for s in slices]
+    across, along = {"ball": (2.0, 2.0), "box": (4.0, 4.0), "disc": (2.0, 4.0)}[part.shape]
+    turn = turned(part.turn)
+    if part.shape == "disc":
+        turn = facing(np.array(part.facing)) @ turn
+    return turn, [Blob(size=part.size, powers=(part.across or across, part.along or along))]
 
 
 def rotation(axis: Array, angle: float) -> Array:
     """The matrix that turns about an axis by an angle (rad)."""
-    x, y, z = axis / length(axis)
+    x, y, z = axis / np.linalg.norm(axis)
     cross = np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
     turn: Array = np.eye(3) + math.sin(angle) * cross + (1 - math.cos(angle)) * cross @ cross
     return turn
@@ -375,8 +345,8 @@ def turned(degrees: Triple) -> Array:
 
 def facing(way: Array) -> Array:
     """A turn whose z axis has a direction, and whose y axis looks up as far as it can."""
-    z = way / length(way)
+    z = way / np.linalg.norm(way)
     above = np.array([0.0, 0.0, 1.0]) if abs(z[2]) < 0.9 else np.array([1.0, 0.0, 0.0])
     x = np.cross(above, z)
-    x /= length(x)
+    x /= np.linalg.norm(x)
     return np.stack([x, np.cross(z, x), z], axis=1)

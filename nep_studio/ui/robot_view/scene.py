@@ -6,6 +6,8 @@ import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cache, lru_cache
+from operator import attrgetter
+from typing import Any
 
 import msgspec
 import numpy as np
@@ -15,7 +17,7 @@ from nep_core.wire.messages import RobotState, Thing
 from nep_studio import paths
 
 from .figure import Assembly, Placed, RobotFigure
-from .parts import Shaped, Solids, Triple, ViewFile, all_parts, read_view, rotation
+from .parts import Triple, ViewFile, all_parts, read_view, rotation
 
 FloorPlace = tuple[float, float]
 
@@ -88,10 +90,12 @@ class Motion:
     def step(self, now_s: float) -> bool:
         """Go on to where the robot is now; whether there is more to come."""
         share = 1.0 if self._lasts_s <= 0 else (now_s - self._told_s) / self._lasts_s
-        if share >= 1.0 or not _moves(self._start, self.goal):
-            self.shown = self.goal
+        start, goal = self._start, self.goal
+        moves = (start.joints, start.base, start.torso) != (goal.joints, goal.base, goal.torso)
+        if share >= 1.0 or not moves:
+            self.shown = goal
             return False
-        self.shown = between(self._start, self.goal, max(share, 0.0))
+        self.shown = between(start, goal, max(share, 0.0))
         return True
 
 
@@ -108,34 +112,19 @@ def between(start: RobotState, goal: RobotState, share: float) -> RobotState:
         name: angle + (goal.joints.get(name, angle) - angle) * share
         for name, angle in start.joints.items()
     }
-    x, y = (_mix(a, b, share) for a, b in zip(start.base[:2], goal.base[:2], strict=True))
-    base = (x, y, _turned(start.base[2], goal.base[2], share))
-    torso = goal.torso
+    base, torso = _mixed(start.base, goal.base, share, turns_from=2), goal.torso
     if start.torso is not None and goal.torso is not None:
-        torso = _torso_between(start.torso, goal.torso, share)
+        torso = _mixed(start.torso, goal.torso, share, turns_from=3)
     return msgspec.structs.replace(goal, joints=goal.joints | joints, base=base, torso=torso)
 
 
-Torso = tuple[float, float, float, float, float, float]
-
-
-def _torso_between(start: Torso, goal: Torso, share: float) -> Torso:
-    x, y, z = (_mix(a, b, share) for a, b in zip(start[:3], goal[:3], strict=True))
-    roll, pitch, yaw = (_turned(a, b, share) for a, b in zip(start[3:], goal[3:], strict=True))
-    return x, y, z, roll, pitch, yaw
-
-
-def _moves(start: RobotState, goal: RobotState) -> bool:
-    return (start.joints, start.base, start.torso) != (goal.joints, goal.base, goal.torso)
-
-
-def _mix(start: float, goal: float, share: float) -> float:
-    return start + (goal - start) * share
-
-
-def _turned(start: float, goal: float, share: float) -> float:
-    """The angle on the shorter way round."""
-    return start + math.remainder(goal - start, 2 * math.pi) * share
+def _mixed(
+    start: tuple[float, ...], goal: tuple[float, ...], share: float, *, turns_from: int
+) -> Any:
+    """As many numbers on the way; the later ones are angles, which take the shorter way round."""
+    ways = [b - a for a, b in zip(start, goal, strict=True)]
+    ways[turns_from:] = [math.remainder(way, 2 * math.pi) for way in ways[turns_from:]]
+    return tuple(a + way * share for a, way in zip(start, ways, strict=True))
 
 
 # What is in a robot view at the moment, and how it moves on from one told state to the next.
@@ -157,40 +146,27 @@ class _RobotHere:
         self.is_pale = self.can_touch = False
         self.last: RobotState | None = None
         self.path: list[FloorPlace] = []
-        self._seen: SceneRobot | None = None
-
-    def forget_picture(self) -> None:
-        self._seen = None
+        self.picture: SceneRobot | None = None
 
     def seen(self) -> SceneRobot:
         """The robot as it is shown now; the same object until it moves on."""
-        state = self.motion.shown
-        if self._seen is None or self._seen.state is not state:
-            placed = self._placed(state)
-            path = tuple(self.path)
-            self._seen = SceneRobot(self.name, self.figure, state, placed, self.is_pale, path)
-        return self._seen
-
-    def _placed(self, state: RobotState) -> Placed:
-        """Its parts; those of before when only lights or words have changed."""
-        if self._seen is not None and self._seen.figure is self.figure:
-            before = self._seen.state
-            kept = (before.joints, before.base, before.torso, before.posture)
-            if kept == (state.joints, state.base, state.torso, state.posture):
-                return self._seen.placed
-        return self.figure.pose(state)
+        state, before = self.motion.shown, self.picture
+        if before is not None and before.state is state:
+            return before
+        # When only lights or words have changed its parts are where they were.
+        moving = attrgetter("joints", "base", "torso", "posture")
+        is_still = before is not None and moving(before.state) == moving(state)
+        placed = before.placed if before and is_still else self.figure.pose(state)
+        path = tuple(self.path)
+        self.picture = SceneRobot(self.name, self.figure, state, placed, self.is_pale, path)
+        return self.picture
 
     def walk(self) -> None:
         """Remember where it has come to."""
-        x, y, _ = self.motion.shown.base
-        if not self.path:
-            self.path = [(x, y)]
-            return
-        far = math.dist(self.path[-1], (x, y))
-        if far > JUMP_M:
-            self.path = [(x, y)]
-        elif far > STEP_M:
-            self.path = [*self.path[-LONGEST_PATH:], (x, y)]
+        here = self.motion.shown.base[:2]
+        far = math.dist(self.path[-1], here) if self.path else math.inf
+        if far > STEP_M:
+            self.path = [*(self.path[-LONGEST_PATH:] if far <= JUMP_M else []), here]
 
 
 class Room:
@@ -198,7 +174,8 @@ class Room:
 
     def __init__(self) -> None:
         self._robots: dict[str, _RobotHere] = {}
-        self._things: tuple[Thing, ...] = ()
+        self.things: tuple[Thing, ...] = ()
+        """What stands on the floor."""
         self._scene: Scene | None = None
         self.marked = Marked()
         self.has_floor = self.has_bubbles = True
@@ -207,11 +184,6 @@ class Room:
     def names(self) -> tuple[str, ...]:
         """The robots' names."""
         return tuple(self._robots)
-
-    @property
-    def things(self) -> tuple[Thing, ...]:
-        """What stands on the floor."""
-        return self._things
 
     def show_robot(
         self,
@@ -235,7 +207,7 @@ class Room:
         here.is_pale, here.can_touch = state is None, can_touch and state is not None
         is_seen = here.motion.go(told, now_s) or is_new or was != (here.is_pale, here.can_touch)
         if was != (here.is_pale, here.can_touch):
-            here.forget_picture()
+            here.picture = None
         self._scene = None
         return is_new, is_seen
 
@@ -246,9 +218,9 @@ class Room:
 
     def show_things(self, things: Sequence[Thing]) -> bool:
         """Have these things; whether they are others than before."""
-        if tuple(things) == self._things:
+        if tuple(things) == self.things:
             return False
-        self._things, self._scene = tuple(things), None
+        self.things, self._scene = tuple(things), None
         return True
 
     def mark(self, marked: Marked) -> bool:
@@ -261,8 +233,7 @@ class Room:
     def clear_paths(self) -> None:
         """Forget the ways that were walked."""
         for robot in self._robots.values():
-            robot.path = []
-            robot.forget_picture()
+            robot.path, robot.picture = [], None
         self._scene = None
 
     def step(self, now_s: float) -> bool:
@@ -286,7 +257,7 @@ class Room:
         """What is painted; the same object until something changes."""
         if self._scene is None:
             robots = tuple(robot.seen() for robot in self._robots.values())
-            self._scene = Scene(robots, self._things, self.marked, self.has_floor, self.has_bubbles)
+            self._scene = Scene(robots, self.things, self.marked, self.has_floor, self.has_bubbles)
         return self._scene
 
 
@@ -349,26 +320,10 @@ def _made(kind: str, size: Triple) -> Placed:
     scale = np.array([deep, wide, high] if view.stretches else [high, high, high])
     shaped = list(all_parts(view))
     known = Assembly.of(shaped)
+    # Only parts that are not turned can be stretched one way more than the others.
     return Placed(
-        replace(known, solids=_scaled(shaped, scale)),
+        replace(known, solids=known.solids.scaled(scale)),
         np.array([one.at for one in shaped]) * scale,
         np.array([one.turn for one in shaped]),
         {},
     )
-
-
-def _scaled(shaped: list[Shaped], scale: Array) -> Solids:
-    """The shapes in their size. Only parts that are not turned can be stretched one way more."""
-    a, b, c = scale.tolist()
-    blobs = [
-        [
-            replace(
-                blob,
-                at=(blob.at[0] * a, blob.at[1] * b, blob.at[2] * c),
-                size=(blob.size[0] * a, blob.size[1] * b, blob.size[2] * c),
-            )
-            for blob in one.blobs
-        ]
-        for one in shaped
-    ]
-    return Solids.of(blobs)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable
 from dataclasses import dataclass
 from functools import lru_cache
 
@@ -18,6 +19,7 @@ from .figure import UP, Placed
 from .parts import Finish
 from .silhouettes import polygons
 
+MIDDLE = QPointF(0, 0)
 LIGHT_AT = QPointF(-0.36, -0.46)
 """Where the light falls on the unit circle of a part; it comes from over the left shoulder."""
 REACH = 1.58
@@ -44,9 +46,15 @@ def mixed(one: QColor, other: QColor, share: float) -> QColor:
     return QColor.fromRgbF(*(min(max(part, 0.0), 1.0) for part in parts))
 
 
-def lit_colour(number: int) -> QColor:
-    """The colour of a light 0xRRGGBB."""
-    return QColor(number >> 16 & 255, number >> 8 & 255, number & 255)
+def fading(
+    colour: QColor, stops: Iterable[tuple[float, float]], radius: float = 1.0, at: QPointF = MIDDLE
+) -> QBrush:
+    """A colour round a place; ``stops``: how far on the way outwards, and how much of it."""
+    gradient, colour = QRadialGradient(at, radius), QColor(colour)
+    for share, alpha in stops:
+        colour.setAlphaF(alpha)
+        gradient.setColorAt(share, colour)
+    return QBrush(gradient)
 
 
 class Shades:
@@ -86,28 +94,19 @@ class Shades:
 
     def _lamp(self, number: int) -> QBrush:
         """A light that is on: nearly white in its middle."""
-        colour = lit_colour(number)
-        gradient = QRadialGradient(QPointF(0, 0), 1.15)
+        colour = QColor.fromRgb(number)
+        gradient = QRadialGradient(MIDDLE, 1.15)
         gradient.setColorAt(0, mixed(colour, self._white, 0.45))
         gradient.setColorAt(1, colour)
         return QBrush(gradient)
 
     def _glow(self, number: int) -> QBrush:
         """What a light that is on sheds around it."""
-        colour = lit_colour(number)
-        gradient = QRadialGradient(QPointF(0, 0), 1.0)
-        for at, alpha in ((0.0, 0.42), (0.35, 0.24), (0.7, 0.07), (1.0, 0.0)):
-            colour.setAlphaF(alpha)
-            gradient.setColorAt(at, colour)
-        return QBrush(gradient)
+        stops = ((0.0, 0.42), (0.35, 0.24), (0.7, 0.07), (1.0, 0.0))
+        return fading(QColor.fromRgb(number), stops)
 
     def _gloss(self, strength: float) -> QBrush:
-        gradient = QRadialGradient(QPointF(0, 0), 1.0)
-        white = QColor(self._white)
-        for at, alpha in ((0.0, 0.85), (0.5, 0.5), (1.0, 0.0)):
-            white.setAlphaF(alpha * strength)
-            gradient.setColorAt(at, white)
-        return QBrush(gradient)
+        return fading(self._white, ((0.0, 0.85 * strength), (0.5, 0.5 * strength), (1.0, 0.0)))
 
 
 # The soft shadow of what stands on the floor, as a small picture that is laid on the floor.
@@ -137,7 +136,7 @@ class Shadow:
         (x, y), side = self.low, self.side
         square = [(x, y), (x + side, y), (x + side, y + side), (x, y + side)]
         places = np.array([(a, b, 0.0) for a, b in square])
-        if (lens.depths(places) < 0.1).any() or lens.camera.eye[2] < 0.03:
+        if (lens.depths(places) < 0.1).any() or lens.eye[2] < 0.03:
             return
         corners = QPolygonF([QPointF(a, b) for a, b in lens.project(places).tolist()])
         sheet = QPolygonF([QPointF(a, b) for a, b in _SHEET])
@@ -156,36 +155,26 @@ _SHEET = [(0, 0), (SIDE_PX, 0), (SIDE_PX, SIDE_PX), (0, SIDE_PX)]
 
 def cast_shadow(placed: Placed, camera: Camera, depth: float = 1.0) -> Shadow | None:
     """The shadow of some parts; the light comes over the left shoulder of who looks."""
-    placed = placed.casting()
-    if not placed.parts:
+    numbers, casting = placed.assembly.casting
+    if not casting.parts:
         return None
-    outlines = _on_floor(placed, _slope(camera))
+    placed = Placed(casting, placed.origins[numbers], placed.turns[numbers], {})
+    # (2, 3) where on the floor the shadow of a place is
+    away = math.cos(camera.yaw + 2.2), math.sin(camera.yaw + 2.2)
+    slope = np.array([[1.0, 0.0, SLANT * away[0]], [0.0, 1.0, SLANT * away[1]]])
+    turns = np.arange(CORNERS) * (2 * math.pi / CORNERS)
+    ways = np.stack([np.cos(turns), np.sin(turns)], axis=1) @ slope
+    outlines: Array = placed.farthest(ways) @ slope.T
     low, high = outlines.min(axis=(0, 1)) - AIR_M, outlines.max(axis=(0, 1)) + AIR_M
     middle, side = (low + high) / 2, float((high - low).max())
     low = middle - side / 2
     pixels = (outlines - low) * (SIDE_PX / side)
-    lowest = placed.farthest(-UP)[:, 2]
+    lowest = placed.farthest(-UP[None])[:, 0, 2]
     unit = SIDE_PX / side
     soft = _blurred(_filled(pixels), max(1, round(0.034 * unit)))
     firm = _blurred(_filled(pixels[lowest < LOW_M]), max(1, round(0.012 * unit)))
     dark = depth * np.minimum(SOFT * soft + FIRM * firm, 0.8)
     return Shadow(_sheet(dark), (float(low[0]), float(low[1])), side)
-
-
-def _slope(camera: Camera) -> Array:
-    """(2, 3) where on the floor the shadow of a place is."""
-    away = math.cos(camera.yaw + 2.2), math.sin(camera.yaw + 2.2)
-    return np.array([[1.0, 0.0, SLANT * away[0]], [0.0, 1.0, SLANT * away[1]]])
-
-
-def _on_floor(placed: Placed, slope: Array) -> Array:
-    turns = np.arange(CORNERS) * (2 * math.pi / CORNERS)
-    ways = np.stack([np.cos(turns), np.sin(turns)], axis=1) @ slope
-    local = ways @ placed.turns
-    points = placed.solids.farthest(local)
-    world = placed.origins[:, None] + points @ placed.turns.transpose(0, 2, 1)
-    floor: Array = world @ slope.T
-    return floor
 
 
 def _filled(outlines: Array) -> Array:
@@ -205,18 +194,14 @@ def _filled(outlines: Array) -> Array:
 def _blurred(sheet: Array, reach: int) -> Array:
     """Two means over a box each way, which come near to a bell."""
     for _ in range(4):
-        sheet = _means(sheet, reach).T
+        # The means of columns over as many rows before and after
+        width = 2 * reach + 1
+        sums = np.zeros((SIDE_PX + width, SIDE_PX))
+        np.cumsum(sheet, axis=0, out=sums[reach + 1 : reach + 1 + SIDE_PX])
+        sums[reach + 1 + SIDE_PX :] = sums[reach + SIDE_PX]
+        means: Array = (sums[width:] - sums[:-width]) / width
+        sheet = means.T
     return sheet
-
-
-def _means(sheet: Array, reach: int) -> Array:
-    """The means of columns over as many rows before and after."""
-    width = 2 * reach + 1
-    sums = np.zeros((SIDE_PX + width, SIDE_PX))
-    np.cumsum(sheet, axis=0, out=sums[reach + 1 : reach + 1 + SIDE_PX])
-    sums[reach + 1 + SIDE_PX :] = sums[reach + SIDE_PX]
-    means: Array = (sums[width:] - sums[:-width]) / width
-    return means
 
 
 def _sheet(dark: Array) -> QImage:

@@ -38,11 +38,6 @@ class Silhouettes:
     ratio: float = 1.0
     """How many real pixels there are for one."""
 
-    def grown(self, pixels: float) -> Array:
-        """The outlines, wider by some pixels."""
-        wider: Array = self.outlines + pixels * self.ways
-        return wider
-
 
 def silhouettes(placed: Placed, lens: Lens) -> Silhouettes:
     """Find the outlines of all parts at once."""
@@ -53,12 +48,10 @@ def silhouettes(placed: Placed, lens: Lens) -> Silhouettes:
     turns = np.arange(count) * (2 * math.pi / count)
     ways = np.stack([np.cos(turns), np.sin(turns)], axis=1)
     slopes = lens.slopes(middles)
-    local = ways @ (slopes @ placed.turns)
-    points = placed.solids.farthest(local)
-    world = placed.origins[:, None] + points @ placed.turns.transpose(0, 2, 1)
-    outlines = lens.project(world)
+    outlines = lens.project(placed.farthest(ways @ slopes))
     centres, stretches = _ellipses(outlines, ways)
-    is_seen = (depths > BEFORE_EYE_M) & _is_inside(outlines, lens)
+    is_inside = (outlines.max(axis=1) > 0) & (outlines.min(axis=1) < (lens.width, lens.height))
+    is_seen = (depths > BEFORE_EYE_M) & is_inside.all(axis=1)
     return Silhouettes(outlines, ways, centres, stretches, depths, is_seen, lens.ratio)
 
 
@@ -85,14 +78,6 @@ def _ellipses(outlines: Array, ways: Array) -> tuple[Array, Array]:
     return centres, matrix / np.maximum(trace, 1e-9)[:, None, None]
 
 
-def _is_inside(outlines: Array, lens: Lens) -> NDArray[np.bool_]:
-    low, high = outlines.min(axis=1), outlines.max(axis=1)
-    inside: NDArray[np.bool_] = (high > 0).all(axis=1) & (low < (lens.width, lens.height)).all(
-        axis=1
-    )
-    return inside
-
-
 # Which part is drawn before which: farther ones first, where they cover each other.
 
 SAME_M = 5e-4
@@ -106,8 +91,11 @@ def drawing_order(
     Of two parts that cover each other that one is farther whose surface is, in the middle of
     where they do; surfaces are those of the ellipsoids in their boxes.
     """
-    first, second, places = _covering(seen.outlines[wanted])
-    rays = lens.rays(places)
+    # Pairs of parts whose boxes cover each other, and the rays to the middle of where they do.
+    low, high = seen.outlines[wanted].min(axis=1), seen.outlines[wanted].max(axis=1)
+    from_low, to_high = np.maximum(low[:, None], low), np.minimum(high[:, None], high)
+    first, second = np.nonzero(np.triu((from_low < to_high).all(axis=2), 1))
+    rays = lens.rays((from_low[first, second] + to_high[first, second]) / 2)
     far = _reach(placed, wanted[first], rays, lens) - _reach(placed, wanted[second], rays, lens)
     unsure = np.abs(far) < SAME_M
     depths = seen.depths[wanted]
@@ -118,22 +106,12 @@ def drawing_order(
     return [int(part) for part in wanted[order]]
 
 
-def _covering(outlines: Array) -> tuple[NDArray[np.intp], NDArray[np.intp], Array]:
-    """Pairs of parts whose boxes cover each other, and the pixels in the middle of where."""
-    low, high = outlines.min(axis=1), outlines.max(axis=1)
-    from_low = np.maximum(low[:, None], low[None])
-    to_high = np.minimum(high[:, None], high[None])
-    is_pair = (from_low < to_high).all(axis=2)
-    first, second = np.nonzero(np.triu(is_pair, 1))
-    return first, second, (from_low[first, second] + to_high[first, second]) / 2
-
-
 def _reach(placed: Placed, parts: NDArray[np.intp], rays: Array, lens: Lens) -> Array:
     """How far along its ray the surface of a part is; where it passes by, the nearest point."""
-    extent = placed.solids.extent[parts]
+    extent, middle = placed.assembly.solids.extent[parts], placed.assembly.solids.middle[parts]
     turns = placed.turns[parts]
-    to_eye = lens.camera.eye - placed.origins[parts]
-    start = (np.einsum("pi,pij->pj", to_eye, turns) - placed.solids.middle[parts]) / extent
+    to_eye = lens.eye - placed.origins[parts]
+    start = (np.einsum("pi,pij->pj", to_eye, turns) - middle) / extent
     way = np.einsum("pi,pij->pj", rays, turns) / extent
     a = np.einsum("pi,pi->p", way, way)
     b = np.einsum("pi,pi->p", way, start)
@@ -153,7 +131,7 @@ def _sorted(depths: Array, before: Sequence[int], after: Sequence[int]) -> list[
     keys = (-depths).tolist()
     ready = [(keys[part], part) for part in range(count) if not waits[part]]
     heapq.heapify(ready)
-    left = sorted(range(count), key=lambda part: keys[part])
+    left = np.argsort(-depths, kind="stable").tolist()
     order: list[int] = []
     done = [False] * count
     while len(order) < count:

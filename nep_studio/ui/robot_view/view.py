@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import math
 import time
-from collections.abc import Iterator, Mapping, Sequence
-from contextlib import contextmanager
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 
@@ -17,7 +16,6 @@ from PySide6.QtGui import (
     QKeyEvent,
     QMouseEvent,
     QNativeGestureEvent,
-    QPaintDevice,
     QPainter,
     QPaintEvent,
     QPen,
@@ -92,16 +90,6 @@ def room_words(room: Room, touch_names: Mapping[str, str]) -> str:
     if marked.sensor:
         sentences.append(tr("Touch {part}", part=touch_names.get(marked.sensor, marked.sensor)))
     return " ".join(sentences)
-
-
-@contextmanager
-def painting(device: QPaintDevice) -> Iterator[QPainter]:
-    """A painter that ends also when something goes wrong; one left open brings down Qt."""
-    painter = QPainter(device)
-    try:
-        yield painter
-    finally:
-        painter.end()
 
 
 def paint_focus(painter: QPainter, frame: QRect, theme: Theme) -> None:
@@ -205,7 +193,9 @@ class RoomPicture(QWidget):
             self.fit()
         if is_seen:
             self._describe()
-            self._go_on()
+            # Paint soon, as often as it takes for the robots to come to where they are.
+            if self.isVisible() and not self._timer.isActive():
+                self._timer.start()
 
     def remove_robot(self, name: str) -> None:
         """Show a robot no more."""
@@ -276,16 +266,23 @@ class RoomPicture(QWidget):
         """Paint the room."""
         self.frames += 1
         start = time.perf_counter()
-        with painting(self) as painter:
+        with QPainter(self) as painter:
             self.painter.paint(painter, self.room.scene(), self.lens, self.font())
             if self.hasFocus():
                 paint_focus(painter, self.rect(), self.look.theme)
         self._pace(1000 * (time.perf_counter() - start))
 
+    def _pace(self, spent_ms: float) -> None:
+        """Leave more than half of the time to others, however long painting takes."""
+        self._cost_ms += (spent_ms - self._cost_ms) / 4
+        interval = round(min(max(FRAME_MS, PACE * self._cost_ms), SLOWEST_MS))
+        if abs(interval - self._timer.interval()) > 2:
+            self._timer.setInterval(interval)
+
     def grab_picture(self, size: QSize) -> QImage:
         """The room as a picture of another size, without marks."""
         image = QImage(size, QImage.Format.Format_RGB32)
-        with painting(image) as painter:
+        with QPainter(image) as painter:
             self.paint_picture(painter, size)
         return image
 
@@ -297,25 +294,14 @@ class RoomPicture(QWidget):
         lens = Lens(self.camera, size.width(), size.height())
         ScenePainter(self.look.theme).paint(painter, scene, lens, self.font())
 
-    def _pace(self, spent_ms: float) -> None:
-        """Leave more than half of the time to others, however long painting takes."""
-        self._cost_ms += (spent_ms - self._cost_ms) / 4
-        interval = round(min(max(FRAME_MS, PACE * self._cost_ms), SLOWEST_MS))
-        if abs(interval - self._timer.interval()) > 2:
-            self._timer.setInterval(interval)
-
-    def _go_on(self) -> None:
-        """Paint soon, as often as it takes for the robots to come to where they are."""
-        if self.isVisible() and not self._timer.isActive():
-            self._timer.start()
-
     def _on_frame(self) -> None:
         before = at_floor_of(self.room.scene())
         if not self.room.step(time.monotonic()):
             self._timer.stop()
         if self.follows:
-            now = at_floor_of(self.room.scene())
-            self.look_through(self.camera.moved(now[0] - before[0], now[1] - before[1]))
+            now, (x, y, z) = at_floor_of(self.room.scene()), self.camera.target
+            there = (x + now[0] - before[0], y + now[1] - before[1], z)
+            self.look_through(replace(self.camera, target=there))
         self.update()
 
     def _on_theme_changed(self) -> None:

@@ -76,8 +76,19 @@ class Receiving:
         self.has_gravity = message.gravity_included
         self.heard_s = now_s
         self._counts.append((now_s, len(message.t)))
-        self._find_holes(message, now_s)
-        self._follow_movement(message, now_s)
+        # Note where samples are missing, as far as their times tell
+        step_s = 1 / message.rate_hz if message.rate_hz > 0 else 0.0
+        for t in message.t:
+            if step_s and self._last_t is not None and t - self._last_t > _GAP_STEPS * step_s:
+                count = round((t - self._last_t) / step_s) - 1
+                self._holes.append((now_s, min(count, _MOST_LOST)))
+            self._last_t = t
+        self._latest.extend((now_s, row) for row in message.acc)
+        while self._latest and now_s - self._latest[0][0] > MOVED_OVER_S:
+            self._latest.popleft()
+        axes = list(zip(*(row for _, row in self._latest), strict=True))
+        self.movement_m_s2 = max(max(axis) - min(axis) for axis in axes)
+        self.has_moved |= self.movement_m_s2 > MOVED_M_S2
 
     def is_sending(self, now_s: float) -> bool:
         """Whether samples came just now."""
@@ -106,25 +117,8 @@ class Receiving:
         seconds = counted[-1][0] - counted[0][0]
         return sum(count for _, count in counted[1:]) / seconds if seconds > 0 else 0.0
 
-    def _find_holes(self, message: Imu, now_s: float) -> None:
-        """Note where samples are missing, as far as their times tell."""
-        step_s = 1 / message.rate_hz if message.rate_hz > 0 else 0.0
-        for t in message.t:
-            if step_s and self._last_t is not None and t - self._last_t > _GAP_STEPS * step_s:
-                count = round((t - self._last_t) / step_s) - 1
-                self._holes.append((now_s, min(count, _MOST_LOST)))
-            self._last_t = t
-
     def _recent_holes(self, now_s: float) -> list[tuple[float, int]]:
         return [one for one in self._holes if now_s - one[0] < REMEMBERED_S]
-
-    def _follow_movement(self, message: Imu, now_s: float) -> None:
-        self._latest.extend((now_s, row) for row in message.acc)
-        while self._latest and now_s - self._latest[0][0] > MOVED_OVER_S:
-            self._latest.popleft()
-        axes = list(zip(*(row for _, row in self._latest), strict=True))
-        self.movement_m_s2 = max(max(axis) - min(axis) for axis in axes)
-        self.has_moved |= self.movement_m_s2 > MOVED_M_S2
 
 
 # Hears the watch of a project: whose samples come, how fast, and what its node says of it.
@@ -398,7 +392,54 @@ class Figure:
 
 def figures(flow: Flow) -> list[Figure]:
     """What is known of how a watch sends, the most important first."""
-    return [*_rate(flow), *_loss(flow), *_gaps(flow), *_delay(flow), *_drift(flow)]
+    words: dict[Grade, str] = {
+        "good": tr("fast enough"),
+        "fair": tr("enough; 50 are better"),
+        "poor": tr("too few: choose 50 in the app"),
+    }
+    number = tr("{number} a second", number=round(flow.rate_hz))
+    grade = _grade(-flow.rate_hz, -GOOD_HZ, -FAIR_HZ)
+    found = [Figure(tr("Samples"), number, grade, words[grade])]
+    if flow.loss is not None:
+        words = {
+            "good": tr("next to nothing is missing"),
+            "fair": tr("it still works"),
+            "poor": tr("go nearer to the Wi-Fi"),
+        }
+        percent, digits = flow.loss * 100, 1 if 0 < flow.loss < 0.0995 else 0
+        number = tr("{percent} %", percent=f"{percent:.{digits}f}")
+        grade = _grade(flow.loss, GOOD_LOSS, FAIR_LOSS)
+        found.append(Figure(tr("Lost"), number, grade, words[grade]))
+    words = {
+        "good": tr("it never paused in the last minute"),
+        "fair": tr("short pauses in the last minute"),
+        "poor": tr("many pauses: keep its screen on"),
+    }
+    grade = _grade(flow.gaps, GOOD_GAPS, FAIR_GAPS)
+    found.append(Figure(tr("Gaps"), str(flow.gaps), grade, words[grade]))
+    return [*found, *_times(flow)]
+
+
+def _times(flow: Flow) -> Iterator[Figure]:
+    """How late it is, and how its clock runs, as far as that is known."""
+    if flow.delay_ms is not None:
+        words: dict[Grade, str] = {
+            "good": tr("as good as at once"),
+            "fair": tr("a little late"),
+            "poor": tr("late: let the app send more often"),
+        }
+        grade = _grade(flow.delay_ms, GOOD_DELAY_MS, FAIR_DELAY_MS)
+        number = tr("{number} ms", number=round(flow.delay_ms))
+        yield Figure(tr("Delay"), number, grade, words[grade])
+    if flow.drift_ppm is not None:
+        words = {
+            "good": tr("its clock runs like ours"),
+            "fair": tr("its clock runs a little differently; that is allowed for"),
+            "poor": tr("its clock runs very differently; that is allowed for"),
+        }
+        grade = _grade(abs(flow.drift_ppm), GOOD_DRIFT_PPM, FAIR_DRIFT_PPM)
+        number = tr("{seconds} s an hour", seconds=f"{flow.drift_ppm * 3600 / 1e6:+.2f}")
+        yield Figure(tr("Clock"), number, grade, words[grade])
 
 
 def figure_lines(flow: Flow) -> str:
@@ -416,65 +457,3 @@ def _grade(value: float, good: float, fair: float) -> Grade:
     if value <= good:
         return "good"
     return "fair" if value <= fair else "poor"
-
-
-def _rate(flow: Flow) -> Iterator[Figure]:
-    grade = _grade(-flow.rate_hz, -GOOD_HZ, -FAIR_HZ)
-    words = {
-        "good": tr("fast enough"),
-        "fair": tr("enough; 50 are better"),
-        "poor": tr("too few: choose 50 in the app"),
-    }
-    number = tr("{number} a second", number=round(flow.rate_hz))
-    yield Figure(tr("Samples"), number, grade, words[grade])
-
-
-def _loss(flow: Flow) -> Iterator[Figure]:
-    if flow.loss is None:
-        return
-    grade = _grade(flow.loss, GOOD_LOSS, FAIR_LOSS)
-    words = {
-        "good": tr("next to nothing is missing"),
-        "fair": tr("it still works"),
-        "poor": tr("go nearer to the Wi-Fi"),
-    }
-    percent = flow.loss * 100
-    number = tr("{percent} %", percent=f"{percent:.1f}" if 0 < percent < 9.95 else f"{percent:.0f}")
-    yield Figure(tr("Lost"), number, grade, words[grade])
-
-
-def _gaps(flow: Flow) -> Iterator[Figure]:
-    grade = _grade(flow.gaps, GOOD_GAPS, FAIR_GAPS)
-    words = {
-        "good": tr("it never paused in the last minute"),
-        "fair": tr("short pauses in the last minute"),
-        "poor": tr("many pauses: keep its screen on"),
-    }
-    yield Figure(tr("Gaps"), str(flow.gaps), grade, words[grade])
-
-
-def _delay(flow: Flow) -> Iterator[Figure]:
-    if flow.delay_ms is None:
-        return
-    grade = _grade(flow.delay_ms, GOOD_DELAY_MS, FAIR_DELAY_MS)
-    words = {
-        "good": tr("as good as at once"),
-        "fair": tr("a little late"),
-        "poor": tr("late: let the app send more often"),
-    }
-    number = tr("{number} ms", number=round(flow.delay_ms))
-    yield Figure(tr("Delay"), number, grade, words[grade])
-
-
-def _drift(flow: Flow) -> Iterator[Figure]:
-    if flow.drift_ppm is None:
-        return
-    grade = _grade(abs(flow.drift_ppm), GOOD_DRIFT_PPM, FAIR_DRIFT_PPM)
-    words = {
-        "good": tr("its clock runs like ours"),
-        "fair": tr("its clock runs a little differently; that is allowed for"),
-        "poor": tr("its clock runs very differently; that is allowed for"),
-    }
-    per_hour_s = flow.drift_ppm * 3600 / 1e6
-    number = tr("{seconds} s an hour", seconds=f"{per_hour_s:+.2f}")
-    yield Figure(tr("Clock"), number, grade, words[grade])

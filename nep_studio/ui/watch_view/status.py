@@ -104,7 +104,7 @@ class WatchStatus(QWidget):
         row.addWidget(self.button)
         self.listener.changed.connect(self.refresh)
         self.button.clicked.connect(self.connect_asked)
-        look.theme_changed.connect(self._on_theme_changed)
+        look.theme_changed.connect(self._draw_sign)
         follow_words(self, self.refresh)
 
     def refresh(self) -> None:
@@ -135,9 +135,6 @@ class WatchStatus(QWidget):
         """Hear no more: nobody looks."""
         super().hideEvent(event)
         self.listener.stop()
-
-    def _on_theme_changed(self) -> None:
-        self._draw_sign()
 
     def _draw_sign(self) -> None:
         name, colour = SIGNS[self.state.sign]

@@ -185,7 +185,7 @@ def is_plain(value: object) -> bool:
     return value is None or type(value) in (bool, int, float, str) or type(value) in _ENDS
 
 
-def shown(value: object, depth: int = 0) -> str:
+def shown(value: Any, depth: int = 0) -> str:
     """A plain value as Python, clipped; no code of the program is run for it."""
     if type(value) is str:
         return repr(value) if len(value) < LONGEST else repr(value[: LONGEST - 2]) + CUT
@@ -194,7 +194,17 @@ def shown(value: object, depth: int = 0) -> str:
     if value is None or type(value) in (bool, float):
         return repr(value)
     if type(value) in _ENDS and depth < _DEEPEST:
-        return _collection(value, depth)
+        kind = type(value)
+        opening, closing = _ENDS[kind][0], _ENDS[kind][1]
+        text = ""
+        for item in islice(value.items() if kind is dict else value, LONGEST):
+            told = _pair(item, depth) if kind is dict else shown(item, depth + 1)
+            text += f", {told}" if text else told
+            if len(text) > LONGEST - 2:
+                return f"{opening}{text[: LONGEST - 3]}{CUT}{closing}"
+        if kind in (set, frozenset) and not text:
+            return f"{kind.__name__}()"
+        return f"{opening}{text}{',' if kind is tuple and len(value) == 1 else ''}{closing}"
     return CUT
 
 
@@ -203,20 +213,6 @@ def _whole(value: int) -> str:
     if digits <= MOST_DIGITS:
         return repr(value)
     return f"{'-' if value < 0 else ''}1e+{digits}"  # to write all digits could take minutes
-
-
-def _collection(value: Any, depth: int) -> str:
-    kind = type(value)
-    opening, closing = _ENDS[kind][0], _ENDS[kind][1]
-    text = ""
-    for item in islice(value.items() if kind is dict else value, LONGEST):
-        told = _pair(item, depth) if kind is dict else shown(item, depth + 1)
-        text += f", {told}" if text else told
-        if len(text) > LONGEST - 2:
-            return f"{opening}{text[: LONGEST - 3]}{CUT}{closing}"
-    if kind in (set, frozenset) and not text:
-        return f"{kind.__name__}()"
-    return f"{opening}{text}{',' if kind is tuple and len(value) == 1 else ''}{closing}"
 
 
 def _pair(item: tuple[object, object], depth: int) -> str:

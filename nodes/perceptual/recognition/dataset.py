@@ -95,12 +95,6 @@ def learn(
     tell: Callable[[str], None] = lambda progress: None,
 ) -> Model:
     """The model of the gestures in the material; RecordingError says why there can be none."""
-    _check_pauses(material)
-    model = train(material.recordings, material.everyday, methods, tell=tell)
-    return replace(model, wrist=material.wrist, sensors=_sensors(material.recordings))
-
-
-def _check_pauses(material: Material) -> None:
     every = (*material.recordings, *material.everyday)
     if sum(_nothing_s(one) for one in every) < _LEAST_NOTHING_S:
         raise RecordingError(
@@ -112,6 +106,8 @@ def _check_pauses(material: Material) -> None:
             ),
             everyday=EVERYDAY,
         )
+    model = train(material.recordings, material.everyday, methods, tell=tell)
+    return replace(model, wrist=material.wrist, sensors=_sensors(material.recordings))
 
 
 def _nothing_s(recording: Recording) -> float:

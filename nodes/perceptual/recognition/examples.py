@@ -23,17 +23,23 @@ def varied(raw: Floats, seed: Sequence[int]) -> Floats:
     chance = np.random.default_rng(seed)
     n = len(raw)
     gain = np.exp(chance.uniform(-_GAIN, _GAIN, (n, 1, 1)))
-    turned = _turned(raw, _turns(chance, n))
+    turns = _turns(chance, n)
+    parts = [raw[..., at : at + 3] @ turns for at in range(0, raw.shape[2], 3)]
+    turned = np.concatenate(parts, axis=2)
     # gravity is as strong for everyone: only what changes in the window is made stronger
     resting = turned[..., :3].mean(axis=1, keepdims=True)
     turned[..., :3] = resting + gain * (turned[..., :3] - resting)
     turned[..., 3:] *= gain
-    return _with_rhythm(turned, chance)
-
-
-def _turned(raw: Floats, turns: Floats) -> Floats:
-    parts = [raw[..., at : at + 3] @ turns for at in range(0, raw.shape[2], 3)]
-    return np.concatenate(parts, axis=2)
+    # Windows whose middle comes earlier or later; both ends stay
+    n = len(turned)
+    times = np.linspace(0.0, 1.0, POINTS)
+    shift = chance.uniform(-_RHYTHM, _RHYTHM, n) * np.cos(chance.uniform(0, np.pi, n))
+    at = np.clip(times + shift[:, None] * np.sin(np.pi * times), 0.0, 1.0) * (POINTS - 1)
+    before = np.minimum(at.astype(np.intp), POINTS - 2)
+    part = (at - before)[..., None]
+    each = np.arange(n)[:, None]
+    values: Floats = turned[each, before] * (1 - part) + turned[each, before + 1] * part
+    return values
 
 
 def _turns(chance: np.random.Generator, n: int) -> Floats:
@@ -46,19 +52,6 @@ def _turns(chance: np.random.Generator, n: int) -> Floats:
     cross = np.array([[zero, -z, y], [z, zero, -x], [-y, x, zero]]).transpose(2, 0, 1)
     turns: Floats = np.eye(3) + np.sin(angle) * cross + (1 - np.cos(angle)) * (cross @ cross)
     return turns
-
-
-def _with_rhythm(raw: Floats, chance: np.random.Generator) -> Floats:
-    """Windows whose middle comes earlier or later; both ends stay."""
-    n = len(raw)
-    times = np.linspace(0.0, 1.0, POINTS)
-    shift = chance.uniform(-_RHYTHM, _RHYTHM, n) * np.cos(chance.uniform(0, np.pi, n))
-    at = np.clip(times + shift[:, None] * np.sin(np.pi * times), 0.0, 1.0) * (POINTS - 1)
-    before = np.minimum(at.astype(np.intp), POINTS - 2)
-    part = (at - before)[..., None]
-    each = np.arange(n)[:, None]
-    values: Floats = raw[each, before] * (1 - part) + raw[each, before + 1] * part
-    return values
 
 
 Flags = NDArray[np.bool_]

@@ -47,7 +47,13 @@ def fit_mixture(curves: Floats, components: int = COMPONENTS) -> Mixture:
     belongs = np.eye(components)[slices]
     mixture = _maximise(rows, belongs)
     for _ in range(_ROUNDS):
-        mixture = _maximise(rows, _expect(rows, mixture))
+        # How much each row belongs to each Gaussian; (rows, k)
+        lower = np.linalg.cholesky(mixture.covariance)
+        whiten = np.linalg.inv(lower).transpose(0, 2, 1)
+        away = rows @ whiten - (mixture.mean[:, None] @ whiten)
+        log_det = np.log(np.einsum("kii->ki", lower)).sum(axis=1)
+        squares = np.einsum("krs,krs->rk", away, away)
+        mixture = _maximise(rows, _normalised(np.log(mixture.weight) - log_det - 0.5 * squares))
     return mixture
 
 
@@ -71,16 +77,6 @@ def expected_curve(mixture: Mixture, points: int = 32) -> tuple[Floats, Floats]:
     covariance = np.einsum("tk,ksr->tsr", share, around)
     covariance += np.einsum("tk,tks,tkr->tsr", share, apart, apart)
     return mean, covariance
-
-
-def _expect(rows: Floats, mixture: Mixture) -> Floats:
-    """How much each row belongs to each Gaussian; (rows, k)."""
-    lower = np.linalg.cholesky(mixture.covariance)
-    whiten = np.linalg.inv(lower).transpose(0, 2, 1)
-    away = rows @ whiten - (mixture.mean[:, None] @ whiten)
-    log_det = np.log(np.einsum("kii->ki", lower)).sum(axis=1)
-    squares = np.einsum("krs,krs->rk", away, away)
-    return _normalised(np.log(mixture.weight) - log_det - 0.5 * squares)
 
 
 def _maximise(rows: Floats, belongs: Floats) -> Mixture:
@@ -144,7 +140,7 @@ class Curves:
         asked = moving >= _WORTH_A_LOOK
         distances = self.aligned_distances(windows.signals[asked])
         sharpness = _SHARPNESS / windows.signals.shape[2]
-        scores[asked] = moving[asked, None] * _shares(-sharpness * distances)
+        scores[asked] = moving[asked, None] * _normalised(-sharpness * distances)
         return scores
 
     def arrays(self) -> dict[str, NDArray[Any]]:
@@ -208,6 +204,15 @@ class Curves:
         return costs
 
 
+def with_prefix(arrays: Mapping[str, NDArray[Any]], prefix: str) -> dict[str, NDArray[Any]]:
+    """The arrays whose names begin so, without that beginning."""
+    return {
+        name.removeprefix(prefix): array
+        for name, array in arrays.items()
+        if name.startswith(prefix)
+    }
+
+
 @dataclass(frozen=True)
 class Gmr:
     """Curves that tell which gesture it is, and trees that tell whether it is one."""
@@ -230,11 +235,7 @@ class Gmr:
         cls, arrays: Mapping[str, NDArray[Any]], gestures: int, channels: Channels
     ) -> Gmr:
         """A recogniser from a model file; ValueError or KeyError when its parts do not fit."""
-        gate = {
-            name.removeprefix("gate."): array
-            for name, array in arrays.items()
-            if name.startswith("gate.")
-        }
+        gate = with_prefix(arrays, "gate.")
         curves = Curves.from_arrays(arrays, gestures, channels.signals)
         return cls(curves, Trees.from_arrays(gate, 1, feature_count(channels)))
 
@@ -297,12 +298,6 @@ def _fit_curve(curves: Floats) -> tuple[Floats, Floats, Floats]:
     lower = np.linalg.cholesky(covariance)
     log_det = 2 * np.log(np.einsum("tii->ti", lower)).sum(axis=1).mean()
     return mean, np.linalg.inv(lower), log_det
-
-
-def _shares(logarithms: Floats) -> Floats:
-    parts = np.exp(logarithms - logarithms.max(axis=1, keepdims=True))
-    shares: Floats = parts / parts.sum(axis=1, keepdims=True)
-    return shares
 
 
 _BAND = 2 * _SLACK + 1

@@ -11,6 +11,7 @@ import zipfile
 import zlib
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
+from math import prod
 from pathlib import Path
 from typing import Any, Literal, Protocol
 
@@ -34,7 +35,7 @@ from .features import (
     fitting,
     window_lengths,
 )
-from .gmr import Both, Gmr
+from .gmr import Both, Gmr, with_prefix
 from .streams import LONGEST_S, RATE_HZ, SHORTEST_S, Floats, is_gesture_name
 from .trees import Trees
 
@@ -334,27 +335,12 @@ def _array(content: bytes) -> NDArray[Any]:
     if version != (1, 0):
         raise ValueError(f"arrays of version {version} are not read")
     shape, _, kind = np.lib.format.read_array_header_1_0(file)
-    if kind.kind not in "biuf" or kind.itemsize * _product(shape) > len(content):
+    if kind.kind not in "biuf" or kind.itemsize * prod(max(0, size) for size in shape) > len(
+        content
+    ):
         raise ValueError("an array does not hold what it claims")
     file.seek(0)
-    array: NDArray[Any] = np.lib.format.read_array(file, allow_pickle=False)
-    return array
-
-
-def _product(shape: tuple[int, ...]) -> int:
-    total = 1
-    for size in shape:
-        total *= max(0, size)
-    return total
-
-
-def with_prefix(arrays: Mapping[str, NDArray[Any]], prefix: str) -> dict[str, NDArray[Any]]:
-    """The arrays whose names begin so, without that beginning."""
-    return {
-        name.removeprefix(prefix): array
-        for name, array in arrays.items()
-        if name.startswith(prefix)
-    }
+    return np.lib.format.read_array(file, allow_pickle=False)
 
 
 # Gesture models in files: numbers and plain text, never code.
@@ -406,7 +392,17 @@ def read_model(path: Path) -> Model:
     try:
         arrays = read_arrays(content)
         text = arrays["about"].tobytes()
-        _check_version(path, text)
+        found = msgspec.json.decode(text, type=_Version)
+        if found.format != FORMAT:
+            raise ValueError("it is another kind of file")
+        if found.version != VERSION:
+            raise RecordingError(
+                "{name} is a gesture model of version {version}; this program reads version {map}.",
+                checklist=("Train the gestures again from their recordings.", "Update NEP Studio."),
+                name=path.name,
+                version=found.version,
+                map=VERSION,
+            )
         return _model(msgspec.json.decode(text, type=About), arrays)
     except DAMAGE as error:
         raise RecordingError(
@@ -442,20 +438,6 @@ def _content(path: Path) -> bytes:
 
 def _small(array: NDArray[Any]) -> NDArray[Any]:
     return array.astype(np.float32) if array.dtype == np.float64 else array
-
-
-def _check_version(path: Path, text: bytes) -> None:
-    found = msgspec.json.decode(text, type=_Version)
-    if found.format != FORMAT:
-        raise ValueError("it is another kind of file")
-    if found.version != VERSION:
-        raise RecordingError(
-            "{name} is a gesture model of version {version}; this program reads version {map}.",
-            checklist=("Train the gestures again from their recordings.", "Update NEP Studio."),
-            name=path.name,
-            version=found.version,
-            map=VERSION,
-        )
 
 
 def _model(about: About, arrays: Mapping[str, NDArray[Any]]) -> Model:

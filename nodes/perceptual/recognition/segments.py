@@ -67,8 +67,7 @@ def energy_of(t: Floats, acc: Floats, gyr: Floats | None) -> Floats:
     power = (((acc - slow) / _ACC_M_S2) ** 2).sum(axis=1)
     if gyr is not None:
         power = power + ((gyr / _GYR_RAD_S) ** 2).sum(axis=1)
-    energy: Floats = np.sqrt(np.maximum(_averaged(power[:, None], _SMOOTH_S * rate_hz)[:, 0], 0))
-    return energy
+    return np.sqrt(np.maximum(_averaged(power[:, None], _SMOOTH_S * rate_hz)[:, 0], 0))
 
 
 class MovementFinder:
@@ -106,7 +105,18 @@ class MovementFinder:
         if len(self._t) < 3:
             return []
         self._measure(len(self._t) - round(_SLOW_S / 2 * _rate_hz(self._t)))
-        return self._take_over()
+        # Take what is over from what is open
+        t, energy = self._open_t, self._open
+        found: list[Movement] = []
+        for first, last in self._merged(t, energy, _spans(energy > self._edge())):
+            is_endless = t[last] - t[first] > ENDLESS_S
+            if not is_endless and not self._is_over(t[last:], energy[last:]):
+                self._forget_before(float(t[first]))
+                return found
+            found += self._judged(t[first : last + 1], energy[first : last + 1])
+        if len(t):
+            self._forget_before(float(t[-1]))
+        return found
 
     def finish(self) -> list[Movement]:
         """Give what is not over yet: the stream ends here."""
@@ -144,20 +154,6 @@ class MovementFinder:
         if not strength:
             return max(_LEAST_EDGE, 1.5 * rest)
         return max(_LEAST_EDGE, rest + _EDGE * max(strength - rest, 0.0))
-
-    def _take_over(self) -> list[Movement]:
-        """Take what is over from what is open."""
-        t, energy = self._open_t, self._open
-        found: list[Movement] = []
-        for first, last in self._merged(t, energy, _spans(energy > self._edge())):
-            is_endless = t[last] - t[first] > ENDLESS_S
-            if not is_endless and not self._is_over(t[last:], energy[last:]):
-                self._forget_before(float(t[first]))
-                return found
-            found += self._judged(t[first : last + 1], energy[first : last + 1])
-        if len(t):
-            self._forget_before(float(t[-1]))
-        return found
 
     def _is_over(self, t: Floats, energy: Floats) -> bool:
         """Whether nothing that follows can still be part of a movement that ended at ``t[0]``."""
@@ -282,7 +278,9 @@ class PerformanceFinder:
         if self._parts and not self.is_moving and t.size:
             waited_s = float(t[-1]) - self._parts[-1].end_s
             found += self._close() if waited_s > HELD_S else []
-        self._forget()
+        if len(self._t) and self._t[-1] - self._t[0] > 2 * _KEPT_S:
+            first = int(np.searchsorted(self._t, self._t[-1] - _KEPT_S))
+            self._t, self._acc = self._t[first:], self._acc[first:]
         return found
 
     def finish(self) -> list[Movement]:
@@ -327,8 +325,7 @@ class PerformanceFinder:
         )
 
     def _rest(self) -> Floats:
-        rest: Floats = np.median(self._rests, axis=0)
-        return rest
+        return np.median(self._rests, axis=0)
 
     def _held(self, start_s: float, end_s: float) -> Floats | None:
         """The direction of gravity in a stretch; None when it is not felt."""
@@ -338,11 +335,6 @@ class PerformanceFinder:
         mean: Floats = self._acc[first:last].mean(axis=0)
         low, high = _GRAVITY_M_S2
         return mean if low < float(np.linalg.norm(mean)) < high else None
-
-    def _forget(self) -> None:
-        if len(self._t) and self._t[-1] - self._t[0] > 2 * _KEPT_S:
-            first = int(np.searchsorted(self._t, self._t[-1] - _KEPT_S))
-            self._t, self._acc = self._t[first:], self._acc[first:]
 
 
 def _gesture_in(parts: list[Movement]) -> Movement:

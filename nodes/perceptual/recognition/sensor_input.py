@@ -111,19 +111,13 @@ class SensorInput:
         fewest, most = sorted(self._ways, key=lambda way: way.proofs)
         if most.proofs - fewest.proofs >= _ENOUGH_PROOFS:
             self._ways = [most]
-            if most.is_turned:
-                self._tell(
-                    text_of(
-                        "{source} is worn turned round, as its gestures show.", source=self.source
-                    )
-                )
-            else:
-                self._tell(
-                    text_of(
-                        "{source} is worn as in the recordings, as its gestures show.",
-                        source=self.source,
-                    )
-                )
+            told = text_of(
+                "{source} is worn turned round, as its gestures show."
+                if most.is_turned
+                else "{source} is worn as in the recordings, as its gestures show.",
+                source=self.source,
+            )
+            self._tell(told)
 
     def _about_wrist(self, first: Imu, model: Model) -> Text:
         """What a person should know of where the sensor is worn; "" for nothing."""
@@ -177,48 +171,33 @@ class _Troubles:
         self._last_s = float(t[-1])
 
     def _judge(self) -> None:
-        source = self._source
+        source, told = self._source, Text("")
         rate_hz = self._steps / max(self._moving_s, 1e-9)
         if self._numbers < self._samples / 2:
-            self._once(
-                "numbers",
-                text_of(
-                    "{source} sends numbers that no sensor can measure. Restart its app.",
-                    source=source,
-                ),
+            told = text_of(
+                "{source} sends numbers that no sensor can measure. Restart its app.",
+                source=source,
             )
         elif self._breaks > _MOST_BREAKS * self._batches:
-            self._once(
-                "times",
-                text_of(
-                    "The times of {source} jump: do two watches send under this name, or does it "
-                    "send less than twice a second? Give each a name of its own, and a faster "
-                    "rate.",
-                    source=source,
-                ),
+            told = text_of(
+                "The times of {source} jump: do two watches send under this name, or does it "
+                "send less than twice a second? Give each a name of its own, and a faster rate.",
+                source=source,
             )
         elif not self._moving_s:
-            self._once(
-                "clock",
-                text_of("The clock of {source} stands still. Restart its app.", source=source),
-            )
+            told = text_of("The clock of {source} stands still. Restart its app.", source=source)
         elif rate_hz < SLOWEST_HZ:
-            self._once(
-                "rate",
-                text_of(
-                    "{source} sends {rate_hz} samples a second, too few to tell gestures apart. "
-                    "Choose a faster rate in its app, better 50.",
-                    source=source,
-                    rate_hz=f"{rate_hz:.1f}",
-                ),
+            told = text_of(
+                "{source} sends {rate_hz} samples a second, too few to tell gestures apart. "
+                "Choose a faster rate in its app, better 50.",
+                source=source,
+                rate_hz=f"{rate_hz:.1f}",
             )
+        if told and told.text not in self._warned:
+            self._warned.add(told.text)
+            self._warn(told)
         self._batches = self._breaks = self._samples = self._numbers = self._steps = 0
         self._moving_s = 0.0
-
-    def _once(self, trouble: str, sentence: Text) -> None:
-        if trouble not in self._warned:
-            self._warned.add(trouble)
-            self._warn(sentence)
 
 
 # What a recogniser tells about itself: how certain it is, how quick, and how busy.

@@ -6,7 +6,7 @@ from collections.abc import Callable, Collection, Mapping
 from functools import partial
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from nodes.perceptual.recognition.features import cut_windows
 from nodes.perceptual.recognition.model import TRIGGER, Model, Recogniser, unknown_gesture
@@ -37,7 +37,10 @@ class Spotter:
         self._trigger = trigger
         self._recogniser_for = partial(model.recogniser, method, gravity_included)
         self._recogniser_for(True)
-        wanted = _wanted(model, gestures)
+        unknown = sorted(set(gestures) - set(model.names))
+        if unknown:
+            raise unknown_gesture(model, unknown[0])
+        wanted = np.array([not gestures or name in gestures for name in model.names])
         useful = model.fits[:, wanted].any(axis=1)
         self._lengths = model.lengths[useful]
         self._fits = model.fits[useful] & wanted
@@ -111,10 +114,3 @@ class Spotter:
         lengths_s = lengths[which] / RATE_HZ
         self.looked(end_s, best, lengths_s)
         return self._picker.look(end_s, best, lengths_s)
-
-
-def _wanted(model: Model, gestures: Collection[str]) -> NDArray[np.bool_]:
-    unknown = sorted(set(gestures) - set(model.names))
-    if unknown:
-        raise unknown_gesture(model, unknown[0])
-    return np.array([not gestures or name in gestures for name in model.names])

@@ -11,7 +11,6 @@ from typing import overload
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from faults import text_of
 from nep_core.errors import RecordingError
 from nep_core.wire.messages import Wrist
 from nodes.recordings import Recording
@@ -125,8 +124,7 @@ def _interpolated(at: Floats, t: Floats, values: Floats) -> Floats:
         return np.repeat(values, len(at), axis=0)
     before = np.clip(np.searchsorted(t, at, side="right") - 1, 0, len(t) - 2)
     part = np.clip((at - t[before]) / (t[before + 1] - t[before]), 0.0, 1.0)[:, None]
-    between: Floats = values[before] * (1 - part) + values[before + 1] * part
-    return between
+    return values[before] * (1 - part) + values[before + 1] * part
 
 
 def _within_limits(values: Floats) -> Floats:
@@ -246,29 +244,18 @@ def _check(recording: Recording, take: Take) -> None:
         )
     if SHORTEST_S <= take.duration_s <= LONGEST_S:
         return
-    source, name = recording.source, take.gesture
-    start_s, duration_s = f"{take.start_s:.2f}", f"{take.duration_s:.2f}"
-    sentence = text_of(
-        '{source}: the gesture "{name}" at {start_s} s lasts {duration_s} s, too long.',
-        source=source,
-        name=name,
-        start_s=start_s,
-        duration_s=duration_s,
-    )
-    if take.duration_s < SHORTEST_S:
-        sentence = text_of(
-            '{source}: the gesture "{name}" at {start_s} s lasts {duration_s} s, too short.',
-            source=source,
-            name=name,
-            start_s=start_s,
-            duration_s=duration_s,
-        )
     raise RecordingError(
-        sentence,
+        '{source}: the gesture "{name}" at {start_s} s lasts {duration_s} s, too short.'
+        if take.duration_s < SHORTEST_S
+        else '{source}: the gesture "{name}" at {start_s} s lasts {duration_s} s, too long.',
         checklist=(
             "A gesture lasts {shortest_s} to {longest_s} seconds.",
             "Mark it anew in the recording, or leave it out.",
         ),
+        source=recording.source,
+        name=take.gesture,
+        start_s=f"{take.start_s:.2f}",
+        duration_s=f"{take.duration_s:.2f}",
         shortest_s=SHORTEST_S,
         longest_s=f"{LONGEST_S:.0f}",
     )

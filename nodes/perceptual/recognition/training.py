@@ -159,8 +159,7 @@ def fold_windows(found: Scan, take_folds: Sequence[int]) -> Integers:
     """The fold of each window of a scan: that of the take next to it."""
     middle_s = (found.starts_s + found.ends_s) / 2
     if not take_folds:
-        blocks: Integers = (middle_s // _BLOCK_S).astype(np.intp) % FOLDS
-        return blocks
+        return (middle_s // _BLOCK_S).astype(np.intp) % FOLDS
     takes_s = np.array([(take.start_s + take.end_s) / 2 for take in found.passage.takes])
     nearest = np.abs(middle_s[:, None] - takes_s).argmin(axis=1)
     nearby: Integers = np.array(take_folds, np.intp)[nearest]

@@ -160,7 +160,7 @@ def _curve(
     return tuple(
         CurvePoint(
             certainty,
-            _share(caught, certainty),
+            _count(caught, certainty) / len(caught) if caught else 0.0,
             _count(everyday, certainty) / hours if hours else 0.0,
             _count(others, certainty),
         )
@@ -173,10 +173,6 @@ def is_unknown(passage: Passage, found: Detection) -> bool:
     return any(
         found.t_start < end_s and start_s < found.t_end for start_s, end_s in passage.unknown
     )
-
-
-def _share(values: Sequence[float], least: float) -> float:
-    return _count(values, least) / len(values) if values else 0.0
 
 
 def _count(values: Sequence[float], least: float) -> int:
@@ -367,5 +363,4 @@ def _usual_scores(
             best[take.gesture].append(_best_near(found, take, column))
     every = [value for values in best.values() for value in values]
     middle = float(np.median(every)) or UNCHECKED_SCORE
-    usual: Floats = np.full(len(gestures), middle**_OWN * USUAL_SCORE ** (1 - _OWN))
-    return usual
+    return np.full(len(gestures), middle**_OWN * USUAL_SCORE ** (1 - _OWN))

@@ -86,7 +86,7 @@ def jolt(motion: Motion, at_s: float, size_m: float) -> None:
 # Nothing here is a sign that somebody would teach a robot: such (clapping, waving) are in
 # lively.py.
 
-_HANGING = arm(3, 8, 5, 15, 25)
+HANGING = arm(3, 8, 5, 15, 25)
 _ON_PAPER = arm(30, 14, 42, 80, 55)
 _PLATE, _MOUTH = arm(35, 16, 40, 85, 45), arm(48, 30, 50, 136, 5)
 _PHONE = arm(28, 10, 48, 105, 10)
@@ -115,7 +115,7 @@ def wipe_table(motion: Motion, start_s: float, rng: np.random.Generator) -> floa
     round_hz = rng.uniform(0.9, 1.6)
     sway(motion, now_s, end_s, round_hz, {Joint.ROTATION: rng.uniform(8, 18)}, rng)
     sway(motion, now_s, end_s, round_hz, {Joint.FLEXION: 8, Joint.ELBOW: 10}, rng)
-    return settle(motion, end_s, {**_HANGING, **trunk(0)}, rng)
+    return settle(motion, end_s, {**HANGING, **trunk(0)}, rng)
 
 
 def brush_teeth(motion: Motion, start_s: float, rng: np.random.Generator) -> float:
@@ -126,7 +126,7 @@ def brush_teeth(motion: Motion, start_s: float, rng: np.random.Generator) -> flo
         brush = {Joint.ROTATION: rng.uniform(2, 5), Joint.PRONATION: rng.uniform(2, 7)}
         sway(motion, now_s, end_s, rng.uniform(2.8, 4.5), brush, rng)
         now_s = shift(motion, end_s - 0.3, arm(55, 35, 48, 132, 10), 8.0, rng)
-    return settle(motion, now_s, _HANGING, rng)
+    return settle(motion, now_s, HANGING, rng)
 
 
 def eat(motion: Motion, start_s: float, rng: np.random.Generator) -> float:
@@ -145,7 +145,7 @@ def phone_to_ear(motion: Motion, start_s: float, rng: np.random.Generator) -> fl
     now_s = settle(motion, now_s, arm(52, 42, 35, 142, -15), rng, haste=1.4)
     end_s = now_s + rng.uniform(2.0, 4.0)
     sway(motion, now_s, end_s, rng.uniform(0.4, 0.9), {Joint.TWIST: 6, Joint.ABDUCTION: 3}, rng)
-    return settle(motion, end_s, _HANGING, rng)
+    return settle(motion, end_s, HANGING, rng)
 
 
 def tap_on_phone(motion: Motion, start_s: float, rng: np.random.Generator) -> float:
@@ -174,7 +174,7 @@ def reach_to_shelf(motion: Motion, start_s: float, rng: np.random.Generator) -> 
     shelf = {**arm(high, 8, 15, 35, 30), **trunk(rng.uniform(-12, 12))}
     now_s = settle(motion, start_s, shelf, rng, haste=1.2) + rng.uniform(0.3, 0.8)
     now_s = settle(motion, now_s, arm(high - 25, 8, 20, 75, 30), rng, haste=1.3)
-    return settle(motion, now_s, {**_HANGING, **trunk(0)}, rng)
+    return settle(motion, now_s, {**HANGING, **trunk(0)}, rng)
 
 
 def pick_up(motion: Motion, start_s: float, rng: np.random.Generator) -> float:
@@ -184,7 +184,7 @@ def pick_up(motion: Motion, start_s: float, rng: np.random.Generator) -> float:
     jolt(motion, now_s, 0.0015)
     up = {Joint.LEAN: 0.0, Joint.UP: 0.0}
     now_s = settle(motion, now_s + rng.uniform(0.1, 0.5), {**_PHONE, **up}, rng)
-    return settle(motion, now_s + rng.uniform(0.2, 1.0), _HANGING, rng)
+    return settle(motion, now_s + rng.uniform(0.2, 1.0), HANGING, rng)
 
 
 def open_door(motion: Motion, start_s: float, rng: np.random.Generator) -> float:
@@ -194,7 +194,7 @@ def open_door(motion: Motion, start_s: float, rng: np.random.Generator) -> float
     jolt(motion, now_s + 0.3, 0.001)
     connector = rng.choice([-1, 1]) * rng.uniform(20, 35)
     motion.move({Joint.FLEXION: 40 + connector, Joint.ELBOW: 55 - connector}, now_s + 0.35, 0.8)
-    return settle(motion, now_s + 1.2, _HANGING, rng)
+    return settle(motion, now_s + 1.2, HANGING, rng)
 
 
 def put_on_jacket(motion: Motion, start_s: float, rng: np.random.Generator) -> float:
@@ -203,7 +203,7 @@ def put_on_jacket(motion: Motion, start_s: float, rng: np.random.Generator) -> f
     for pose in (arm(-30, 35, -30, 60, 0), arm(60, 60, 20, 90, 30), arm(40, 20, 60, 110, -20)):
         now_s = shift(motion, now_s, pose, 14.0, rng, (0.5, 1.0)) - 0.1
     motion.move({Joint.TWIST: rng.uniform(-25, 25)}, start_s, 1.0)
-    return settle(motion, now_s + 0.1, {**_HANGING, **trunk(0)}, rng)
+    return settle(motion, now_s + 0.1, {**HANGING, **trunk(0)}, rng)
 
 
 def talk_widely(motion: Motion, start_s: float, rng: np.random.Generator) -> float:
@@ -212,12 +212,12 @@ def talk_widely(motion: Motion, start_s: float, rng: np.random.Generator) -> flo
     for _ in range(rng.integers(5, 12)):
         now_s = shift(motion, now_s, _ARMS_ABOUT, rng.uniform(12, 30), rng, (0.25, 0.8))
         now_s += rng.uniform(-0.15, 0.4)
-    return settle(motion, now_s, _HANGING, rng)
+    return settle(motion, now_s, HANGING, rng)
 
 
 def climb_stairs(motion: Motion, start_s: float, rng: np.random.Generator) -> float:
     """Climb stairs: slower than walking, each step heavier."""
-    now_s = settle(motion, start_s, {**_HANGING, Joint.UP: 0.0, **trunk(0, 8)}, rng)
+    now_s = settle(motion, start_s, {**HANGING, Joint.UP: 0.0, **trunk(0, 8)}, rng)
     end_s = now_s + rng.uniform(3.0, 7.0)
     stride_hz = rng.uniform(0.6, 0.85)
     swing = {Joint.FLEXION: rng.uniform(6, 14), Joint.ELBOW: rng.uniform(3, 8), Joint.TWIST: 5.0}
@@ -237,7 +237,7 @@ def run_a_little(motion: Motion, start_s: float, rng: np.random.Generator) -> fl
     sway(motion, now_s, end_s, stride_hz, swing, rng)
     sway(motion, now_s, end_s, 2 * stride_hz, {Joint.UP: rng.uniform(0.025, 0.045)}, rng)
     _tread(motion, now_s, end_s, 2 * stride_hz, rng.uniform(0.001, 0.003))
-    return settle(motion, end_s, {**_HANGING, **trunk(0)}, rng)
+    return settle(motion, end_s, {**HANGING, **trunk(0)}, rng)
 
 
 CHORES: tuple[Activity, ...] = (
@@ -266,7 +266,6 @@ def _tread(
         jolt(motion, at_s, size_m)
 
 
-HANGING = arm(3, 8, 5, 15, 25)
 _ON_THE_LAP = arm(20, 10, 35, 75, 40)
 _ON_THE_DESK = arm(35, 15, 40, 75, 70)
 _BEFORE_THE_CHEST = arm(35, 12, 45, 95, 20)

@@ -75,7 +75,7 @@ def watch_frames(poses: Floats, body: Body) -> tuple[Floats, Floats]:
     upper_arm = (
         trunk
         @ _about_y(-poses[:, Joint.FLEXION])
-        @ _about_x(-poses[:, Joint.ABDUCTION])
+        @ _rotations(-poses[:, Joint.ABDUCTION], 1, 2)
         @ _about_z(poses[:, Joint.ROTATION])
     )
     forearm = upper_arm @ _about_y(-poses[:, Joint.ELBOW]) @ _about_z(poses[:, Joint.PRONATION])
@@ -90,10 +90,6 @@ def watch_frames(poses: Floats, body: Body) -> tuple[Floats, Floats]:
 
 _SKIN_TO_BONE_M = 0.03
 _WATCH_ON_FOREARM = np.array([[0.0, -1.0, 0.0], [0.0, 0.0, -1.0], [1.0, 0.0, 0.0]])
-
-
-def _about_x(angles: Floats) -> Floats:
-    return _rotations(angles, 1, 2)
 
 
 def _about_y(angles: Floats) -> Floats:
@@ -199,8 +195,7 @@ class Motion:
 def minimum_jerk(part: Floats) -> Floats:
     """From 0 to 1 as people move: no speed and no acceleration at either end (Hogan 1984)."""
     part = np.clip(part, 0.0, 1.0)
-    smooth: Floats = part**3 * (10 - 15 * part + 6 * part**2)
-    return smooth
+    return part**3 * (10 - 15 * part + 6 * part**2)
 
 
 # What an accelerometer and a gyroscope feel on a moving wrist.
@@ -259,16 +254,12 @@ def felt_exactly(motion: Motion, body: Body, t: Floats) -> tuple[Floats, Floats]
     force = moving + np.array([0.0, 0.0, GRAVITY_M_S2])
     acc = np.einsum("nij,ni->nj", now, force)
     turn = np.einsum("nij,nik->njk", before, after)
-    return acc, _rotation_vectors(turn) / (2 * _STEP_S)
-
-
-def _rotation_vectors(rotations: Floats) -> Floats:
-    """Axis times angle (n, 3) of small rotations (n, 3, 3), below a quarter turn."""
+    # Axis times angle (n, 3) of small rotations (n, 3, 3), below a quarter turn
     twice_sine = np.stack(
         [
-            rotations[:, 2, 1] - rotations[:, 1, 2],
-            rotations[:, 0, 2] - rotations[:, 2, 0],
-            rotations[:, 1, 0] - rotations[:, 0, 1],
+            turn[:, 2, 1] - turn[:, 1, 2],
+            turn[:, 0, 2] - turn[:, 2, 0],
+            turn[:, 1, 0] - turn[:, 0, 1],
         ],
         axis=1,
     )
@@ -276,4 +267,4 @@ def _rotation_vectors(rotations: Floats) -> Floats:
     angle_by_sine = np.ones_like(sine)
     np.divide(np.arcsin(np.minimum(sine, 1.0)), sine, out=angle_by_sine, where=sine > 1e-12)
     vectors: Floats = twice_sine / 2 * angle_by_sine
-    return vectors
+    return acc, vectors / (2 * _STEP_S)

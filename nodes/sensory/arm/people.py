@@ -262,15 +262,12 @@ class LivePerson:
     def samples(self, count: int) -> Samples:
         """The next samples, 1 or more."""
         while not self._performer.has_planned(count):
-            self._plan()
+            if self._waiting:
+                self._performer.make(self._waiting.popleft())
+                self._gesture_until_s = self._performer.planned_until_s
+            else:
+                self._performer.live(CALM[self._chance.integers(len(CALM))])
         return self._performer.samples(count)
-
-    def _plan(self) -> None:
-        if self._waiting:
-            self._performer.make(self._waiting.popleft())
-            self._gesture_until_s = self._performer.planned_until_s
-        else:
-            self._performer.live(CALM[self._chance.integers(len(CALM))])
 
 
 # Recordings of simulated people: a gesture, a session of several, everyday movement.

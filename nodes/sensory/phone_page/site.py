@@ -174,7 +174,14 @@ class Receiving:
         if not message.t:
             return FOLLOWED if self._turn.is_free_for(message.id, now_s) else BUSY
         if not self._turn.take(message.id, now_s):
-            self._tell_of_second(_name(message, address), now_s)
+            name = _name(message, address)
+            if self._sentences.grants("", now_s):
+                told = text_of(
+                    "A second phone ({name}) has the page open; {followed} is followed.",
+                    name=name,
+                    followed=self._followed,
+                )
+                self._give(Arrived(self._followed, arrived_s=now_s, trouble=told))
             return BUSY
         self._followed = _name(message, address)
         is_granted = self._samples.grants(address, now_s, len(message.t))
@@ -196,15 +203,6 @@ class Receiving:
     def leave(self, phone: str, followed_s: float) -> None:
         """A connection of a phone, its id, was closed; by it the phone was followed last then."""
         self._turn.leave(phone, followed_s)
-
-    def _tell_of_second(self, name: str, now_s: float) -> None:
-        if self._sentences.grants("", now_s):
-            told = text_of(
-                "A second phone ({name}) has the page open; {followed} is followed.",
-                name=name,
-                followed=self._followed,
-            )
-            self._give(Arrived(self._followed, arrived_s=now_s, trouble=told))
 
 
 def _name(message: PageMessage, address: str) -> str:

@@ -359,7 +359,18 @@ class Session:
             self.close()
             until_s = time.monotonic() + self._timeout_s
             self._peer = self._open_somehow(until_s)
-            self._look_around(self._peer, until_s)
+            peer = self._peer
+            try:
+                self._directory = object_of(peer, DIRECTORY, until_s)
+                left_s = max(0.01, until_s - time.monotonic())
+                information = self._directory.call("service", "ServiceDirectory", timeout_s=left_s)
+                self._here = Place.of(information)
+                self._directory.connect("serviceRemoved", self._forget)
+            except CallFailed:
+                self._here = Place(DIRECTORY, "", ())
+            except NaoqiError:
+                peer.close()
+                raise
             self._peer.when_closed.append(self._note_lost(self._peer))
             if self._peer.is_closed:
                 raise ConnectionLost("NAO has closed the connection.", checklist=WRONG_PORT)
@@ -513,19 +524,6 @@ class Session:
             details=str(problem),
             place=place,
         )
-
-    def _look_around(self, peer: Peer, until_s: float) -> None:
-        try:
-            self._directory = object_of(peer, DIRECTORY, until_s)
-            left_s = max(0.01, until_s - time.monotonic())
-            information = self._directory.call("service", "ServiceDirectory", timeout_s=left_s)
-            self._here = Place.of(information)
-            self._directory.connect("serviceRemoved", self._forget)
-        except CallFailed:
-            self._here = Place(DIRECTORY, "", ())
-        except NaoqiError:
-            peer.close()
-            raise
 
     def _forget(self, _number: int, name: str) -> None:
         """A service is gone; if it comes again it has another number."""

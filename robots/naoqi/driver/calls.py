@@ -96,7 +96,14 @@ class Calls:
         lost_s = time.monotonic() + STOPPED_S
         while isinstance(pending.failure, NoConnection) and time.monotonic() < lost_s:
             yield  # who keeps the link hears of it too, and says it better
-        return self._result(pending)
+        try:
+            return pending.result(0.0)
+        except NaoqiError as problem:
+            raise ActionFailed(
+                "{robot} could not do that. It says: {sentence}",
+                robot=self.robot,
+                sentence=problem.sentence,
+            ) from problem
 
     def stop(self, joints: Sequence[str]) -> None:
         """Let some joints stop at once, whoever moves them."""
@@ -141,16 +148,6 @@ class Calls:
             self.stop([str(joint) for joint in uses])
         for stopping in STOPS.get(service, ()):
             self._stop(*stopping)
-
-    def _result(self, pending: Pending) -> Any:
-        try:
-            return pending.result(0.0)
-        except NaoqiError as problem:
-            raise ActionFailed(
-                "{robot} could not do that. It says: {sentence}",
-                robot=self.robot,
-                sentence=problem.sentence,
-            ) from problem
 
 
 def waited(seconds: float) -> Task:

@@ -10,9 +10,6 @@ from typing import Any
 
 from faults import fault_of
 from robots.body import actions as a
-from robots.body import actions as b
-from robots.body import actions as m
-from robots.body import actions as s
 from robots.body import repertoire as virtual
 from robots.body.actions import Action, Listen
 from robots.body.body import SINGLE_PARTS
@@ -24,8 +21,7 @@ from robots.body.schedule import Running, Task, advance
 from robots.errors import ActionFailed
 from robots.naoqi.discovery import read_address
 
-from . import link, media, moving, speech
-from . import moving as walking
+from . import link, moving, speech
 from .calls import Calls, waited
 from .link import Heard, Link, Reached, reach
 from .real import RealRobot
@@ -38,18 +34,11 @@ log = logging.getLogger(__name__)
 # Which limbs each action needs, and the task by which a real robot does it.
 
 LIMBS: dict[type[a.Action], frozenset[Limb]] = {
-    s.TakePicture: frozenset(),
-    s.RecordVideo: frozenset(),
+    a.TakePicture: frozenset(),
+    a.RecordVideo: frozenset(),
 }
 """What the virtual robot cannot do needs these; all else needs what it needs there."""
-ANY_MOTORS = (
-    a.Do,
-    b.WakeUp,
-    b.Rest,
-    b.Stiffness,
-    m.SetStiffness,
-    m.Approach,
-)
+ANY_MOTORS = (a.Do, a.WakeUp, a.Rest, a.Stiffness, a.SetStiffness, a.Approach)
 """What is done with motors that are off as well."""
 
 TASKS: dict[type[a.Action], Callable[[RealRobot, Any], Task]] = {
@@ -57,42 +46,42 @@ TASKS: dict[type[a.Action], Callable[[RealRobot, Any], Task]] = {
     a.Do: moving.posture_task,
     a.Imitate: speech.imitate,
     a.Play: speech.play_changed,
-    a.Walk: lambda robot, it: walking.walk(
+    a.Walk: lambda robot, it: moving.walk(
         robot, it.forward_m, it.left_m, math.radians(it.turn_deg)
     ),
-    a.Turn: lambda robot, it: walking.walk(robot, 0.0, 0.0, math.radians(it.degrees)),
-    a.Look: lambda robot, it: walking.look(
+    a.Turn: lambda robot, it: moving.walk(robot, 0.0, 0.0, math.radians(it.degrees)),
+    a.Look: lambda robot, it: moving.look(
         robot, math.radians(it.yaw_deg), math.radians(it.pitch_deg)
     ),
-    a.Leds: media.light,
-    b.Hand: moving.move_hands,
-    b.MoveJoint: moving.move_joint,
-    b.Stiffness: lambda robot, it: moving.lock(robot, it.part, on=it.on),
-    b.WakeUp: lambda robot, _: moving.wake_up(robot),
-    b.Rest: lambda robot, _: moving.rest(robot),
-    b.Awareness: moving.set_life,
-    b.Breathing: moving.set_life,
-    b.WalkFreely: walking.walk_freely,
-    b.LookAt: lambda robot, it: walking.look_at(robot, (it.x_m, it.y_m, it.z_m), it.frame),
-    b.LookAtSeen: lambda robot, it: walking.look_at_seen(robot, it.thing),
-    b.PointAt: walking.point_at,
-    b.Track: walking.track,
-    m.Approach: moving.approach,
-    m.ReachAngles: moving.reach_angles,
-    m.MoveThrough: moving.move_through,
-    m.SetStiffness: moving.set_stiffness,
-    m.Silence: lambda _, it: waited(it.seconds),
-    s.Volume: speech.set_volume,
-    s.SetLanguage: speech.set_language,
-    s.Intensity: media.set_intensity,
-    s.ResetLeds: media.reset,
-    s.RandomEyes: media.play_of_colours,
-    s.RotateEyes: media.play_of_colours,
-    s.LearnFace: media.learn_face,
-    s.ForgetFace: media.forget_face,
-    s.TakePicture: media.take_picture,
-    s.RecordVideo: media.record_video,
-    s.PlaySound: media.play_sound,
+    a.Leds: speech.light,
+    a.Hand: moving.move_hands,
+    a.MoveJoint: moving.move_joint,
+    a.Stiffness: lambda robot, it: moving.lock(robot, it.part, on=it.on),
+    a.WakeUp: lambda robot, _: moving.wake_up(robot),
+    a.Rest: lambda robot, _: moving.rest(robot),
+    a.Awareness: moving.set_life,
+    a.Breathing: moving.set_life,
+    a.WalkFreely: moving.walk_freely,
+    a.LookAt: lambda robot, it: moving.look_at(robot, (it.x_m, it.y_m, it.z_m), it.frame),
+    a.LookAtSeen: lambda robot, it: moving.look_at_seen(robot, it.thing),
+    a.PointAt: moving.point_at,
+    a.Track: moving.track,
+    a.Approach: moving.approach,
+    a.ReachAngles: moving.reach_angles,
+    a.MoveThrough: moving.move_through,
+    a.SetStiffness: moving.set_stiffness,
+    a.Silence: lambda _, it: waited(it.seconds),
+    a.Volume: speech.set_volume,
+    a.SetLanguage: speech.set_language,
+    a.Intensity: speech.set_intensity,
+    a.ResetLeds: speech.reset,
+    a.RandomEyes: speech.play_of_colours,
+    a.RotateEyes: speech.play_of_colours,
+    a.LearnFace: speech.learn_face,
+    a.ForgetFace: speech.forget_face,
+    a.TakePicture: speech.take_picture,
+    a.RecordVideo: speech.record_video,
+    a.PlaySound: speech.play_sound,
 }
 """How a real robot does each action; a test sees that none is missing."""
 
@@ -183,14 +172,26 @@ class NaoqiDriver:
     def step(self, now_s: float) -> list[Ended]:
         """Take in what has come from the robot; return what has ended."""
         if reached := self._link.step():
-            self._arrive(reached)
+            # The link is there: begin with what is true of a robot that was just met
+            known = self._robot.known
+            self._robot = RealRobot(known, Calls(known.name, reached.services))
+            self._noticing = Noticing(self._robot)
+            self._watching = Watching(self._robot)
+            self._hearing = Hearing(self._robot, self._hearing.expected)
+            if self._has_met_before:  # what went on while nobody could stop it ends now
+                self.halt()
+            self._has_met_before = True
+            known.saying, known.listening = "", ()
+            known.sees.clear()
         if self._link.state != "ready":
             return self._fail_all()  # also what has waited for its limbs, and begins only now
         self._watching.step(is_moving=self.moving)
         if self._watching.is_frozen:
             self._link.freeze()
             return self._fail_all()
-        self._notice()
+        while not self._heard.empty():
+            self._noticed += self._noticing.hear(*self._heard.get())
+        self._noticing.forget()
         if self._watching.has_met:
             self._tell_condition()
             self._hearing.step()
@@ -239,19 +240,6 @@ class NaoqiDriver:
     def _reach(self, on_lost: Callable[[str], None]) -> Reached:
         return reach(self._address, self._heard, on_lost)
 
-    def _arrive(self, reached: Reached) -> None:
-        """The link is there: begin with what is true of a robot that was just met."""
-        known = self._robot.known
-        self._robot = RealRobot(known, Calls(known.name, reached.services))
-        self._noticing = Noticing(self._robot)
-        self._watching = Watching(self._robot)
-        self._hearing = Hearing(self._robot, self._hearing.expected)
-        if self._has_met_before:  # what went on while nobody could stop it ends now
-            self.halt()
-        self._has_met_before = True
-        known.saying, known.listening = "", ()
-        known.sees.clear()
-
     def _fail_all(self) -> list[Ended]:
         """The robot is gone: what it was doing has failed, with the reason."""
         ended = [Ended(name, "failed", self._link.connection.fault) for name in self._running]
@@ -260,22 +248,17 @@ class NaoqiDriver:
             one.task.close()
         return ended
 
-    def _notice(self) -> None:
-        while not self._heard.empty():
-            self._noticed += self._noticing.hear(*self._heard.get())
-        self._noticing.forget()
-
     def _tell_condition(self) -> None:
         """Warn of what keeps the robot from acting soon; tell when that is over."""
         known, place = self._robot.known, self._link.place
         joint, heat = self._watching.hottest
         warning = None
         if self._robot.battery < link.LOWEST_BATTERY:
-            warning = link.low_battery(known.name, self._robot.battery)
+            warning = link.low_battery(robot=known.name, battery=f"{self._robot.battery * 100:.0f}")
         elif heat >= link.HOTTEST_C:
-            warning = link.too_hot(known.name, joint, heat)
+            warning = link.too_hot(robot=known.name, joint=joint, celsius=f"{heat:.0f}")
         elif known.released >= set(self._robot.parts) and not self._running:
-            warning = link.asleep(known.name)
+            warning = link.asleep(robot=known.name)
         if warning is None:
             words = fault_of("{name} at {place} is connected.", name=known.name, place=place)
             self._link.connection = Connection("connected", words)
@@ -293,4 +276,4 @@ class NaoqiDriver:
         except (TypeError, ValueError, LookupError, ArithmeticError):
             log.exception("what the robot answered to %s", command_id)
             del self._running[command_id]
-            return Ended(command_id, "failed", link.strange_answer(self._robot.name))
+            return Ended(command_id, "failed", link.strange_answer(robot=self._robot.name))

@@ -13,6 +13,7 @@ import threading
 import time
 from collections.abc import Callable
 from dataclasses import dataclass, field
+from functools import partial
 from typing import Any, Literal
 
 from msgspec.structs import replace
@@ -46,142 +47,113 @@ LOWEST_BATTERY = 0.15
 HOTTEST_C = 75.0
 """Motors of NAO slow down from about here on, and stop not much later."""
 
+no_answer = partial(
+    fault_of,
+    "{robot} does not answer: the program could not reach it at {place}.",
+    code="no_answer",
+    checklist=(
+        "Is {robot} switched on? Its chest button should glow.",
+        "Is this computer on the same network as {robot}?",
+        "Press {robot}'s chest button once: it says its address. Is it {place}?",
+        "Try the program on the robot on your screen first.",
+    ),
+)
+"""Nobody answers at the address."""
 
-def no_answer(robot: str, place: str) -> Fault:
-    """Nobody answers at the address."""
-    return fault_of(
-        "{robot} does not answer: the program could not reach it at {place}.",
-        code="no_answer",
-        checklist=(
-            "Is {robot} switched on? Its chest button should glow.",
-            "Is this computer on the same network as {robot}?",
-            "Press {robot}'s chest button once: it says its address. Is it {place}?",
-            "Try the program on the robot on your screen first.",
-        ),
-        robot=robot,
-        place=place,
-    )
+not_naoqi = partial(
+    fault_of,
+    "What answers at {place} is not a NAOqi robot.",
+    code="not_naoqi",
+    checklist=(
+        "Press {robot}'s chest button once: it says its address. Is it {place}?",
+        "Leave the port out of the address: 9559 is the usual one.",
+        "Has the robot just been switched on? It needs about two minutes to wake up.",
+    ),
+)
+"""Something answers, but not as a NAO does."""
 
+login_refused = partial(
+    fault_of,
+    "{robot} at {place} does not let this program in: user and password do not fit.",
+    code="login_refused",
+    checklist=(
+        'Open "Connect a robot" on the Robots page and write user and password anew.',
+        "The user is mostly nao. The password is the one of the robot's own web page.",
+    ),
+)
+"""User or password are wrong, or there are none."""
 
-def not_naoqi(robot: str, place: str) -> Fault:
-    """Something answers, but not as a NAO does."""
-    return fault_of(
-        "What answers at {place} is not a NAOqi robot.",
-        code="not_naoqi",
-        checklist=(
-            "Press {robot}'s chest button once: it says its address. Is it {place}?",
-            "Leave the port out of the address: 9559 is the usual one.",
-            "Has the robot just been switched on? It needs about two minutes to wake up.",
-        ),
-        place=place,
-        robot=robot,
-    )
+needs_tls = partial(
+    fault_of,
+    "{robot} at {place} asks for a secure connection, with user and password.",
+    code="needs_tls",
+    checklist=(
+        'Open "Connect a robot" on the Robots page and write user and password.',
+        "Write the address without a port: the secure one, 9503, is tried by itself.",
+    ),
+)
+"""The robot talks only over a secure connection."""
 
+frozen = partial(
+    fault_of,
+    "{robot} does not answer any more: nothing has come from {place} for a while.",
+    code="frozen",
+    checklist=(
+        "Is {robot} still switched on, and in reach of the network?",
+        "The program looks for it again by itself.",
+        "If that goes on, switch the robot off and on again.",
+    ),
+)
+"""The link is there, but nothing comes over it."""
 
-def login_refused(robot: str, place: str) -> Fault:
-    """User or password are wrong, or there are none."""
-    return fault_of(
-        "{robot} at {place} does not let this program in: user and password do not fit.",
-        code="login_refused",
-        checklist=(
-            'Open "Connect a robot" on the Robots page and write user and password anew.',
-            "The user is mostly nao. The password is the one of the robot's own web page.",
-        ),
-        robot=robot,
-        place=place,
-    )
+lost = partial(
+    fault_of,
+    "The connection to {robot} at {place} has ended.",
+    code="lost",
+    checklist=(
+        "Is {robot} still switched on, and in reach of the network?",
+        "The program looks for it again by itself.",
+    ),
+)
+"""The link has ended."""
 
+low_battery = partial(
+    fault_of,
+    "{robot}'s battery is nearly empty: {battery} %.",
+    code="low_battery",
+    checklist=("Plug {robot} in. It should sit or rest meanwhile.",),
+)
+"""The battery will soon be empty."""
 
-def needs_tls(robot: str, place: str) -> Fault:
-    """The robot talks only over a secure connection."""
-    return fault_of(
-        "{robot} at {place} asks for a secure connection, with user and password.",
-        code="needs_tls",
-        checklist=(
-            'Open "Connect a robot" on the Robots page and write user and password.',
-            "Write the address without a port: the secure one, 9503, is tried by itself.",
-        ),
-        robot=robot,
-        place=place,
-    )
+too_hot = partial(
+    fault_of,
+    "{robot} is hot: the motor of {joint} has {celsius} °C.",
+    code="too_hot",
+    checklist=(
+        "Let {robot} rest for some minutes.",
+        "Let it sit between what it does standing.",
+    ),
+)
+"""A motor is hot; it will soon have no strength."""
 
+asleep = partial(
+    fault_of,
+    "{robot} is asleep: its motors are off, it can speak but not move.",
+    code="asleep",
+    checklist=(
+        'Put the block "{robot} wakes up" before what moves it.',
+        "Or press its chest button twice.",
+    ),
+)
+"""The motors are off."""
 
-def frozen(robot: str, place: str) -> Fault:
-    """The link is there, but nothing comes over it."""
-    return fault_of(
-        "{robot} does not answer any more: nothing has come from {place} for a while.",
-        code="frozen",
-        checklist=(
-            "Is {robot} still switched on, and in reach of the network?",
-            "The program looks for it again by itself.",
-            "If that goes on, switch the robot off and on again.",
-        ),
-        robot=robot,
-        place=place,
-    )
-
-
-def lost(robot: str, place: str) -> Fault:
-    """The link has ended."""
-    return fault_of(
-        "The connection to {robot} at {place} has ended.",
-        code="lost",
-        checklist=(
-            "Is {robot} still switched on, and in reach of the network?",
-            "The program looks for it again by itself.",
-        ),
-        robot=robot,
-        place=place,
-    )
-
-
-def low_battery(robot: str, battery: float) -> Fault:
-    """The battery will soon be empty."""
-    return fault_of(
-        "{robot}'s battery is nearly empty: {battery} %.",
-        code="low_battery",
-        checklist=("Plug {robot} in. It should sit or rest meanwhile.",),
-        robot=robot,
-        battery=f"{battery * 100:.0f}",
-    )
-
-
-def too_hot(robot: str, joint: str, celsius: float) -> Fault:
-    """A motor is hot; it will soon have no strength."""
-    return fault_of(
-        "{robot} is hot: the motor of {joint} has {celsius} °C.",
-        code="too_hot",
-        checklist=(
-            "Let {robot} rest for some minutes.",
-            "Let it sit between what it does standing.",
-        ),
-        robot=robot,
-        joint=joint,
-        celsius=f"{celsius:.0f}",
-    )
-
-
-def asleep(robot: str) -> Fault:
-    """The motors are off."""
-    return fault_of(
-        "{robot} is asleep: its motors are off, it can speak but not move.",
-        code="asleep",
-        checklist=(
-            'Put the block "{robot} wakes up" before what moves it.',
-            "Or press its chest button twice.",
-        ),
-        robot=robot,
-    )
-
-
-def strange_answer(robot: str) -> Fault:
-    """The robot has answered something that nobody understands."""
-    return fault_of(
-        "{robot} gave an answer that this program does not understand. Try it again; if that goes "
-        "on, switch the robot off and on.",
-        code="strange_answer",
-        robot=robot,
-    )
+strange_answer = partial(
+    fault_of,
+    "{robot} gave an answer that this program does not understand. Try it again; if that goes "
+    "on, switch the robot off and on.",
+    code="strange_answer",
+)
+"""The robot has answered something that nobody understands."""
 
 
 State = Literal["offline", "connecting", "ready", "lost"]
@@ -240,15 +212,19 @@ class Link:
             if number != self._try:  # an older try: what it brings is not wanted any more
                 _close(what)
             elif isinstance(what, Reached):
-                return self._arrive(what)
+                self.state, self.reached = "ready", what
+                self._pause_s = FIRST_PAUSE_S
+                return what
             elif isinstance(what, NaoqiError):
                 self._fail(self._told(what))
             else:
-                self.lose(lost(self.robot, self.place))
+                self.lose(lost(robot=self.robot, place=self.place))
         now_s = time.monotonic()
         if self.state == "connecting" and now_s > self._try_until_s:
             self._try_until_s = float("inf")
-            self.connection = Connection("connection_failed", no_answer(self.robot, self.place))
+            self.connection = Connection(
+                "connection_failed", no_answer(robot=self.robot, place=self.place)
+            )
         elif self.state == "lost" and now_s >= self._next_s:
             self._begin()
         return None
@@ -262,7 +238,7 @@ class Link:
 
     def freeze(self) -> None:
         """Nothing comes over the link any more."""
-        self.lose(frozen(self.robot, self.place))
+        self.lose(frozen(robot=self.robot, place=self.place))
 
     def _begin(self) -> None:
         self.state = "connecting"
@@ -279,11 +255,6 @@ class Link:
         except Exception as error:  # a fault of this program must not end the tries
             log.exception("connecting to %s", self.robot)
             self._news.put((number, NaoqiError(str(error))))
-
-    def _arrive(self, reached: Reached) -> Reached:
-        self.state, self.reached = "ready", reached
-        self._pause_s = FIRST_PAUSE_S
-        return reached
 
     def _fail(self, why: Fault) -> None:
         self.connection = Connection("connection_failed", why)
@@ -303,14 +274,14 @@ class Link:
     def _told(self, problem: NaoqiError) -> Fault:
         match problem:
             case NotNaoqi():
-                return not_naoqi(self.robot, self.place)
+                return not_naoqi(robot=self.robot, place=self.place)
             case LoginRefused():
-                return login_refused(self.robot, self.place)
+                return login_refused(robot=self.robot, place=self.place)
             case NeedsTls():
-                return needs_tls(self.robot, self.place)
+                return needs_tls(robot=self.robot, place=self.place)
             case NoAnswer() | Refused():
-                return no_answer(self.robot, self.place)
-        usual = no_answer(self.robot, self.place)
+                return no_answer(robot=self.robot, place=self.place)
+        usual = no_answer(robot=self.robot, place=self.place)
         steps = problem.checklist or usual.checklist
         return replace(problem.fault, sentence=problem.sentence or usual.sentence, checklist=steps)
 

@@ -8,15 +8,13 @@ from dataclasses import dataclass
 
 from faults import Text
 from robots.body import actions as a
-from robots.body import actions as b
-from robots.body import actions as m
 from robots.body.body import Angles, Body, part_of, posture_name, single_parts
 from robots.body.inverse import arm_for, head_angles, in_torso, pointing
 from robots.body.keyframes import Keyframes, Track, control_points
 from robots.body.limbs import MOVING
 from robots.body.motion import playable
 from robots.body.motor_tasks import SIDES
-from robots.body.schedule import Task
+from robots.body.schedule import Task, is_over
 from robots.body.tasks import DOES_NOT_STAND
 from robots.errors import ActionFailed
 
@@ -164,14 +162,14 @@ def rest(robot: RealRobot) -> Task:
     return ""
 
 
-def move_hands(robot: RealRobot, action: b.Hand) -> Task:
+def move_hands(robot: RealRobot, action: a.Hand) -> Task:
     """Open or close hands, both at once."""
     names = list(SIDES[action.side])
     method = "openHand" if action.open else "closeHand"
     calls = [robot.call("ALMotion", method, name, limit_s=8.0, uses=[name]) for name in names]
     try:
         while calls:
-            calls = [call for call in calls if not _is_over(call)]
+            calls = [call for call in calls if not is_over(call)]
             if calls:
                 yield
     finally:
@@ -186,7 +184,7 @@ def move_hands(robot: RealRobot, action: b.Hand) -> Task:
     return "it holds something" if held and not action.open else ""
 
 
-def move_joint(robot: RealRobot, action: b.MoveJoint) -> Task:
+def move_joint(robot: RealRobot, action: a.MoveJoint) -> Task:
     """Move a joint as far as it goes."""
     start = 0.0
     if action.relative:
@@ -199,16 +197,16 @@ def move_joint(robot: RealRobot, action: b.MoveJoint) -> Task:
     return f"moved as far as it goes: {math.degrees(goal[action.joint]):.0f} degrees"
 
 
-def reach_angles(robot: RealRobot, action: m.ReachAngles) -> Task:
+def reach_angles(robot: RealRobot, action: a.ReachAngles) -> Task:
     """Move joints to angles, as far as they go."""
     goal, clamped = robot.goal_of(action.angles)
     yield from robot.go_to(goal, action.speed)
     return f"kept within the limits of {', '.join(clamped)}" if clamped else ""
 
 
-def approach(robot: RealRobot, action: m.Approach) -> Task:
+def approach(robot: RealRobot, action: a.Approach) -> Task:
     """Send joints where the targets say, each time that these change."""
-    sent: dict[str, m.Target] = {}
+    sent: dict[str, a.Target] = {}
     while action.targets:
         new = {name: one for name, one in action.targets.items() if sent.get(name) != one}
         for name, target in new.items():
@@ -227,7 +225,7 @@ def approach(robot: RealRobot, action: m.Approach) -> Task:
     return ""
 
 
-def move_through(robot: RealRobot, action: m.MoveThrough) -> Task:
+def move_through(robot: RealRobot, action: a.MoveThrough) -> Task:
     """Move joints through keys."""
     tracks = {name: track for name, track in action.tracks.items() if track.times}
     if not tracks:
@@ -273,7 +271,7 @@ def lock(robot: RealRobot, part: str, *, on: bool) -> Task:
     return ""
 
 
-def set_stiffness(robot: RealRobot, action: m.SetStiffness) -> Task:
+def set_stiffness(robot: RealRobot, action: a.SetStiffness) -> Task:
     """Set how firmly single joints are held."""
     names, seconds = list(action.joints), max(float(action.seconds), STIFF_S)
     values = [[float(value)] for value in action.joints.values()]
@@ -292,9 +290,9 @@ def set_stiffness(robot: RealRobot, action: m.SetStiffness) -> Task:
     return ""
 
 
-def set_life(robot: RealRobot, action: b.Awareness | b.Breathing) -> Task:
+def set_life(robot: RealRobot, action: a.Awareness | a.Breathing) -> Task:
     """Let the robot look at people by itself, or breathe."""
-    if isinstance(action, b.Breathing):
+    if isinstance(action, a.Breathing):
         yield from robot.take_over()
         yield from robot.call("ALMotion", "setBreathEnabled", "Body", action.on, limit_s=8.0)
         robot.known.settings["breathing"] = action.on
@@ -354,14 +352,6 @@ def _set_released(robot: RealRobot, part: str, *, loose: bool) -> None:
     robot.known.released = released | {part} if loose else released - {part}
 
 
-def _is_over(task: Task) -> bool:
-    try:
-        next(task)
-    except StopIteration:
-        return True
-    return False
-
-
 # What a real robot does for requests to walk, to turn, to look and to follow.
 
 SLOWEST_M_S = 0.03
@@ -400,7 +390,7 @@ def walk(robot: RealRobot, forward_m: float, left_m: float, turn: float) -> Task
     return ""
 
 
-def walk_freely(robot: RealRobot, action: b.WalkFreely) -> Task:
+def walk_freely(robot: RealRobot, action: a.WalkFreely) -> Task:
     """Walk on and on."""
     _check_standing(robot)
     speeds = float(action.forward), float(action.left), float(action.turn)
@@ -442,7 +432,7 @@ def look_at_seen(robot: RealRobot, thing: str) -> Task:
     return (yield from look_at(robot, robot.known.sees[thing], "world"))
 
 
-def point_at(robot: RealRobot, action: b.PointAt) -> Task:
+def point_at(robot: RealRobot, action: a.PointAt) -> Task:
     """Stretch an arm out towards a place, as far as the shoulder goes."""
     yield from _place(robot)
     place = action.x_m, action.y_m, action.z_m
@@ -457,7 +447,7 @@ def point_at(robot: RealRobot, action: b.PointAt) -> Task:
     return "pointed as far as its arm goes" if clamped else ""
 
 
-def track(robot: RealRobot, action: b.Track) -> Task:
+def track(robot: RealRobot, action: a.Track) -> Task:
     """Keep the head or the whole body turned to something, until that is ended."""
     yield from robot.call("ALTracker", "stopTracker")
     yield from robot.call("ALTracker", "unregisterAllTargets")

@@ -15,6 +15,7 @@ from robots.body.body import PLAIN_NAMES, SINGLE_PARTS, Angles, Body, part_of, p
 from robots.body.limbs import Limb
 from robots.body.pose import VirtualRobot
 from robots.errors import ActionFailed
+from robots.naoqi.services.arguments import CODES
 
 from .calls import ANSWER_S, Calling, Calls
 
@@ -25,12 +26,11 @@ DEVICE = "Device/SubDeviceList/{name}/Value"
 SENSOR_KEYS: dict[str, tuple[str, ...]] = {
     "sonar_left": ("US/Left/Sensor",),
     "sonar_right": ("US/Right/Sensor",),
-    "acc_x": ("InertialSensor/AccelerometerX/Sensor", "InertialSensor/AccX/Sensor"),
-    "acc_y": ("InertialSensor/AccelerometerY/Sensor", "InertialSensor/AccY/Sensor"),
-    "acc_z": ("InertialSensor/AccelerometerZ/Sensor", "InertialSensor/AccZ/Sensor"),
-    "gyro_x": ("InertialSensor/GyroscopeX/Sensor", "InertialSensor/GyrX/Sensor"),
-    "gyro_y": ("InertialSensor/GyroscopeY/Sensor", "InertialSensor/GyrY/Sensor"),
-    "gyro_z": ("InertialSensor/GyroscopeZ/Sensor", "InertialSensor/GyrZ/Sensor"),
+    **{
+        f"{ours}_{axis.lower()}": tuple(f"InertialSensor/{one}{axis}/Sensor" for one in names)
+        for ours, names in (("acc", ("Accelerometer", "Acc")), ("gyro", ("Gyroscope", "Gyr")))
+        for axis in "XYZ"
+    },
     "angle_x": ("InertialSensor/AngleX/Sensor",),
     "angle_y": ("InertialSensor/AngleY/Sensor",),
     "foot_left": ("LFoot/FSR/TotalWeight/Sensor",),
@@ -53,29 +53,6 @@ TOUCH_EVENTS: dict[str, tuple[str, ...]] = {
 """Our touch sensors, each with the events of NAOqi that tell of it: 1 touched, 0 let go."""
 CLICKED_EVENT = "ALChestButton/SimpleClickOccurred"
 """On many robots the only event of the chest button: when it was let go after a short press."""
-
-LANGUAGES = {
-    "en": "English",
-    "ar": "Arabic",
-    "pt_br": "Brazilian",
-    "zh": "Chinese",
-    "cs": "Czech",
-    "da": "Danish",
-    "nl": "Dutch",
-    "fi": "Finnish",
-    "fr": "French",
-    "de": "German",
-    "it": "Italian",
-    "ja": "Japanese",
-    "ko": "Korean",
-    "pl": "Polish",
-    "pt": "Portuguese",
-    "ru": "Russian",
-    "es": "Spanish",
-    "sv": "Swedish",
-    "tr": "Turkish",
-}
-"""NAOqi's names of languages, by ours."""
 
 Read = Callable[[Any], None]
 
@@ -146,7 +123,7 @@ def hottest(body: Body, values: dict[str, Any]) -> tuple[str, float]:
 
 def language_code(name: object) -> str:
     """Our word for a language of NAOqi; its own when we have none."""
-    return next((code for code, known in LANGUAGES.items() if known == name), str(name))
+    return CODES.get(str(name), str(name))
 
 
 def _sensors(values: dict[str, Any]) -> Iterator[tuple[str, float]]:

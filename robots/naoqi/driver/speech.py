@@ -1,22 +1,24 @@
-"""What a real robot does with its voice and its ears, and with movements beside its words."""
+"""What a real robot does with voice and ears, movements beside words, files, cameras and lights."""
 
 from __future__ import annotations
 
 import logging
+from pathlib import PurePosixPath
 
 from faults import Fault
 from robots.body import actions as a
-from robots.body import actions as s
+from robots.body import body
 from robots.body.animations import NO_GESTURE, Animation
 from robots.body.keyframes import Keyframes
 from robots.body.schedule import Task
 from robots.body.speech import Spoken, speaking_time_s
 from robots.body.tasks import at_once, changed, fitted, spoken
 from robots.errors import ActionFailed
+from robots.naoqi.services.arguments import NAMES
 
 from .calls import waited
 from .moving import play_keyframes, return_to_posture, take_posture
-from .real import LANGUAGES, RealRobot, language_code
+from .real import RealRobot, language_code
 
 log = logging.getLogger(__name__)
 
@@ -40,7 +42,11 @@ def speak(robot: RealRobot, action: a.Say) -> Task:
     if not words.strip():
         return ""
     seconds = speaking_time_s(words) * 100.0 / action.speed
-    told = [_voice(action) + words]
+    # What NAOqi's voice takes as a wish for another speed and pitch, before the words
+    wishes = {"rspd": action.speed, "vct": action.pitch}
+    told = [
+        "".join(f"\\{name}={round(to)}\\ " for name, to in wishes.items() if to != 100.0) + words
+    ]
     if action.language:
         told.append((yield from _language_name(robot, action.language)))
     robot.known.saying = action.text
@@ -75,7 +81,7 @@ def play(robot: RealRobot, animation: Animation, keyframes: Keyframes | None = N
     return (yield from beside(tasks))
 
 
-def set_volume(robot: RealRobot, action: s.Volume) -> Task:
+def set_volume(robot: RealRobot, action: a.Volume) -> Task:
     """Set how loud the robot is, and look that it is."""
     percent = round(action.percent)
     yield from robot.call("ALAudioDevice", "setOutputVolume", percent)
@@ -91,7 +97,7 @@ def set_volume(robot: RealRobot, action: s.Volume) -> Task:
     return ""
 
 
-def set_language(robot: RealRobot, action: s.SetLanguage) -> Task:
+def set_language(robot: RealRobot, action: a.SetLanguage) -> Task:
     """Set the language that the robot speaks and understands."""
     name = yield from _language_name(robot, action.language)
     yield from robot.call("ALTextToSpeech", "setLanguage", name, limit_s=10.0)
@@ -129,14 +135,8 @@ def _gestures(robot: RealRobot, parts: list[Spoken], speed: float) -> Task:
     return ""
 
 
-def _voice(action: a.Say) -> str:
-    """What NAOqi's voice takes as a wish for another speed and pitch, before the words."""
-    wishes = {"rspd": action.speed, "vct": action.pitch}
-    return "".join(f"\\{name}={round(to)}\\ " for name, to in wishes.items() if to != 100.0)
-
-
 def _language_name(robot: RealRobot, code: str) -> Task:
-    name = LANGUAGES.get(code, code)
+    name = NAMES.get(code, code)
     known = yield from robot.call("ALTextToSpeech", "getAvailableLanguages")
     if name not in known:
         spoken = ", ".join(language_code(one) for one in known)
@@ -205,7 +205,9 @@ class Hearing:
 
     def step(self) -> None:
         """Go on changing what the robot listens for, if that is wanted."""
-        wanted = self._wanted()
+        wanted = tuple(
+            dict.fromkeys(word for words in (self.expected, *self._asked) for word in words)
+        )
         if self._change is None and wanted not in (self._has, self._refused):
             self._problem, self._refused = None, ()
             self._change = self._changing(wanted)
@@ -219,7 +221,7 @@ class Hearing:
             self._change, self._refused, self._problem = None, wanted, problem.fault
             log.warning("%s does not listen: %s", self._robot.name, problem)
 
-    def listen(self, action: s.Listen) -> Task:
+    def listen(self, action: a.Listen) -> Task:
         """Listen for words for some seconds; they come as human states. No words: common ones."""
         language = str(self._robot.known.settings.get("language", "en"))
         words = tuple(action.words) or common_words(language)
@@ -236,11 +238,6 @@ class Hearing:
             self._robot.known.listening = ()
         return ""
 
-    def _wanted(self) -> tuple[str, ...]:
-        return tuple(
-            dict.fromkeys(word for words in (self.expected, *self._asked) for word in words)
-        )
-
     def _changing(self, words: tuple[str, ...]) -> Task:
         robot = self._robot
         if self._has:
@@ -254,3 +251,143 @@ class Hearing:
         yield from robot.call(SERVICE, "subscribe", EARS)
         self._has = words
         return ""
+
+
+# What a real robot does with its cameras and files: faces, pictures, videos, sounds.
+
+HOME = PurePosixPath("/home/nao")
+PICTURES = HOME / "recordings" / "cameras"
+CAMERAS = {"top": 0, "bottom": 1}
+VGA, QVGA = 2, 1
+VIDEO_RATE_HZ = 10.0
+LEARNING_S, FILE_S, LONGEST_SOUND_S = 15.0, 10.0, 3600.0
+
+
+def learn_face(robot: RealRobot, action: a.LearnFace) -> Task:
+    """Learn the face of the person in front."""
+    learnt = yield from robot.call("ALFaceDetection", "learnFace", action.name, limit_s=LEARNING_S)
+    if not learnt:
+        raise ActionFailed(
+            "{name} did not learn the face: it saw none, more than one, or knows the name. Let one "
+            "person look at it from about half a metre.",
+            name=robot.name,
+        )
+    return ""
+
+
+def forget_face(robot: RealRobot, action: a.ForgetFace) -> Task:
+    """Forget a face."""
+    forgotten = yield from robot.call("ALFaceDetection", "forgetPerson", action.name)
+    if not forgotten:
+        raise ActionFailed(
+            '{name} has learnt no face called "{name_2}".', name=robot.name, name_2=action.name
+        )
+    return ""
+
+
+def take_picture(robot: RealRobot, action: a.TakePicture) -> Task:
+    """Take a picture into a file on the robot."""
+    service = "ALPhotoCapture"
+    yield from robot.call(service, "setCameraID", CAMERAS[action.camera])
+    yield from robot.call(service, "setResolution", VGA)
+    yield from robot.call(service, "setPictureFormat", "jpg")
+    file = _file(action.file)
+    made = yield from robot.call(service, "takePicture", str(PICTURES), file.name, limit_s=FILE_S)
+    if not made:
+        raise ActionFailed("{name} took no picture. Is there room in its memory?", name=robot.name)
+    return f"{robot.name} keeps it in {made[0] if isinstance(made, list) else made}"
+
+
+def record_video(robot: RealRobot, action: a.RecordVideo) -> Task:
+    """Record a video into a file on the robot."""
+    service = "ALVideoRecorder"
+    yield from robot.call(service, "setCameraID", CAMERAS[action.camera])
+    yield from robot.call(service, "setResolution", QVGA)
+    yield from robot.call(service, "setFrameRate", VIDEO_RATE_HZ)
+    yield from robot.call(service, "setVideoFormat", "MJPG")
+    yield from robot.call(
+        service, "startRecording", str(PICTURES), _file(action.file).name, limit_s=FILE_S
+    )
+    ended = False
+    try:
+        yield from waited(action.seconds)
+        ended = True
+        made = yield from robot.call(service, "stopRecording", limit_s=FILE_S)
+    finally:
+        if not ended:
+            robot.calls.tell(service, "stopRecording")
+    if not made:
+        raise ActionFailed(
+            "{name} recorded no video. Is there room in its memory?", name=robot.name
+        )
+    return f"{robot.name} keeps it in {made[-1] if isinstance(made, list) else made}"
+
+
+def play_sound(robot: RealRobot, action: a.PlaySound) -> Task:
+    """Play a sound file that is on the robot, to its end."""
+    file = HOME / action.file  # a path that begins with / stays as it is
+    robot.known.settings["playing"] = str(file)
+    try:
+        yield from robot.call("ALAudioPlayer", "playFile", str(file), limit_s=LONGEST_SOUND_S)
+    finally:
+        robot.known.settings["playing"] = ""
+    return ""
+
+
+def _file(name: str) -> PurePosixPath:
+    """The name of a file without folders: recordings all go to one place on the robot."""
+    return PurePosixPath(PurePosixPath(name).name or "recording")
+
+
+# What a real robot does with its lights; NAOqi cannot tell how they shine, so we remember it.
+
+ONE_COLOUR = frozenset({"LeftEarLeds", "RightEarLeds", "BrainLeds"})
+"""Lights that can only be brighter or darker: blue."""
+SLACK_S = 3.0
+
+
+def light(robot: RealRobot, action: a.Leds) -> Task:
+    """Fade a group of lights to a colour."""
+    colour = body.colour_number(action.colour)
+    seconds = float(action.seconds)
+    yield from robot.call(
+        "ALLeds", "fadeRGB", action.group, colour, seconds, limit_s=seconds + SLACK_S
+    )
+    for name in body.lights(action.group):
+        robot.known.leds[name] = colour
+    return ""
+
+
+def set_intensity(robot: RealRobot, action: a.Intensity) -> Task:
+    """Make lights brighter or darker, with the hue that they have."""
+    for name in body.lights(action.group):
+        before = robot.known.leds[name] or body.AT_START[name] or body.WHITE
+        colour = body.mixed(body.OFF, body.brightest(before), action.percent / 100.0)
+        if name in ONE_COLOUR:
+            yield from robot.call("ALLeds", "setIntensity", name, action.percent / 100.0)
+        else:
+            yield from robot.call("ALLeds", "fadeRGB", name, colour, 0.0)
+        robot.known.leds[name] = colour
+    return ""
+
+
+def reset(robot: RealRobot, action: a.ResetLeds) -> Task:
+    """Light a group as it was when the robot started."""
+    yield from robot.call("ALLeds", "reset", action.group)
+    for name in body.lights(action.group):
+        robot.known.leds[name] = body.AT_START[name]
+    return ""
+
+
+def play_of_colours(robot: RealRobot, action: a.RandomEyes | a.RotateEyes) -> Task:
+    """Let the eyes change colours for some seconds, then be as they were."""
+    method = "randomEyes" if isinstance(action, a.RandomEyes) else "rasta"
+    eyes = body.lights("FaceLeds")
+    before = {name: robot.known.leds[name] for name in eyes}
+    seconds = float(action.seconds)
+    try:
+        yield from robot.call("ALLeds", method, seconds, limit_s=seconds + SLACK_S)
+    finally:
+        for name, colour in before.items():
+            robot.calls.tell("ALLeds", "fadeRGB", name, colour, 0.1)
+    return ""

@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 import time
 from collections.abc import Callable, Iterator
+from functools import partial
 from typing import Any
 
 from robots.body.driver import plain, state_of_thing, state_of_word
@@ -32,6 +33,15 @@ FRAME_WORLD = 1
 """NAOqi's number for where the robot has started."""
 
 TakeIn = Callable[[Any], None]
+SETTINGS: tuple[tuple[Any, ...], ...] = (
+    ("awake", bool, "ALMotion", "robotIsWakeUp"),
+    ("awareness", bool, "ALBasicAwareness", "isEnabled"),
+    ("awareness", bool, "ALBasicAwareness", "isAwarenessRunning"),
+    ("breathing", bool, "ALMotion", "getBreathEnabled", "Body"),
+    ("volume", float, "ALAudioDevice", "getOutputVolume"),
+    ("language", real.language_code, "ALTextToSpeech", "getLanguage"),
+)
+"""How a robot is set, each with how its answer is read, and the call that asks for it."""
 
 
 class Watching:
@@ -43,15 +53,11 @@ class Watching:
         self._quick, self._slow = real.quick_keys(body), real.slow_keys(body)
         self._asked: list[tuple[Pending, float, TakeIn]] = []
         self._next_quick_s = self._next_slow_s = 0.0
-        self._heat: tuple[str, float] = ("", 0.0)
+        self.hottest: tuple[str, float] = ("", 0.0)
+        """The joint with the hottest motor, and its °C."""
         self.has_met = False
         """Whether it has told once where its joints are and how it is set."""
         self._has_told_joints = False
-
-    @property
-    def hottest(self) -> tuple[str, float]:
-        """The joint with the hottest motor, and its °C."""
-        return self._heat
 
     @property
     def is_frozen(self) -> bool:
@@ -61,7 +67,16 @@ class Watching:
 
     def step(self, *, is_moving: bool) -> None:
         """Take in what was answered, and ask what is due."""
-        self._take_in()
+        waiting = []
+        for pending, asked_s, take_in in self._asked:
+            if not pending.done:
+                waiting.append((pending, asked_s, take_in))
+                continue
+            try:
+                take_in(pending.result(0.0))
+            except (NaoqiError, TypeError, ValueError, IndexError):
+                continue  # one robot may not know what another one tells
+        self._asked = waiting
         self.has_met = self.has_met or (self._has_told_joints and not self._asked)
         now_s = time.monotonic()
         if self._asked:  # a slow robot is asked less often, not more at once
@@ -73,25 +88,12 @@ class Watching:
                 self._ask_place()
         if now_s >= self._next_slow_s:
             self._next_slow_s = now_s + SLOW_PERIOD_S
-            self._ask_slowly()
-
-    def _ask_slowly(self) -> None:
-        settings = self._robot.known.settings
-        self._ask(self._on_slow, "ALMemory", "getListData", self._slow)
-        self._ask_place()
-        self._ask(self._on_posture, "ALRobotPosture", "getPosture")
-        self._ask(self._setter("awake"), "ALMotion", "robotIsWakeUp")
-        self._ask(self._setter("awareness"), "ALBasicAwareness", "isEnabled")
-        self._ask(self._setter("awareness"), "ALBasicAwareness", "isAwarenessRunning")
-        self._ask(self._setter("breathing"), "ALMotion", "getBreathEnabled", "Body")
-        self._ask(
-            lambda value: settings.update(volume=float(value)), "ALAudioDevice", "getOutputVolume"
-        )
-        self._ask(
-            lambda value: settings.update(language=real.language_code(value)),
-            "ALTextToSpeech",
-            "getLanguage",
-        )
+            settings = self._robot.known.settings
+            self._ask(self._on_slow, "ALMemory", "getListData", self._slow)
+            self._ask_place()
+            self._ask(self._on_posture, "ALRobotPosture", "getPosture")
+            for name, read, *call in SETTINGS:
+                self._ask(partial(_keep, settings, name, read), *call)
 
     def _ask_place(self) -> None:
         self._ask(self._on_base, "ALMotion", "getRobotPosition", True)
@@ -105,21 +107,6 @@ class Watching:
         except ActionFailed:
             return  # the link is just being lost; who keeps it says so
         self._asked.append((pending, time.monotonic(), take_in))
-
-    def _take_in(self) -> None:
-        waiting = []
-        for pending, asked_s, take_in in self._asked:
-            if not pending.done:
-                waiting.append((pending, asked_s, take_in))
-                continue
-            try:
-                take_in(pending.result(0.0))
-            except (NaoqiError, TypeError, ValueError, IndexError):
-                continue  # one robot may not know what another one tells
-        self._asked = waiting
-
-    def _setter(self, name: str) -> TakeIn:
-        return lambda value: self._robot.known.settings.__setitem__(name, bool(value))
 
     def _on_quick(self, values: list[Any]) -> None:
         told = dict(zip(self._quick, values, strict=False))
@@ -140,7 +127,7 @@ class Watching:
         charge = real.battery(told)
         if charge is not None:
             self._robot.battery = charge
-        self._heat = real.hottest(body, told)
+        self.hottest = real.hottest(body, told)
 
     def _on_base(self, place: list[float]) -> None:
         self._robot.be_at(place)
@@ -200,14 +187,10 @@ class Noticing:
 
     def __init__(self, robot: RealRobot) -> None:
         self._robot = robot
-        self._touched: dict[str, float] = {}
+        self.touched: dict[str, float] = {}
+        """Our touch sensors, 0 or 1, as far as there was an event of them."""
         self._felt: dict[str, dict[str, float]] = {}
         self._seen_s: dict[str, float] = {}
-
-    @property
-    def touched(self) -> dict[str, float]:
-        """Our touch sensors, 0 or 1, as far as there was an event of them."""
-        return dict(self._touched)
 
     def hear(self, event: str, value: Any) -> list[str]:
         """Take in an event; return the human states that follow from it."""
@@ -235,29 +218,25 @@ class Noticing:
         """One sensor may have several places that tell of it: it is touched while one is."""
         places = self._felt.setdefault(sensor, {})
         places[source] = float(value) if isinstance(value, int | float) else 0.0
-        was, now = self._touched.get(sensor, 0.0), max(places.values())
-        self._touched[sensor] = 1.0 if now > 0.0 else 0.0
+        was, now = self.touched.get(sensor, 0.0), max(places.values())
+        self.touched[sensor] = 1.0 if now > 0.0 else 0.0
         return _touched(sensor) if now > 0.0 and was <= 0.0 else []
 
     def _see(self, event: str, value: Any) -> Iterator[str]:
+        readers = {
+            FACE: self._faces,
+            MARK: self._marks,
+            BALL: self._ball,
+            SOUND: self._sound,
+            WORD: self._words,
+        }
         try:
-            match event:
-                case "FaceDetected":
-                    yield from self._faces(value)
-                case "LandmarkDetected":
-                    yield from self._marks(value)
-                case "redBallDetected":
-                    yield from self._ball(value)
-                case "ALSoundLocalization/SoundLocated":
-                    yield from self._sound(value)
-                case "WordRecognized":
-                    yield from self._words(value)
+            if value and len(value) > 1 and event in readers:
+                yield from readers[event](value)
         except (IndexError, TypeError, ValueError, KeyError):
             return  # versions of NAOqi differ: what is not understood is not noticed
 
     def _faces(self, value: Any) -> Iterator[str]:
-        if not value or len(value) < 2:
-            return
         camera = value[3] if len(value) > 3 else None
         for face in value[1]:
             if not face or not isinstance(face[0], list) or len(face[0]) < 5:
@@ -268,8 +247,6 @@ class Noticing:
             yield from self._noticed("face", name if name not in UNKNOWN_FACE else "", place)
 
     def _marks(self, value: Any) -> Iterator[str]:
-        if not value or len(value) < 2:
-            return
         camera = value[3] if len(value) > 3 else None
         for mark in value[1]:
             _, alpha, beta, width = mark[0][:4]
@@ -277,16 +254,12 @@ class Noticing:
             yield from self._noticed("mark", str(int(mark[1][0])), place)
 
     def _ball(self, value: Any) -> Iterator[str]:
-        if not value or len(value) < 2:
-            return
         centre_x, centre_y, width, _ = value[1][:4]
         camera = value[3] if len(value) > 3 else None
         place = self._place(camera, centre_x, centre_y, BALL_M, width)
         yield from self._noticed("ball", "", place)
 
     def _sound(self, value: Any) -> Iterator[str]:
-        if not value or len(value) < 2:
-            return
         azimuth, elevation = (float(angle) for angle in value[1][:2])
         head_yaw = float(value[2][5]) if len(value) > 2 and len(value[2]) > 5 else 0.0
         head_pitch = float(value[2][4]) if len(value) > 2 and len(value[2]) > 5 else 0.0
@@ -298,8 +271,6 @@ class Noticing:
         yield from self._noticed("sound", "", place)
 
     def _words(self, value: Any) -> Iterator[str]:
-        if not value:
-            return
         word, certainty = str(value[0]), float(value[1])
         words = word.replace("<...>", " ").strip()
         if certainty >= SURE_WORD and plain(words):
@@ -351,6 +322,10 @@ class Noticing:
 def _from_robot(robot: RealRobot, place: tuple[float, float, float]) -> tuple[float, float, float]:
     x, y = place[0] - float(robot.known.base[0]), place[1] - float(robot.known.base[1])
     return x, y, place[2]
+
+
+def _keep(settings: dict[str, Any], name: str, read: Callable[[Any], Any], value: Any) -> None:
+    settings[name] = read(value)
 
 
 def _touched(sensor: str) -> list[str]:

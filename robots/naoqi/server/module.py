@@ -37,15 +37,8 @@ class Module:
         name, *values = call
         return self._begin(self._meta.overload(name, tuple(values)).uid, values)
 
-    @method("version::s()", uid=103)
-    def version(self) -> str:
-        """Return the version of the system."""
-        return VERSION
-
-    @method("ping::b()", uid=104)
-    def ping(self) -> bool:
-        """Say that this is there."""
-        return True
+    version = method("version::s()", uid=103)(lambda self: VERSION)
+    ping = method("ping::b()", uid=104)(lambda self: True)
 
     @method("getMethodList::[s]()", uid=105)
     def method_names(self) -> list[str]:
@@ -61,10 +54,7 @@ class Module:
         first = overloads[0]
         return [name, first.description, [str(one) for one in overloads], first.returns, ""]
 
-    @method("getModuleHelp::m()", uid=107)
-    def module_help(self) -> list[Any]:
-        """Return what is known of this module."""
-        return [self._meta.description, []]
+    module_help = method("getModuleHelp::m()", uid=107)(lambda self: [self._meta.description, []])
 
     @method("wait::b(ii)", uid=108)
     def wait(self, task: int, timeout_ms: int) -> Any:
@@ -98,10 +88,7 @@ class Module:
         if pending is not None:
             pending.cancel()
 
-    @method("getBrokerName::s()", uid=111)
-    def broker_name(self) -> str:
-        """Return the program that this is part of."""
-        return "MainBroker"
+    broker_name = method("getBrokerName::s()", uid=111)(lambda self: "MainBroker")
 
     @method("getUsage::s(s)", uid=112)
     def usage(self, name: str) -> str:

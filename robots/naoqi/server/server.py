@@ -558,7 +558,15 @@ class Server:
         peer.run()
         with self._lock:
             self._peers.discard(peer)
-        self._part(peer)
+        # A client is gone
+        self._directory.forget(peer)
+        for number, visitor in list(self._visitors.items()):
+            if visitor.peer is peer:
+                del self._visitors[number]
+            else:
+                visitor.leave(peer)
+        for entry in self._directory.here():
+            entry.leave(peer)
 
     def _bound(self, number: int, thing: int) -> Answering | None:
         entry = self._directory.entry(number)
@@ -571,17 +579,6 @@ class Server:
         if entry.peer is not None:
             with contextlib.suppress(NaoqiError):
                 self._visitors[entry.number] = Visitor(entry.peer, entry.number)
-
-    def _part(self, peer: Peer) -> None:
-        """A client is gone."""
-        self._directory.forget(peer)
-        for number, visitor in list(self._visitors.items()):
-            if visitor.peer is peer:
-                del self._visitors[number]
-            else:
-                visitor.leave(peer)
-        for entry in self._directory.here():
-            entry.leave(peer)
 
     def _endpoints(self, peer: Peer | None) -> list[str]:
         """Return the addresses under which a client reaches this server: the way it came."""

@@ -16,9 +16,8 @@ from robots.naoqi.server.server import Server
 from robots.naoqi.serving import ServedRobot
 from robots.naoqi.wire.line import Login
 
-from . import body, life, media, perception
+from . import life, media, perception
 from .animations import ALAnimationPlayer, ALBehaviorManager, load_animation_names
-from .lights import ALLeds
 from .memory import TOUCH_EVENTS, TOUCH_NAMES, ALMemory, keys_of
 from .module import Module
 from .motion import ALMotion
@@ -74,21 +73,6 @@ class MemoryFeed:
 
     def notice(self, state: RobotState, now_s: float) -> None:
         """Tell what has changed up to now (s, on any clock)."""
-        self._touch(state)
-        self._body(state)
-        self._speech(state)
-        self._sonar(state)
-        self._see("FaceDetected", perception.faces, state, now_s)
-        self._see("LandmarkDetected", perception.marks, state, now_s)
-        self._see("redBallDetected", perception.ball, state, now_s)
-        self._see("ALSoundLocalization/SoundLocated", perception.sound, state, now_s)
-
-    def sense(self, request: SenseRequest) -> None:
-        """Take in what the robot was told to hear."""
-        if request.sense == "word" and request.name:
-            self._recognition.hear(request.name, self._memory.tell)
-
-    def _touch(self, state: RobotState) -> None:
         changed = []
         for sensor, event in TOUCH_EVENTS.items():
             value = state.sensors.get(sensor, 0.0)
@@ -98,6 +82,23 @@ class MemoryFeed:
                     changed.append([TOUCH_NAMES[sensor], value > 0.0, []])
         if changed:
             self._memory.tell("TouchChanged", changed)
+        self._body(state)
+        self._speech(state)
+        for side in ("Left", "Right"):
+            distance_m = state.sensors.get(f"sonar_{side.lower()}", NEAR_M)
+            if self._is_new(f"near {side}", distance_m < NEAR_M, at_first=False):
+                word = "Detected" if distance_m < NEAR_M else "NothingDetected"
+                if self._wants(f"Sonar{side}{word}"):
+                    self._memory.tell(f"Sonar{side}{word}", distance_m)
+        self._see("FaceDetected", perception.faces, state, now_s)
+        self._see("LandmarkDetected", perception.marks, state, now_s)
+        self._see("redBallDetected", perception.ball, state, now_s)
+        self._see("ALSoundLocalization/SoundLocated", perception.sound, state, now_s)
+
+    def sense(self, request: SenseRequest) -> None:
+        """Take in what the robot was told to hear."""
+        if request.sense == "word" and request.name:
+            self._recognition.hear(request.name, self._memory.tell)
 
     def _body(self, state: RobotState) -> None:
         robot = self._robot.robot
@@ -118,14 +119,6 @@ class MemoryFeed:
         self._memory.tell("ALTextToSpeech/TextDone", int(not is_speaking))
         status = "started" if is_speaking else "done"
         self._memory.tell("ALTextToSpeech/Status", [self._sentences, status])
-
-    def _sonar(self, state: RobotState) -> None:
-        for side in ("Left", "Right"):
-            distance_m = state.sensors.get(f"sonar_{side.lower()}", NEAR_M)
-            if self._is_new(f"near {side}", distance_m < NEAR_M, at_first=False):
-                word = "Detected" if distance_m < NEAR_M else "NothingDetected"
-                if self._wants(f"Sonar{side}{word}"):
-                    self._memory.tell(f"Sonar{side}{word}", distance_m)
 
     def _see(
         self, event: str, look: Callable[[RobotState], list[Any]], state: RobotState, now_s: float
@@ -177,7 +170,7 @@ class Services:
         simple = (
             ALMotion,
             ALRobotPosture,
-            ALLeds,
+            media.ALLeds,
             ALTracker,
             ALSpeechRecognition,
             perception.ALFaceDetection,
@@ -195,11 +188,11 @@ class Services:
             life.ALSpeakingMovement,
             life.ALListeningMovement,
             life.ALAutonomousBlinking,
-            body.ALTouch,
-            body.ALBattery,
-            body.ALBodyTemperature,
-            body.ALSystem,
-            body.ALRobotModel,
+            life.ALTouch,
+            life.ALBattery,
+            life.ALBodyTemperature,
+            life.ALSystem,
+            life.ALRobotModel,
         )
         modules: list[Module] = [
             speech,

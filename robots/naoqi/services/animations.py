@@ -16,7 +16,7 @@ from robots.naoqi.serving import ServedRobot
 from robots.naoqi.wire.errors import CallFailed
 from robots.naoqi.wire.service import method, signal
 
-from .module import Module
+from .module import Module, always
 
 # Finds the animations of this program that stand for those of a real NAO, by NAOqi's paths.
 
@@ -99,15 +99,10 @@ class ALAnimationPlayer(Module):
         """Play an animation; wait until it ends."""
         return self._do("play", animation=self._names.name_of(path, self._robot.robot))
 
-    @method("runTag::v(s)")
-    def run_tag(self, tag: str) -> Any:
+    @method("runTag::v(s)", "runTag::v(ss)")
+    def run_tag(self, tag: str, posture: str = "") -> Any:
         """Play one of the animations with a tag."""
         return self.run(self._chance.choice(self._names.with_tag(tag)))
-
-    @method("runTag::v(ss)")
-    def run_tag_in(self, tag: str, posture: str) -> Any:
-        """Play one of the animations with a tag; it goes with any posture here."""
-        return self.run_tag(tag)
 
     @method("addTagForAnimations::v({s[s]})")
     def add_tag_for_animations(self, tags: dict[str, list[str]]) -> None:
@@ -133,19 +128,20 @@ class ALBehaviorManager(Module):
         self._running: dict[str, str] = {}
         self._defaults: list[str] = []
 
-    @method("runBehavior::v(s)")
-    def run_behavior(self, path: str) -> Any:
-        """Play a behavior; wait until it ends."""
-        self._check_idle(path)
-        name = self._names.name_of(path, self._robot.robot)
-        self._running[path] = name
-        self.behavior_started.emit(path)
-        return self._do("play", animation=name, then=lambda: self._end(path))
-
     @method("startBehavior::v(s)")
     def start_behavior(self, path: str) -> None:
         """Begin to play a behavior."""
         self.run_behavior(path)
+
+    @method("runBehavior::v(s)")
+    def run_behavior(self, path: str) -> Any:
+        """Play a behavior; wait until it ends."""
+        if path in self._running:
+            raise CallFailed("“{path}” is already running.", path=path)
+        name = self._names.name_of(path, self._robot.robot)
+        self._running[path] = name
+        self.behavior_started.emit(path)
+        return self._do("play", animation=name, then=lambda: self._end(path))
 
     @method("stopBehavior::v(s)")
     def stop_behavior(self, path: str) -> None:
@@ -159,12 +155,7 @@ class ALBehaviorManager(Module):
         for path in list(self._running):
             self.stop_behavior(path)
 
-    @method("preloadBehavior::b(s)")
-    def preload_behavior(self, path: str) -> bool:
-        """Return whether there is such a behavior."""
-        return self.is_behavior_installed(path)
-
-    @method("isBehaviorInstalled::b(s)")
+    @method("isBehaviorInstalled::b(s)", "preloadBehavior::b(s)", "isBehaviorPresent::b(s)")
     def is_behavior_installed(self, path: str) -> bool:
         """Return whether there is such a behavior."""
         try:
@@ -173,70 +164,32 @@ class ALBehaviorManager(Module):
             return False
         return True
 
-    @method("isBehaviorPresent::b(s)")
-    def is_behavior_present(self, path: str) -> bool:
-        """Return whether there is such a behavior."""
-        return self.is_behavior_installed(path)
+    is_behavior_running = method("isBehaviorRunning::b(s)", "isBehaviorLoaded::b(s)")(
+        lambda self, path: path in self._running
+    )
 
-    @method("isBehaviorRunning::b(s)")
-    def is_behavior_running(self, path: str) -> bool:
-        """Return whether a behavior is played."""
-        return path in self._running
-
-    @method("isBehaviorLoaded::b(s)")
-    def is_behavior_loaded(self, path: str) -> bool:
-        """Return whether a behavior is played."""
-        return path in self._running
-
-    @method("getInstalledBehaviors::[s]()")
+    @method(
+        "getInstalledBehaviors::[s]()", "getBehaviorNames::[s]()", "getSystemBehaviorNames::[s]()"
+    )
     def installed_behaviors(self) -> list[str]:
         """Return all behaviors."""
         return self._names.paths(self._robot.robot.animations)
 
-    @method("getBehaviorNames::[s]()")
-    def behavior_names(self) -> list[str]:
-        """Return all behaviors."""
-        return self.installed_behaviors()
+    # The behaviors that did not come with the robot: there are none
+    user_behavior_names = always([], "getUserBehaviorNames::[s]()")
+    running_behaviors = method("getRunningBehaviors::[s]()", "getLoadedBehaviors::[s]()")(
+        lambda self: list(self._running)
+    )
 
-    @method("getUserBehaviorNames::[s]()")
-    def user_behavior_names(self) -> list[str]:
-        """Return the behaviors that did not come with the robot: there are none."""
-        return []
+    behaviors_by_tag = method("getBehaviorsByTag::[s](s)")(
+        lambda self, tag: list(self._names.tags.get(tag, []))
+    )
+    tag_list = method("getTagList::[s]()")(lambda self: sorted(self._names.tags))
 
-    @method("getSystemBehaviorNames::[s]()")
-    def system_behavior_names(self) -> list[str]:
-        """Return the behaviors that came with the robot."""
-        return self.installed_behaviors()
-
-    @method("getRunningBehaviors::[s]()")
-    def running_behaviors(self) -> list[str]:
-        """Return the behaviors that are played."""
-        return list(self._running)
-
-    @method("getLoadedBehaviors::[s]()")
-    def loaded_behaviors(self) -> list[str]:
-        """Return the behaviors that are played."""
-        return list(self._running)
-
-    @method("getBehaviorsByTag::[s](s)")
-    def behaviors_by_tag(self, tag: str) -> list[str]:
-        """Return the behaviors with a tag."""
-        return list(self._names.tags.get(tag, []))
-
-    @method("getTagList::[s]()")
-    def tag_list(self) -> list[str]:
-        """Return all tags."""
-        return sorted(self._names.tags)
-
-    @method("getBehaviorTags::[s](s)")
-    def behavior_tags(self, path: str) -> list[str]:
-        """Return the tags of a behavior."""
-        return [tag for tag, paths in self._names.tags.items() if path in paths]
-
-    @method("getDefaultBehaviors::[s]()")
-    def default_behaviors(self) -> list[str]:
-        """Return the behaviors that begin when the robot is switched on."""
-        return list(self._defaults)
+    behavior_tags = method("getBehaviorTags::[s](s)")(
+        lambda self, path: [tag for tag, paths in self._names.tags.items() if path in paths]
+    )
+    default_behaviors = method("getDefaultBehaviors::[s]()")(lambda self: list(self._defaults))
 
     @method("addDefaultBehavior::v(s)")
     def add_default_behavior(self, path: str) -> None:
@@ -247,10 +200,6 @@ class ALBehaviorManager(Module):
     def remove_default_behavior(self, path: str) -> None:
         """Forget a behavior that begins when the robot is switched on."""
         self._defaults = [one for one in self._defaults if one != path]
-
-    def _check_idle(self, path: str) -> None:
-        if path in self._running:
-            raise CallFailed("“{path}” is already running.", path=path)
 
     def _end(self, path: str) -> None:
         if self._running.pop(path, None) is not None:

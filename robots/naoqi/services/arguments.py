@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
+from string import Formatter
 from typing import Any
 
 from robots.body.body import Body
@@ -75,14 +76,18 @@ def numbers(value: Any, count: int, what: str) -> list[float]:
         return [number(value)] * count
     if len(value) == 1:
         return [number(value[0])] * count
-    if len(value) != count:
+    return [number(one) for one in _counted(value, count, what)]
+
+
+def _counted(found: Sequence[Any], count: int, what: str) -> Sequence[Any]:
+    if len(found) != count:
         raise CallFailed(
             "There are {count} {what} for {count_2} joints.",
-            count=len(value),
+            count=len(found),
             what=what,
             count_2=count,
         )
-    return [number(one) for one in value]
+    return found
 
 
 def lists(value: Any, count: int, what: str) -> list[list[float]]:
@@ -100,14 +105,19 @@ def lists(value: Any, count: int, what: str) -> list[list[float]]:
         rows = [list(value)]
     else:
         rows = [[one] for one in value] if len(value) > 1 else [list(value)] * count
-    if len(rows) != count:
-        raise CallFailed(
-            "There are {count} {what} for {count_2} joints.",
-            count=len(rows),
-            what=what,
-            count_2=count,
-        )
-    return [[number(one) for one in row] for row in rows]
+    return [[number(one) for one in row] for row in _counted(rows, count, what)]
+
+
+def one_of(value: Any, choices: Collection[Any], sentence: str) -> Any:
+    """Return a value that is one of the choices. Raises CallFailed with the sentence.
+
+    The sentence has two places, for the value and for all choices, or only the first one.
+    """
+    if value not in choices:
+        places = [place for _, place, _, _ in Formatter().parse(sentence) if place]
+        told = (value, ", ".join(map(str, choices)))
+        raise CallFailed(sentence, **dict(zip(places, told, strict=False)))
+    return value
 
 
 def rows(value: Any, what: str) -> list[Any]:
@@ -168,10 +178,4 @@ NAMES = {code: name for name, code in CODES.items()}
 
 def code_of(language: str) -> str:
     """Return the code of a language. Raises CallFailed with those there are."""
-    if language not in CODES:
-        raise CallFailed(
-            "There is no language “{language}”. Possible: {codes}.",
-            language=language,
-            codes=", ".join(CODES),
-        )
-    return CODES[language]
+    return CODES[one_of(language, CODES, "There is no language “{language}”. Possible: {codes}.")]

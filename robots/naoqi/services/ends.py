@@ -18,7 +18,7 @@ from robots.body.pose import VirtualRobot
 from robots.naoqi.serving import ServedRobot
 from robots.naoqi.wire.errors import CallFailed
 
-from .arguments import EVERYTHING, number, rows, within
+from .arguments import EVERYTHING, number, one_of, rows, within
 
 Frame = NDArray[np.float64]
 Point = tuple[float, float, float]
@@ -65,15 +65,16 @@ class Ends:
         return [float(number) for number in seen[:3]]
 
     def keys(
-        self, name: str, space: int, places: list[list[float]], mask: int, *, is_absolute: bool
+        self,
+        name: str,
+        space: int,
+        places: list[list[float]],
+        mask: int,
+        *,
+        is_absolute: bool = True,
     ) -> dict[str, list[float]]:
         """Return the angles of the joints of an end at each place."""
-        if name not in REACHING:
-            raise CallFailed(
-                "“{name}” cannot be sent to a place. Possible: {reaching}.",
-                name=name,
-                reaching=", ".join(REACHING),
-            )
+        one_of(name, REACHING, "“{name}” cannot be sent to a place. Possible: {reaching}.")
         within(mask, 1, ALL, "The mask")
         with self._robot.lock:
             body, angles = self._robot.robot.body, self._robot.robot.angles.copy()

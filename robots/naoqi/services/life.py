@@ -1,15 +1,19 @@
-"""The services of a NAO's life of its own: awareness, autonomous life, small movements."""
+"""The small services: a NAO's life of its own, touch, battery, temperature, the system itself."""
 
 from __future__ import annotations
 
 import time
+from pathlib import Path
 from typing import Any
 
+from robots.naoqi.server.module import VERSION
 from robots.naoqi.serving import ServedRobot
 from robots.naoqi.wire.errors import CallFailed
 from robots.naoqi.wire.service import method
 
-from .module import Module, kept
+from .arguments import chains_of, one_of
+from .memory import TOUCH_NAMES
+from .module import Module, always, kept, kept_each
 
 STATES = ("solitary", "interactive", "disabled", "safeguard")
 STIMULI = ("Sound", "Movement", "NavigationMotion", "People", "Touch", "TabletTouch")
@@ -38,60 +42,25 @@ class ALBasicAwareness(Module):
         ("Head", "BodyRotation", "WholeBody", "MoveContextually"),
     )
 
-    @method("setEnabled::v(b)")
-    def set_enabled(self, is_on: bool) -> Any:
-        """Begin or end looking at people."""
-        return self._do("awareness", on=is_on)
+    set_enabled = method("setEnabled::v(b)")(lambda self, is_on: self._do("awareness", on=is_on))
 
-    @method("isEnabled::b()")
-    def is_enabled(self) -> bool:
-        """Return whether it looks at people by itself."""
-        return bool(self._robot.state().settings["awareness"])
+    is_enabled = method("isEnabled::b()", "isRunning::b()", "isAwarenessRunning::b()")(
+        lambda self: bool(self._robot.state().settings["awareness"])
+    )
+    begin = method("startAwareness::v()", "resumeAwareness::v()")(
+        lambda self: self.set_enabled(True)
+    )
+    end = method("stopAwareness::v()", "pauseAwareness::v()")(lambda self: self.set_enabled(False))
+    is_awareness_paused = method("isAwarenessPaused::b()")(lambda self: not self.is_enabled())
 
-    @method("isRunning::b()")
-    def runs(self) -> bool:
-        """Return whether it looks at people by itself."""
-        return self.is_enabled()
-
-    @method("startAwareness::v()")
-    def begin(self) -> Any:
-        """Begin looking at people."""
-        return self.set_enabled(True)
-
-    @method("stopAwareness::v()")
-    def end(self) -> Any:
-        """End looking at people."""
-        return self.set_enabled(False)
-
-    @method("pauseAwareness::v()")
-    def pause(self) -> Any:
-        """End looking at people for a while."""
-        return self.set_enabled(False)
-
-    @method("resumeAwareness::v()")
-    def resume(self) -> Any:
-        """Look at people again."""
-        return self.set_enabled(True)
-
-    @method("isAwarenessRunning::b()")
-    def is_awareness_running(self) -> bool:
-        """Return whether it looks at people by itself."""
-        return self.is_enabled()
-
-    @method("isAwarenessPaused::b()")
-    def is_awareness_paused(self) -> bool:
-        """Return whether it does not look at people now."""
-        return not self.is_enabled()
-
-    @method("setStimulusDetectionEnabled::v(sb)")
-    def set_stimulus(self, stimulus: str, is_on: bool) -> None:
-        """Remember what may draw its attention."""
-        self._kept[_stimulus(stimulus)] = is_on
-
-    @method("isStimulusDetectionEnabled::b(s)")
-    def stimulus(self, stimulus: str) -> bool:
-        """Return whether something may draw its attention."""
-        return bool(self._kept.get(_stimulus(stimulus), True))
+    set_stimulus, stimulus = kept_each(
+        "setStimulusDetectionEnabled::v(sb)",
+        "isStimulusDetectionEnabled::b(s)",
+        True,
+        known=lambda self, name: one_of(
+            name, STIMULI, "There is no stimulus “{name}”. Possible: {stimuli}."
+        ),
+    )
 
     @method("setParameter::v(sm)")
     def set_parameter(self, name: str, value: Any) -> None:
@@ -105,10 +74,7 @@ class ALBasicAwareness(Module):
             raise CallFailed("There is no parameter “{name}”.", name=name)
         return self._kept[f"parameter {name}"]
 
-    @method("resetAllParameters::v()")
-    def reset_all_parameters(self) -> None:
-        """Forget what was set."""
-        self._kept.clear()
+    reset_all_parameters = method("resetAllParameters::v()")(lambda self: self._kept.clear())
 
 
 class ALAutonomousLife(Module):
@@ -118,103 +84,47 @@ class ALAutonomousLife(Module):
         super().__init__(robot)
         self._state = "disabled"
         self._history = [(self._state, int(time.time()))]
-        self._abilities = dict.fromkeys(ABILITIES, True)
 
     @method("setState::v(s)")
     def set_state(self, state: str) -> Any:
         """Let it live by itself (solitary, interactive), or not (disabled)."""
-        if state not in STATES:
-            raise CallFailed(
-                "There is no state “{state}”. Possible: {states}.",
-                state=state,
-                states=", ".join(STATES),
-            )
-        self._state = state
+        self._state = one_of(state, STATES, "There is no state “{state}”. Possible: {states}.")
         self._history.append((state, int(time.time())))
         return self._do("awareness", on=state in ("solitary", "interactive"))
 
-    @method("getState::s()")
-    def state(self) -> str:
-        """Return whether it lives by itself."""
-        return self._state
+    state = method("getState::s()")(lambda self: self._state)
+    # The states that it was in, with the seconds of their beginning
+    state_history = method("getStateHistory::[(si)]()")(lambda self: list(self._history))
+    # The program that it plays by itself: none
+    focused_activity = always("", "focusedActivity::s()")
+    # Stop the programs that it plays by itself: there are none
+    stop_all = always(None, "stopFocus::v()", "stopAll::v()")
 
-    @method("getStateHistory::[(si)]()")
-    def state_history(self) -> list[tuple[str, int]]:
-        """Return the states that it was in, with the seconds of their beginning."""
-        return list(self._history)
+    set_ability, ability = kept_each(
+        "setAutonomousAbilityEnabled::v(sb)",
+        "getAutonomousAbilityEnabled::b(s)",
+        True,
+        known=lambda self, ability: one_of(
+            ability, ABILITIES, "There is no ability “{ability}”. Possible: {known}."
+        ),
+    )
+    set_safeguard, safeguard = kept_each(
+        "setSafeguardEnabled::v(sb)", "isSafeguardEnabled::b(s)", True
+    )
+    # How high above the floor it stands, m
+    set_offset, offset = kept("setRobotOffsetFromFloor::v(f)", "getRobotOffsetFromFloor::f()", 0.0)
 
-    @method("focusedActivity::s()")
-    def focused_activity(self) -> str:
-        """Return the program that it plays by itself: none."""
-        return ""
-
-    @method("stopFocus::v()")
-    def stop_focus(self) -> None:
-        """Stop the program that it plays by itself: there is none."""
-
-    @method("stopAll::v()")
-    def stop_all(self) -> None:
-        """Stop the programs that it plays by itself: there are none."""
-
-    @method("setAutonomousAbilityEnabled::v(sb)")
-    def set_ability(self, ability: str, is_on: bool) -> None:
-        """Remember which of its abilities may work by themselves."""
-        self.ability(ability)
-        self._abilities[ability] = is_on
-
-    @method("getAutonomousAbilityEnabled::b(s)")
-    def ability(self, ability: str) -> bool:
-        """Return whether one of its abilities may work by itself."""
-        if ability not in self._abilities:
-            known = ", ".join(self._abilities)
-            raise CallFailed(
-                "There is no ability “{ability}”. Possible: {known}.", ability=ability, known=known
-            )
-        return self._abilities[ability]
-
-    @method("setSafeguardEnabled::v(sb)")
-    def set_safeguard(self, name: str, is_on: bool) -> None:
-        """Remember what it takes care of."""
-        self._kept[f"safeguard {name}"] = is_on
-
-    @method("isSafeguardEnabled::b(s)")
-    def safeguard(self, name: str) -> bool:
-        """Return what it takes care of."""
-        return bool(self._kept.get(f"safeguard {name}", True))
-
-    @method("setRobotOffsetFromFloor::v(f)")
-    def set_offset(self, metres: float) -> None:
-        """Remember how high above the floor it stands, m."""
-        self._kept["offset"] = metres
-
-    @method("getRobotOffsetFromFloor::f()")
-    def offset(self) -> float:
-        """Return how high above the floor it stands, m."""
-        return float(self._kept.get("offset", 0.0))
-
-    @method("getLifeTime::i()")
-    def life_time(self) -> int:
-        """Return for how many seconds it has been switched on."""
-        return int(time.time()) - self._history[0][1]
+    life_time = method("getLifeTime::i()")(lambda self: int(time.time()) - self._history[0][1])
 
 
 class ALBackgroundMovement(Module):
     """Moves a little, as if it breathed, while nothing else moves it."""
 
-    @method("setEnabled::v(b)")
-    def set_enabled(self, is_on: bool) -> Any:
-        """Begin or end moving a little."""
-        return self._do("breathing", on=is_on)
+    set_enabled = method("setEnabled::v(b)")(lambda self, is_on: self._do("breathing", on=is_on))
 
-    @method("isEnabled::b()")
-    def is_enabled(self) -> bool:
-        """Return whether it moves a little."""
-        return bool(self._robot.state().settings["breathing"])
-
-    @method("isRunning::b()")
-    def runs(self) -> bool:
-        """Return whether it moves a little."""
-        return self.is_enabled()
+    is_enabled = method("isEnabled::b()", "isRunning::b()")(
+        lambda self: bool(self._robot.state().settings["breathing"])
+    )
 
 
 class ALSpeakingMovement(Module):
@@ -225,10 +135,9 @@ class ALSpeakingMovement(Module):
         "setMode::v(s)", "getMode::s()", "contextual", ("contextual", "random", "disabled")
     )
 
-    @method("isRunning::b()")
-    def runs(self) -> bool:
-        """Return whether it speaks and may move."""
-        return bool(self.enabled() and self._robot.state().saying)
+    runs = method("isRunning::b()")(
+        lambda self: bool(self.enabled() and self._robot.state().saying)
+    )
 
 
 class ALListeningMovement(Module):
@@ -236,10 +145,9 @@ class ALListeningMovement(Module):
 
     set_enabled, enabled = kept("setEnabled::v(b)", "isEnabled::b()", True)
 
-    @method("isRunning::b()")
-    def runs(self) -> bool:
-        """Return whether it listens and may move."""
-        return bool(self.enabled() and self._robot.state().listening)
+    runs = method("isRunning::b()")(
+        lambda self: bool(self.enabled() and self._robot.state().listening)
+    )
 
 
 class ALAutonomousBlinking(Module):
@@ -248,11 +156,71 @@ class ALAutonomousBlinking(Module):
     set_enabled, enabled = kept("setEnabled::v(b)", "isEnabled::b()", True)
 
 
-def _stimulus(name: str) -> str:
-    if name not in STIMULI:
-        raise CallFailed(
-            "There is no stimulus “{name}”. Possible: {stimuli}.",
-            name=name,
-            stimuli=", ".join(STIMULI),
-        )
-    return f"stimulus {name}"
+# The body and the system: touch, battery, temperature, names and versions.
+
+
+class ALTouch(Module):
+    """Which sensors are touched."""
+
+    sensor_list = method("getSensorList::[s]()")(lambda self: list(TOUCH_NAMES.values()))
+
+    @method("getStatus::m()")
+    def status(self) -> list[list[Any]]:
+        """Return for each sensor its name and whether it is touched."""
+        sensors = self._robot.state().sensors
+        return [[name, sensors.get(sensor, 0.0) > 0.0, []] for sensor, name in TOUCH_NAMES.items()]
+
+
+class ALBattery(Module):
+    """How full the battery is."""
+
+    # How full it is, in percent
+    charge = method("getBatteryCharge::i()")(lambda self: round(self._robot.state().battery * 100))
+
+
+class ALBodyTemperature(Module):
+    """How hot the motors are: never too hot."""
+
+    # What is too hot: nothing, which NAOqi tells with no value
+    diagnosis = always(None, "getTemperatureDiagnosis::m()")
+
+    set_notifications, notifications = kept(
+        "setEnableNotifications::v(b)", "areNotificationsEnabled::b()", True
+    )
+
+
+class ALSystem(Module):
+    """The name and the version of the robot."""
+
+    robot_name = method("robotName::s()")(lambda self: self._robot.name)
+    # False: the robot has the name that it has on the Robots page
+    set_robot_name = always(False, "setRobotName::b(s)")
+    system_version = always(VERSION, "systemVersion::s()")
+    # The version before the last change: there was none
+    previous_system_version = always("", "previousSystemVersion::s()")
+    timezone = method("timezone::s()")(lambda self: time.tzname[0])
+
+    @method("shutdown::v()")
+    def shutdown(self) -> None:
+        """Raise CallFailed: its window switches it off."""
+        raise CallFailed("The robot on the screen is switched off by stopping its node.")
+
+    @method("reboot::v()")
+    def reboot(self) -> None:
+        """Raise CallFailed: its window starts it again."""
+        raise CallFailed("The robot on the screen is started again by restarting its node.")
+
+
+class ALRobotModel(Module):
+    """What kind of robot it is."""
+
+    robot_type = method("getRobotType::s()")(
+        lambda self: Path(self._robot.robot.model).name.capitalize() or "Nao"
+    )
+    config = always(
+        "Body/Type nao\nHead/BaseVersion VERSION_60\nBody/BaseVersion VERSION_60", "getConfig::s()"
+    )
+
+    has_arms = method("hasArms::b()")(lambda self: "LArm" in chains_of(self._robot.robot.body))
+    has_hands = method("hasHands::b()")(lambda self: "LHand" in self._robot.robot.body.index)
+    has_legs = method("hasLegs::b()")(lambda self: "LLeg" in chains_of(self._robot.robot.body))

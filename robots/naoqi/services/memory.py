@@ -69,8 +69,8 @@ class ALMemory(Module):
             del history[:-REMEMBERED_EVENTS]
         self._notify(event, value)
 
-    @method("getData::m(s)")
-    def get_data(self, key: str) -> Any:
+    @method("getData::m(s)", "getData::m(si)")
+    def get_data(self, key: str, deprecated: int = 0) -> Any:
         """Return the value of a key. Raises CallFailed when there is none."""
         with self._lock:
             if key in self._data:
@@ -80,35 +80,15 @@ class ALMemory(Module):
             raise CallFailed("ALMemory has no data “{key}”.", key=key)
         return reader()
 
-    @method("getData::m(si)")
-    def get_data_old(self, key: str, deprecated: int) -> Any:
-        """Return the value of a key."""
-        return self.get_data(key)
-
     @method("getListData::m(m)")
     def get_list_data(self, keys: Any) -> list[Any]:
         """Return the values of some keys; None for those that there are not."""
         with self._robot.moment():
             return [self._value(key) for key in texts(keys)]
 
-    @method("insertData::v(si)")
-    def insert_int(self, key: str, value: int) -> None:
-        """Keep a whole number."""
-        self._store(key, value)
-
-    @method("insertData::v(sf)")
-    def insert_float(self, key: str, value: float) -> None:
-        """Keep a number."""
-        self._store(key, value)
-
-    @method("insertData::v(ss)")
-    def insert_text(self, key: str, value: str) -> None:
-        """Keep a text."""
-        self._store(key, value)
-
-    @method("insertData::v(sm)")
+    @method(*(f"insertData::v(s{kind})" for kind in "ifsm"))
     def insert_data(self, key: str, value: Any) -> None:
-        """Keep any value."""
+        """Keep a value."""
         self._store(key, value)
 
     @method("insertListData::v(m)")
@@ -127,10 +107,9 @@ class ALMemory(Module):
             if self._data.pop(key, None) is None:
                 raise CallFailed("ALMemory has no data “{key}”.", key=key)
 
-    @method("getDataList::[s](s)")
-    def data_list(self, part: str) -> list[str]:
-        """Return the keys that have a text in their name."""
-        return [key for key in self.data_list_name() if part in key]
+    data_list = method("getDataList::[s](s)")(
+        lambda self, part: [key for key in self.data_list_name() if part in key]
+    )
 
     @method("getDataListName::[s]()")
     def data_list_name(self) -> list[str]:
@@ -156,10 +135,7 @@ class ALMemory(Module):
         with self._lock:
             return list(self._history.get(event, []))
 
-    @method("declareEvent::v(s)")
-    def declare_event(self, event: str) -> None:
-        """Make an event known."""
-        self.declare(event)
+    declare_event = method("declareEvent::v(s)")(lambda self, event: self.declare(event))
 
     @method("declareEvent::v(ss)")
     def declare_event_of(self, event: str, extractor: str) -> None:
@@ -178,10 +154,8 @@ class ALMemory(Module):
         with self._lock:
             return sorted(self._micro_events)
 
-    @method("raiseEvent::v(sm)")
-    def raise_event(self, event: str, value: Any) -> None:
-        """Give an event a new value, and tell who wants to know."""
-        self.tell(event, value)
+    # Give an event a new value, and tell who wants to know
+    raise_event = method("raiseEvent::v(sm)")(lambda self, event, value: self.tell(event, value))
 
     @method("raiseMicroEvent::v(sm)")
     def raise_micro_event(self, event: str, value: Any) -> None:
@@ -234,7 +208,7 @@ class ALMemory(Module):
             self._micro_events.add(event)
             self._modules.setdefault(event, {})[module] = (method_name, message)
 
-    @method("unsubscribeToEvent::v(ss)")
+    @method("unsubscribeToEvent::v(ss)", "unsubscribeToMicroEvent::v(ss)")
     def unsubscribe_to_event(self, event: str, module: str) -> None:
         """Call a service no more."""
         with self._lock:
@@ -242,11 +216,6 @@ class ALMemory(Module):
                 raise CallFailed(
                     "“{module}” has not subscribed to “{event}”.", module=module, event=event
                 )
-
-    @method("unsubscribeToMicroEvent::v(ss)")
-    def unsubscribe_to_micro_event(self, event: str, module: str) -> None:
-        """Call a service no more."""
-        self.unsubscribe_to_event(event, module)
 
     @method("getSubscribers::[s](s)")
     def subscribers(self, event: str) -> list[str]:
@@ -323,23 +292,16 @@ TOUCH_NAMES = {
 MEASURES = {
     f"{DEVICE}/US/Left/Sensor/Value": "sonar_left",
     f"{DEVICE}/US/Right/Sensor/Value": "sonar_right",
-    f"{DEVICE}/InertialSensor/AccelerometerX/Sensor/Value": "acc_x",
-    f"{DEVICE}/InertialSensor/AccelerometerY/Sensor/Value": "acc_y",
-    f"{DEVICE}/InertialSensor/AccelerometerZ/Sensor/Value": "acc_z",
-    f"{DEVICE}/InertialSensor/GyroscopeX/Sensor/Value": "gyro_x",
-    f"{DEVICE}/InertialSensor/GyroscopeY/Sensor/Value": "gyro_y",
-    f"{DEVICE}/InertialSensor/GyroscopeZ/Sensor/Value": "gyro_z",
+    **{
+        f"{DEVICE}/InertialSensor/{name}{axis}/Sensor/Value": f"{ours}_{axis.lower()}"
+        for name, ours in (("Accelerometer", "acc"), ("Gyroscope", "gyro"))
+        for axis in "XYZ"
+    },
     f"{DEVICE}/LFoot/FSR/TotalWeight/Sensor/Value": "foot_left",
     f"{DEVICE}/RFoot/FSR/TotalWeight/Sensor/Value": "foot_right",
     "leftFootTotalWeight": "foot_left",
     "rightFootTotalWeight": "foot_right",
-    f"{DEVICE}/Head/Touch/Front/Sensor/Value": "head_front",
-    f"{DEVICE}/Head/Touch/Middle/Sensor/Value": "head_middle",
-    f"{DEVICE}/Head/Touch/Rear/Sensor/Value": "head_rear",
-    f"{DEVICE}/LHand/Touch/Back/Sensor/Value": "hand_left",
-    f"{DEVICE}/RHand/Touch/Back/Sensor/Value": "hand_right",
-    f"{DEVICE}/LFoot/Bumper/Left/Sensor/Value": "bumper_left",
-    f"{DEVICE}/RFoot/Bumper/Right/Sensor/Value": "bumper_right",
+    **{f"{DEVICE}/{name}/Sensor/Value": sensor for sensor, name in TOUCH_NAMES.items()},
     f"{DEVICE}/ChestBoard/Button/Sensor/Value": "chest_button",
     **{event: sensor for sensor, event in TOUCH_EVENTS.items()},
 }

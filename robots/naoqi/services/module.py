@@ -92,6 +92,45 @@ def kept(setter: str, getter: str, default: Any, choices: Collection[Any] = ()) 
     return change, read
 
 
+def kept_each(
+    setter: str,
+    getter: str,
+    default: Any,
+    *,
+    of_all: str = "",
+    known: Callable[[Any, str], object] = lambda self, name: None,
+) -> Kept:
+    """Return a pair of methods for values that the robot remembers by a name.
+
+    What has none has that of the name ``of_all``. ``known`` raises CallFailed for strange names.
+    """
+    what = getter.partition("::")[0]
+    answer = True if "::b" in setter else None
+
+    @method(setter)
+    def change(self: Module, name: str, value: Any) -> Any:
+        known(self, name)
+        self._kept[f"{what} {name}"] = value
+        return answer
+
+    @method(getter)
+    def read(self: Module, name: str) -> Any:
+        known(self, name)
+        return self._kept.get(f"{what} {name}", self._kept.get(f"{what} {of_all}", default))
+
+    return change, read
+
+
+def always(value: Any, *signatures: str) -> Callable[..., Any]:
+    """Return a method that answers the same to every call."""
+
+    @method(*signatures)
+    def answer(self: Module, *given: Any) -> Any:
+        return value
+
+    return answer
+
+
 # Several actions one after the other, as one call of a program: it waits for the last one.
 
 

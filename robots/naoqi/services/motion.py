@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import time
 import zlib
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from itertools import pairwise
 from typing import Any
 
@@ -29,32 +29,23 @@ from .arguments import (
     lists,
     number,
     numbers,
+    one_of,
     rows,
     texts,
     within,
     words,
 )
 from .ends import Ends, six_numbers
-from .module import Module, kept, one_by_one, play_script
+from .module import Module, kept, kept_each, one_by_one, play_script
 
 CYCLE_MS = 10
 TORQUE = 0.0
 """What ALMotion tells for a torque that it does not know."""
 CHAIN_NAMES = ["Head", "LArm", "LLeg", "RLeg", "Leg", "RArm"]
 SENSORS = [
-    "AccelerometerX",
-    "AccelerometerY",
-    "AccelerometerZ",
-    "GyroscopeX",
-    "GyroscopeY",
-    "GyroscopeZ",
-    "CameraTop",
-    "CameraBottom",
-    "HeadTouchFront",
-    "HeadTouchMiddle",
-    "HeadTouchRear",
-    "SonarLeft",
-    "SonarRight",
+    *(f"{sensor}{axis}" for sensor in ("Accelerometer", "Gyroscope") for axis in "XYZ"),
+    *("CameraTop", "CameraBottom", "HeadTouchFront", "HeadTouchMiddle", "HeadTouchRear"),
+    *("SonarLeft", "SonarRight"),
 ]
 
 MOVE_CONFIG = {
@@ -109,22 +100,14 @@ class ALMotion(Module):
         "setBreathConfig::v(m)", "getBreathConfig::m()", [["Bpm", 12.0], ["Amplitude", 0.5]]
     )
 
-    @method("getBodyNames::[s](s)")
+    @method("getBodyNames::[s](s)", "getJointNames::[s](s)")
     def body_names(self, name: str) -> list[str]:
         """Return the joints of a chain or group; “Chains” are the names of the chains."""
         if name == "Chains":
             return [name for name in CHAIN_NAMES if name in chains_of(self._robot.robot.body)]
         return joint_names(self._robot.robot.body, name)
 
-    @method("getJointNames::[s](s)")
-    def joint_names(self, name: str) -> list[str]:
-        """Return the joints of a chain or group."""
-        return self.body_names(name)
-
-    @method("getSensorNames::[s]()")
-    def sensor_names(self) -> list[str]:
-        """Return the names of the sensors."""
-        return list(SENSORS)
+    sensor_names = method("getSensorNames::[s]()")(lambda self: list(SENSORS))
 
     @method("getLimits::m(s)")
     def limits(self, name: str) -> list[list[float]]:
@@ -139,10 +122,8 @@ class ALMotion(Module):
         config = {"Model Type": "naoH25", "Head Version": "VERSION_60", "Arms": True, "Legs": True}
         return [list(config), list(config.values())]
 
-    @method("getMotionCycleTime::i()")
-    def cycle_time(self) -> int:
-        """Return how long a step of the movement lasts, in milliseconds."""
-        return CYCLE_MS
+    # How long a step of the movement lasts, in milliseconds
+    cycle_time = method("getMotionCycleTime::i()")(lambda self: CYCLE_MS)
 
     @method("getMass::f(s)")
     def mass(self, name: str) -> float:
@@ -163,47 +144,30 @@ class ALMotion(Module):
         """Return whether a chain breathes."""
         return bool(self._kept.get(f"breath {chain}", self._kept.get("breath Body", False)))
 
-    @method("setIdlePostureEnabled::v(sb)")
-    def set_idle_posture(self, chain: str, is_on: bool) -> None:
-        """Remember whether a chain keeps its posture while nobody asks anything."""
-        joint_names(self._robot.robot.body, chain)
-        self._kept[f"idle {chain}"] = is_on
-
-    @method("getIdlePostureEnabled::b(s)")
-    def idle_posture(self, chain: str) -> bool:
-        """Return whether a chain keeps its posture."""
-        return bool(self._kept.get(f"idle {chain}", False))
-
-    @method("setCollisionProtectionEnabled::b(sb)")
-    def set_collision_protection(self, chain: str, is_on: bool) -> bool:
-        """Remember whether an arm avoids the body."""
-        self._kept[f"collision {chain}"] = is_on
-        return True
-
-    @method("getCollisionProtectionEnabled::b(s)")
-    def collision_protection(self, chain: str) -> bool:
-        """Return whether an arm avoids the body."""
-        return bool(self._kept.get(f"collision {chain}", True))
-
-    @method("setExternalCollisionProtectionEnabled::v(sb)")
-    def set_external_collision_protection(self, name: str, is_on: bool) -> None:
-        """Remember whether it stops before obstacles."""
-        self._kept[f"external {name}"] = is_on
-
-    @method("getExternalCollisionProtectionEnabled::b(s)")
-    def external_collision_protection(self, name: str) -> bool:
-        """Return whether it stops before obstacles."""
-        return bool(self._kept.get(f"external {name}", self._kept.get("external All", True)))
+    set_idle_posture, idle_posture = kept_each(
+        "setIdlePostureEnabled::v(sb)",
+        "getIdlePostureEnabled::b(s)",
+        False,
+        known=lambda self, chain: joint_names(self._robot.robot.body, chain),
+    )
+    set_collision_protection, collision_protection = kept_each(
+        "setCollisionProtectionEnabled::b(sb)", "getCollisionProtectionEnabled::b(s)", True
+    )
+    set_external_collision_protection, external_collision_protection = kept_each(
+        "setExternalCollisionProtectionEnabled::v(sb)",
+        "getExternalCollisionProtectionEnabled::b(s)",
+        True,
+        of_all="All",
+    )
 
     @method("getTaskList::m()")
     def task_list(self) -> list[list[Any]]:
         """Return what moves it: name, number, who asked, priority, joints."""
         return [self._task(command) for command in self._moving()]
 
-    @method("areResourcesAvailable::b([s])")
-    def are_resources_available(self, names: list[str]) -> bool:
-        """Return whether nothing uses some joints or chains."""
-        return not self._limbs(names) & self._robot.busy_limbs()
+    are_resources_available = method("areResourcesAvailable::b([s])")(
+        lambda self, names: not self._limbs(names) & self._robot.busy_limbs()
+    )
 
     @method("killTask::b(i)")
     def kill_task(self, number: int) -> bool:
@@ -247,102 +211,51 @@ class ALMotion(Module):
 
     # Walking
 
-    @method("moveInit::v()")
-    def move_init(self) -> Any:
-        """Stand ready to walk."""
-        return self._do("do", posture="posture_stand_init")
+    move_init = method("moveInit::v()", "walkInit::v()")(
+        lambda self: self._do("do", posture="posture_stand_init")
+    )
 
-    @method("walkInit::v()")
-    def walk_init(self) -> Any:
-        """Stand ready to walk."""
-        return self.move_init()
-
-    @method("moveTo::b(fff)")
-    def move_to(self, x: float, y: float, theta: float) -> Any:
+    @method("moveTo::b(fff)", "moveTo::b(fffm)", "walkTo::b(fff)", "walkTo::b(fffm)")
+    def move_to(self, x: float, y: float, theta: float, config: Any = ()) -> Any:
         """Walk x m forward and y m to the left, turning theta rad; wait for the end."""
-        return self._walk([[x, y, theta]])
+        return self.move_along([[x, y, theta]], config)
 
-    @method("moveTo::b(ffff)")
-    def move_to_in(self, x: float, y: float, theta: float, seconds: float) -> Any:
+    @method("moveTo::b(ffff)", "moveTo::b(ffffm)")
+    def move_to_in(self, x: float, y: float, theta: float, seconds: float, config: Any = ()) -> Any:
         """Walk a way; this robot walks at the pace that it has."""
-        return self._walk([[x, y, theta]])
+        return self.move_along([[x, y, theta]], config)
 
-    @method("moveTo::b(fffm)")
-    def move_to_with(self, x: float, y: float, theta: float, config: Any) -> Any:
-        """Walk a way, with settings."""
-        _check_config(config)
-        return self._walk([[x, y, theta]])
-
-    @method("moveTo::b(ffffm)")
-    def move_to_in_with(self, x: float, y: float, theta: float, seconds: float, config: Any) -> Any:
-        """Walk a way, with settings; this robot walks at the pace that it has."""
-        return self.move_to_with(x, y, theta, config)
-
-    @method("moveTo::b(m)")
-    def move_along(self, points: Any) -> Any:
+    @method("moveTo::b(m)", "moveTo::b(mm)", "walkTo::b(m)")
+    def move_along(self, points: Any, config: Any = ()) -> Any:
         """Walk by one or several places, each x m, y m, theta rad from where it starts."""
-        return self._walk(_places(points))
-
-    @method("moveTo::b(mm)")
-    def move_along_with(self, points: Any, config: Any) -> Any:
-        """Walk by one or several places, with settings."""
         _check_config(config)
-        return self._walk(_places(points))
+        places = [(0.0, 0.0, 0.0), *_places(points)]
+        ways = [("walk", _way(here, there)) for here, there in pairwise(places)]
+        return play_script(self._robot, one_by_one(ways), True, stopped=False)
 
-    @method("walkTo::b(fff)")
-    def walk_to(self, x: float, y: float, theta: float) -> Any:
-        """Walk a way; wait for the end."""
-        return self._walk([[x, y, theta]])
-
-    @method("walkTo::b(fffm)")
-    def walk_to_with(self, x: float, y: float, theta: float, config: Any) -> Any:
-        """Walk a way, with settings."""
-        return self.move_to_with(x, y, theta, config)
-
-    @method("walkTo::b(m)")
-    def walk_along(self, points: Any) -> Any:
-        """Walk by one or several places."""
-        return self._walk(_places(points))
-
-    @method("move::v(fff)")
-    def move(self, x: float, y: float, theta: float) -> None:
+    @method("move::v(fff)", "move::v(fffm)")
+    def move(self, x: float, y: float, theta: float, config: Any = ()) -> None:
         """Walk on at speeds (m/s, m/s, rad/s) until told otherwise; nobody waits."""
+        _check_config(config)
         speeds = [number(speed) for speed in (x, y, theta)]
         parts = [speed / most for speed, most in zip(speeds, FASTEST, strict=True)]
         self._walk_on([min(max(part, -1.0), 1.0) for part in parts])
 
-    @method("move::v(fffm)")
-    def move_with(self, x: float, y: float, theta: float, config: Any) -> None:
-        """Walk on at speeds, with settings."""
-        _check_config(config)
-        self.move(x, y, theta)
-
-    @method("moveToward::v(fff)")
-    def move_toward(self, x: float, y: float, theta: float) -> None:
+    @method("moveToward::v(fff)", "moveToward::v(fffm)")
+    def move_toward(self, x: float, y: float, theta: float, config: Any = ()) -> None:
         """Walk on at parts (-1 to 1) of the highest speeds; nobody waits."""
+        _check_config(config)
         self._walk_on([within(part, -1.0, 1.0, "A speed") for part in (x, y, theta)])
 
-    @method("moveToward::v(fffm)")
-    def move_toward_with(self, x: float, y: float, theta: float, config: Any) -> None:
-        """Walk on at parts of the highest speeds, with settings."""
-        _check_config(config)
-        self.move_toward(x, y, theta)
-
-    @method("setWalkTargetVelocity::v(ffff)")
-    def set_walk_target_velocity(self, x: float, y: float, theta: float, frequency: float) -> None:
+    @method("setWalkTargetVelocity::v(ffff)", "setWalkTargetVelocity::v(ffffm)")
+    def set_walk_target_velocity(
+        self, x: float, y: float, theta: float, frequency: float, config: Any = ()
+    ) -> None:
         """Walk on at parts of the highest speeds; this robot has one frequency of steps."""
         within(frequency, 0.0, 1.0, "The frequency")
-        self.move_toward(x, y, theta)
+        self.move_toward(x, y, theta, config)
 
-    @method("setWalkTargetVelocity::v(ffffm)")
-    def set_walk_target_velocity_with(
-        self, x: float, y: float, theta: float, frequency: float, config: Any
-    ) -> None:
-        """Walk on at parts of the highest speeds, with settings."""
-        _check_config(config)
-        self.set_walk_target_velocity(x, y, theta, frequency)
-
-    @method("waitUntilMoveIsFinished::v()")
+    @method("waitUntilMoveIsFinished::v()", "waitUntilWalkIsFinished::v()")
     def wait_until_move_is_finished(self) -> Any:
         """Wait until it does not walk any more."""
         promise = Promise()
@@ -350,51 +263,29 @@ class ALMotion(Module):
         promise.on_cancel = lambda: promise.cancelled() if stop() else None
         return promise.future
 
-    @method("waitUntilWalkIsFinished::v()")
-    def wait_until_walk_is_finished(self) -> Any:
-        """Wait until it does not walk any more."""
-        return self.wait_until_move_is_finished()
-
-    @method("moveIsActive::b()")
+    @method("moveIsActive::b()", "walkIsActive::b()")
     def move_is_active(self) -> bool:
         """Return whether it walks."""
         return any(map(_is_walk, self._robot.commands()))
 
-    @method("walkIsActive::b()")
-    def walk_is_active(self) -> bool:
-        """Return whether it walks."""
-        return self.move_is_active()
-
-    @method("stopMove::b()")
+    @method("stopMove::b()", "stopWalk::b()")
     def stop_move(self) -> bool:
         """Stop walking."""
         self.kill_move()
         return True
 
-    @method("stopWalk::b()")
-    def stop_walk(self) -> bool:
-        """Stop walking."""
-        return self.stop_move()
-
-    @method("killMove::v()")
+    @method("killMove::v()", "killWalk::v()")
     def kill_move(self) -> None:
         """Stop walking."""
         self._end_waiting()
         self._robot.stop(_is_walk)
 
-    @method("killWalk::v()")
-    def kill_walk(self) -> None:
-        """Stop walking."""
-        self.kill_move()
+    @method("getRobotPosition::[f](b)", "getNextRobotPosition::[f]()")
+    def robot_position(self, use_sensors: bool = True) -> list[float]:
+        """Return where it is on the floor: x m, y m, theta rad from where it was switched on.
 
-    @method("getRobotPosition::[f](b)")
-    def robot_position(self, use_sensors: bool) -> list[float]:
-        """Return where it is on the floor: x m, y m, theta rad from where it was switched on."""
-        return list(self._robot.state().base)
-
-    @method("getNextRobotPosition::[f]()")
-    def next_robot_position(self) -> list[float]:
-        """Return where it will be after the steps that it cannot change any more: here, now."""
+        After the steps that it cannot change any more it will be here, too.
+        """
         return list(self._robot.state().base)
 
     @method("getRobotVelocity::[f]()")
@@ -417,17 +308,8 @@ class ALMotion(Module):
     def move_arms_enabled(self, chain: str) -> bool:
         """Return whether an arm may swing while it walks; “Arms” are both."""
         arms = self._kept.get("arms", dict.fromkeys(("LArm", "RArm", "Arms"), True))
-        if chain not in arms:
-            raise CallFailed("There is no arm “{chain}”. Possible: LArm, RArm, Arms.", chain=chain)
+        one_of(chain, arms, "There is no arm “{chain}”. Possible: LArm, RArm, Arms.")
         return bool(arms[chain])
-
-    def _walk(self, places: list[list[float]]) -> Any:
-        here = (0.0, 0.0, 0.0)
-        ways = []
-        for x, y, theta in places:
-            ways.append(("walk", _way(here, (x, y, theta))))
-            here = (x, y, theta)
-        return play_script(self._robot, one_by_one(ways), True, stopped=False)
 
     def _walk_on(self, parts: list[float]) -> None:
         """Walk on at other speeds; a robot that has just begun a step is let go on for a while."""
@@ -491,34 +373,28 @@ class ALMotion(Module):
     @method("angleInterpolationWithSpeed::v(mmf)")
     def angle_interpolation_withspeed_of(self, names: Any, angles: Any, fraction: float) -> Any:
         """Move joints to angles at a part of their top speed; wait until they are there."""
-        joints = joints_of(self._robot.robot.body, names)
-        goals = dict(zip(joints, numbers(angles, len(joints), "angles"), strict=True))
+        goals = self._for_each_joint(names, angles, "angles")
         return self._do("reach_angles", angles=goals, speed=_speed_of(fraction))
 
     @method("setAngles::v(mmf)")
     def set_angles(self, names: Any, angles: Any, fraction: float) -> None:
         """Let joints go to angles at a part of their top speed; nobody waits."""
-        joints = joints_of(self._robot.robot.body, names)
-        goals = dict(zip(joints, numbers(angles, len(joints), "angles"), strict=True))
+        goals = self._for_each_joint(names, angles, "angles")
         self._set("set_angles", angles=goals, speed=_speed_of(fraction))
 
     @method("setAngles::v(mm[f])")
     def set_angles_each(self, names: Any, angles: Any, fractions: list[float]) -> None:
         """Let joints go to angles, each at a part of its top speed."""
-        joints = joints_of(self._robot.robot.body, names)
-        goals = numbers(angles, len(joints), "angles")
-        speeds = numbers(fractions, len(joints), "fractions of the top speed")
-        for joint, angle, fraction in zip(joints, goals, speeds, strict=True):
-            self._set("set_angles", angles={joint: angle}, speed=_speed_of(fraction))
+        goals = self._for_each_joint(names, angles, "angles")
+        speeds = self._for_each_joint(names, fractions, "fractions of the top speed")
+        for joint, angle in goals.items():
+            self._set("set_angles", angles={joint: angle}, speed=_speed_of(speeds[joint]))
 
     @method("changeAngles::v(mmf)")
     def change_angles(self, names: Any, changes: Any, fraction: float) -> None:
         """Let joints go further by some angles than where they were told to go."""
-        joints = joints_of(self._robot.robot.body, names)
-        by = numbers(changes, len(joints), "changes")
-        goals = {
-            name: self._commanded(name) + change for name, change in zip(joints, by, strict=True)
-        }
+        by = self._for_each_joint(names, changes, "changes")
+        goals = {joint: self._commanded(joint) + change for joint, change in by.items()}
         self._set("set_angles", angles=goals, speed=_speed_of(fraction))
 
     @method("getAngles::[f](mb)")
@@ -541,20 +417,13 @@ class ALMotion(Module):
         """Close a hand; wait until it is closed."""
         return self._do("hand", side=_side(hand), open=False)
 
-    @method("wakeUp::b()")
-    def wake_up(self) -> Any:
-        """Let all motors hold, and stand up."""
-        return self._do("wake_up", True, stopped=False)
+    # Let all motors hold, and stand up
+    wake_up = method("wakeUp::b()")(lambda self: self._do("wake_up", True, stopped=False))
+    rest = method("rest::v()")(lambda self: self._do("rest"))  # Go down, and let all motors loose
 
-    @method("rest::v()")
-    def rest(self) -> Any:
-        """Go down, and let all motors loose."""
-        return self._do("rest")
-
-    @method("robotIsWakeUp::b()")
-    def robot_is_wake_up(self) -> bool:
-        """Return whether motors hold and it does not rest."""
-        return bool(self._robot.state().settings["awake"])
+    robot_is_wake_up = method("robotIsWakeUp::b()")(
+        lambda self: bool(self._robot.state().settings["awake"])
+    )
 
     @method("setStiffnesses::v(mm)")
     def set_stiffnesses(self, names: Any, stiffnesses: Any) -> Any:
@@ -580,12 +449,12 @@ class ALMotion(Module):
             return [stiffness(robot, joint) for joint in joints_of(robot.body, names)]
 
     def _firmness(self, names: Any, stiffnesses: Any) -> dict[str, float]:
+        values = self._for_each_joint(names, stiffnesses, "stiffnesses")
+        return {joint: within(values[joint], 0.0, 1.0, "The stiffness") for joint in values}
+
+    def _for_each_joint(self, names: Any, values: Any, what: str) -> dict[str, float]:
         joints = joints_of(self._robot.robot.body, names)
-        values = numbers(stiffnesses, len(joints), "stiffnesses")
-        return {
-            joint: within(value, 0.0, 1.0, "The stiffness")
-            for joint, value in zip(joints, values, strict=True)
-        }
+        return dict(zip(joints, numbers(values, len(joints), what), strict=True))
 
     def _commanded(self, joint: str) -> float:
         """Return where a joint was told to go."""
@@ -602,8 +471,7 @@ class ALMotion(Module):
     def position(self, name: str, space: int, use_sensors: bool) -> list[float]:
         """Return where a part is: x, y, z m and turns about them, rad."""
         frame = self._ends.frame(name, space)
-        x, y, z, roll, pitch, yaw = pose_of(frame[:3, :3], frame[:3, 3])
-        return [x, y, z, roll, pitch, yaw]
+        return list(pose_of(frame[:3, :3], frame[:3, 3]))
 
     @method("getTransform::[f](sib)")
     def transform(self, name: str, space: int, use_sensors: bool) -> list[float]:
@@ -620,9 +488,7 @@ class ALMotion(Module):
         self, name: str, space: int, place: list[float], fraction: float, mask: int
     ) -> None:
         """Let an end go to a place at a part of the joints' top speed; nobody waits."""
-        keys = self._ends.keys(name, space, [six_numbers(place)], mask, is_absolute=True)
-        angles = {joint: row[0] for joint, row in keys.items()}
-        self._set("set_angles", angles=angles, speed=_speed_of(fraction))
+        self._go(self._ends.keys(name, space, [six_numbers(place)], mask), fraction)
 
     @method("setPositions::v(mmmfm)")
     def set_positions(
@@ -640,7 +506,10 @@ class ALMotion(Module):
         self, name: str, space: int, change: list[float], fraction: float, mask: int
     ) -> None:
         """Let an end go further by a way from where it is; nobody waits."""
-        keys = self._ends.keys(name, space, [six_numbers(change)], mask, is_absolute=False)
+        further = self._ends.keys(name, space, [six_numbers(change)], mask, is_absolute=False)
+        self._go(further, fraction)
+
+    def _go(self, keys: dict[str, list[float]], fraction: float) -> None:
         angles = {joint: row[0] for joint, row in keys.items()}
         self._set("set_angles", angles=angles, speed=_speed_of(fraction))
 
@@ -657,22 +526,18 @@ class ALMotion(Module):
         self, names: list[str], space: int, paths: Any, masks: Any, times: Any, is_absolute: bool
     ) -> Any:
         """Move several ends by places at times; wait until they are there."""
-        tracks: dict[str, Any] = {}
-        of_each, at_each = _for_each(paths, len(names)), _for_each(times, len(names))
-        for name, path, mask, at in zip(names, of_each, _whole(masks, names), at_each, strict=True):
-            tracks |= self._tracks(name, space, path, mask, at, is_absolute=is_absolute)
-        return self._do("move_through", tracks=tracks)
+        return self.position_interpolations_in(names, space, paths, masks, times, is_absolute)
 
     @method("positionInterpolations::v(mmmmm)")
     def position_interpolations_in(
-        self, names: Any, spaces: Any, paths: Any, masks: Any, times: Any
+        self, names: Any, spaces: Any, paths: Any, masks: Any, times: Any, is_absolute: bool = True
     ) -> Any:
         """Move several ends by places at times, each in a space of its own."""
         ends, tracks = texts(names), dict[str, Any]()
         of_each, at_each = _for_each(paths, len(ends)), _for_each(times, len(ends))
         where = zip(ends, _whole(spaces, ends), of_each, _whole(masks, ends), at_each, strict=True)
         for name, space, path, mask, at in where:
-            tracks |= self._tracks(name, space, path, mask, at, is_absolute=True)
+            tracks |= self._tracks(name, space, path, mask, at, is_absolute=is_absolute)
         return self._do("move_through", tracks=tracks)
 
     def _tracks(
@@ -683,7 +548,7 @@ class ALMotion(Module):
         keys = self._ends.keys(
             name, space, [six_numbers(one) for one in places], mask, is_absolute=is_absolute
         )
-        ends = numbers(times, len(places), "times") if len(places) > 1 else [_single(times)]
+        ends = numbers(times, len(places), "times")
         return {
             joint: {"times": _rising(joint, ends, row), "keys": row} for joint, row in keys.items()
         }
@@ -697,7 +562,7 @@ def _is_walk(command: Command) -> bool:
     return isinstance(command.action, (Walk, Turn, WalkFreely))
 
 
-def _way(here: tuple[float, float, float], there: tuple[float, float, float]) -> dict[str, float]:
+def _way(here: Sequence[float], there: Sequence[float]) -> dict[str, float]:
     """Return the walk from one place to another, both seen from the same start."""
     x, y, turn = (number(b) - a for a, b in zip(here, there, strict=True))
     cosine, sine = math.cos(here[2]), math.sin(here[2])
@@ -730,9 +595,7 @@ def _speed_of(fraction: float) -> float:
 
 
 def _side(hand: str) -> str:
-    if hand not in SIDES:
-        raise CallFailed("There is no hand “{hand}”. Possible: LHand, RHand.", hand=hand)
-    return SIDES[hand]
+    return SIDES[one_of(hand, SIDES, "There is no hand “{hand}”. Possible: LHand, RHand.")]
 
 
 def _rising(joint: str, times: list[float], keys: list[float]) -> list[float]:
@@ -762,10 +625,6 @@ def _handle(point: Any, place: int) -> tuple[float, float]:
         return 0.0, 0.0
     _, time, angle, *_ = [*rows(handles[place], "A handle"), 0.0, 0.0, 0.0]
     return number(time), number(angle)
-
-
-def _single(times: Any) -> float:
-    return numbers(times, 1, "times")[0]
 
 
 def _whole(value: Any, names: list[str]) -> list[int]:

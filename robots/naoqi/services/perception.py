@@ -15,8 +15,8 @@ from robots.naoqi.serving import ServedRobot
 from robots.naoqi.wire.errors import CallFailed
 from robots.naoqi.wire.service import method
 
-from .arguments import CODES, code_of
-from .module import Asked, Module, kept
+from .arguments import CODES, code_of, one_of
+from .module import Asked, Module, always, kept
 
 PERIOD_MS = 500
 PRECISION = 1.0
@@ -40,13 +40,8 @@ class Extractor(Module):
     def _changed(self) -> None:
         """Do what follows from being on, or not any more."""
 
-    @method("subscribe::v(s)")
-    def subscribe(self, name: str) -> None:
-        """Begin, for a subscriber."""
-        self.subscribe_with(name, PERIOD_MS, PRECISION)
-
-    @method("subscribe::v(sif)")
-    def subscribe_with(self, name: str, period: int, precision: float) -> None:
+    @method("subscribe::v(s)", "subscribe::v(sif)")
+    def subscribe(self, name: str, period: int = PERIOD_MS, precision: float = PRECISION) -> None:
         """Begin, for a subscriber who wants news every so many milliseconds."""
         self._subscribers[name] = (period, precision)
         self._changed()
@@ -78,35 +73,19 @@ class Extractor(Module):
         """Return how exact it is."""
         return max((precision for _, precision in self._subscribers.values()), default=PRECISION)
 
-    @method("getMyPeriod::i(s)")
-    def my_period(self, name: str) -> int:
-        """Return how often a subscriber wants news, in milliseconds."""
-        return self._subscription(name)[0]
-
-    @method("getMyPrecision::f(s)")
-    def my_precision(self, name: str) -> float:
-        """Return how exact a subscriber wants the news."""
-        return self._subscription(name)[1]
+    # How often a subscriber wants news, in milliseconds
+    my_period = method("getMyPeriod::i(s)")(lambda self, name: self._subscription(name)[0])
+    my_precision = method("getMyPrecision::f(s)")(lambda self, name: self._subscription(name)[1])
 
     @method("getSubscribersInfo::m()")
     def subscribers_info(self) -> list[list[Any]]:
         """Return the name, period and precision of each subscriber."""
         return [[name, *wanted] for name, wanted in self._subscribers.items()]
 
-    @method("getOutputNames::[s]()")
-    def output_names(self) -> list[str]:
-        """Return the keys in ALMemory that it writes."""
-        return list(self.events)
-
-    @method("getEventList::[s]()")
-    def event_list(self) -> list[str]:
-        """Return the events that it raises."""
-        return list(self.events)
-
-    @method("getMemoryKeyList::[s]()")
-    def memory_key_list(self) -> list[str]:
-        """Return the keys in ALMemory that it writes without an event."""
-        return []
+    event_list = method("getOutputNames::[s]()", "getEventList::[s]()")(
+        lambda self: list(self.events)
+    )
+    memory_key_list = always([], "getMemoryKeyList::[s]()")  # all that it writes are events
 
     def _subscription(self, name: str) -> tuple[int, float]:
         if name not in self._subscribers:
@@ -123,15 +102,8 @@ class PausableExtractor(Extractor):
         self._is_paused = is_paused
         self._changed()
 
-    @method("isPaused::b()")
-    def paused(self) -> bool:
-        """Return whether it is paused."""
-        return self._is_paused
-
-    @method("isProcessing::b()")
-    def processing(self) -> bool:
-        """Return whether it looks or listens now."""
-        return self.is_on
+    paused = method("isPaused::b()")(lambda self: self._is_paused)
+    processing = method("isProcessing::b()")(lambda self: self.is_on)
 
 
 # ALSpeechRecognition: hears the words of a vocabulary.
@@ -184,20 +156,10 @@ class ALSpeechRecognition(PausableExtractor):
         code_of(language)
         self._language = language
 
-    @method("getLanguage::s()")
-    def language(self) -> str:
-        """Return the language that it understands."""
-        return self._language
+    language = method("getLanguage::s()")(lambda self: self._language)
+    available_languages = method("getAvailableLanguages::[s]()")(lambda self: list(CODES))
 
-    @method("getAvailableLanguages::[s]()")
-    def available_languages(self) -> list[str]:
-        """Return the languages that it understands."""
-        return list(CODES)
-
-    @method("setVisualExpression::v(b)")
-    def set_visual_expression(self, is_on: bool) -> None:
-        """Remember whether the eyes show that it listens."""
-        self._kept["visual"] = is_on
+    set_visual_expression = always(None, "setVisualExpression::v(b)")  # the eyes show nothing
 
     @method("setParameter::v(sf)")
     def set_parameter(self, name: str, value: float) -> None:
@@ -207,11 +169,7 @@ class ALSpeechRecognition(PausableExtractor):
     @method("getParameter::f(s)")
     def parameter(self, name: str) -> float:
         """Return how it listens."""
-        if name not in self._parameters:
-            known = ", ".join(self._parameters)
-            raise CallFailed(
-                "There is no parameter “{name}”. Possible: {known}.", name=name, known=known
-            )
+        one_of(name, self._parameters, "There is no parameter “{name}”. Possible: {known}.")
         return self._parameters[name]
 
     @method("removeAllContext::v()")
@@ -245,20 +203,12 @@ class ALFaceDetection(PausableExtractor):
     )
     set_tracking, tracking = kept("setTrackingEnabled::v(b)", "isTrackingEnabled::b()", False)
 
-    @method("learnFace::b(s)")
-    def learn_face(self, name: str) -> Any:
-        """Learn the face in front of it."""
-        return self._do("learn_face", True, name=name)
-
-    @method("reLearnFace::b(s)")
-    def relearn_face(self, name: str) -> Any:
-        """Learn the face in front of it once more."""
-        return self._do("learn_face", True, name=name)
-
-    @method("forgetPerson::b(s)")
-    def forget_person(self, name: str) -> Any:
-        """Forget a face."""
-        return self._do("forget_face", True, name=name)
+    learn_face = method("learnFace::b(s)", "reLearnFace::b(s)")(
+        lambda self, name: self._do("learn_face", True, name=name)
+    )
+    forget_person = method("forgetPerson::b(s)")(
+        lambda self, name: self._do("forget_face", True, name=name)
+    )
 
     @method("clearDatabase::b()")
     def clear_database(self) -> bool:
@@ -294,8 +244,8 @@ class ALSoundLocalization(PausableExtractor):
     @method("setParameter::v(sm)")
     def set_parameter(self, name: str, value: Any) -> None:
         """Remember how well it hears: Sensitivity (0 to 1) or EnergyComputation."""
-        if name not in ("Sensitivity", "Sensibility", "EnergyComputation"):
-            raise CallFailed("There is no parameter “{name}”. Possible: Sensitivity.", name=name)
+        known = ("Sensitivity", "Sensibility", "EnergyComputation")
+        one_of(name, known, "There is no parameter “{name}”. Possible: Sensitivity.")
         self._kept[name] = value
 
 

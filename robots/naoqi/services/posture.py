@@ -9,10 +9,9 @@ import numpy as np
 from robots.body.body import Body
 from robots.body.limbs import Limb
 from robots.body.pose import VirtualRobot
-from robots.naoqi.wire.errors import CallFailed
 from robots.naoqi.wire.service import method
 
-from .arguments import within
+from .arguments import one_of, within
 from .module import Module
 
 UNKNOWN = "Unknown"
@@ -60,23 +59,13 @@ def family_of(robot: VirtualRobot) -> str:
 class ALRobotPosture(Module):
     """Goes to postures, and tells which one it is in."""
 
-    @method("goToPosture::b(sf)")
+    @method("goToPosture::b(sf)", "applyPosture::b(sf)")
     def go_to_posture(self, name: str, speed: float) -> Any:
         """Go to a posture, through others where it must; wait for the end."""
         pace = within(speed, 0.0, 1.0, "The speed") / USUAL_SPEED
         known = posture_names(self._robot.robot.body)
-        if name not in known:
-            raise CallFailed(
-                "There is no posture “{name}”. Possible: {known}.",
-                name=name,
-                known=", ".join(known),
-            )
+        one_of(name, known, "There is no posture “{name}”. Possible: {known}.")
         return self._do("do", True, stopped=False, posture=name, pace=max(pace, SLOWEST_PACE))
-
-    @method("applyPosture::b(sf)")
-    def apply_posture(self, name: str, speed: float) -> Any:
-        """Go to a posture; this robot goes through others where it must, which is safer."""
-        return self.go_to_posture(name, speed)
 
     @method("setMaxTryNumber::v(i)")
     def set_max_try_number(self, tries: int) -> None:
@@ -94,10 +83,9 @@ class ALRobotPosture(Module):
         with self._robot.lock:
             return posture_of(self._robot.robot)
 
-    @method("getPostureList::[s]()")
-    def posture_list(self) -> list[str]:
-        """Return the postures that it can go to."""
-        return posture_names(self._robot.robot.body)
+    posture_list = method("getPostureList::[s]()")(
+        lambda self: posture_names(self._robot.robot.body)
+    )
 
     @method("getPostureFamily::s()")
     def posture_family(self) -> str:
@@ -105,7 +93,6 @@ class ALRobotPosture(Module):
         with self._robot.lock:
             return family_of(self._robot.robot)
 
-    @method("getPostureFamilyList::[s]()")
-    def posture_family_list(self) -> list[str]:
-        """Return the families that there are."""
-        return ["Standing", "Crouching", "Sitting", "LyingBelly", "LyingBack"]
+    posture_family_list = method("getPostureFamilyList::[s]()")(
+        lambda self: ["Standing", "Crouching", "Sitting", "LyingBelly", "LyingBack"]
+    )

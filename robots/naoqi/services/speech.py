@@ -16,8 +16,8 @@ from robots.naoqi.wire.errors import CallFailed
 from robots.naoqi.wire.service import method
 
 from .animations import AnimationNames
-from .arguments import CODES, NAMES, code_of, number, texts, within, words
-from .module import Asked, Begin, Module, Plot, Script, play_script
+from .arguments import CODES, NAMES, code_of, number, one_of, texts, within, words
+from .module import Asked, Begin, Module, Plot, Script, always, play_script
 
 # Reads text to be said: its tags for the voice, and the instructions of animated speech.
 #
@@ -129,7 +129,6 @@ class ALTextToSpeech(Module):
     def __init__(self, robot: ServedRobot) -> None:
         super().__init__(robot)
         self._parameters = dict(PARAMETERS)
-        self._voice = VOICE
 
     @property
     def voice(self) -> Voice:
@@ -137,15 +136,19 @@ class ALTextToSpeech(Module):
         shift = self._parameters["pitchShift"] or 1.0  # NAOqi: 0 is no shift
         return Voice(percent(self._parameters["speed"]), percent(100.0 * shift))
 
-    @method("say::v(s)")
-    def say(self, text: str) -> Any:
-        """Say a text; wait until it is said."""
-        return play_script(self._robot, self._saying(text, ""))
+    @method("say::v(s)", "say::v(ss)")
+    def say(self, text: str, *language: str) -> Any:
+        """Say a text, in a language or as it is set; wait until it is said."""
+        code = code_of(language[0]) if language else ""
 
-    @method("say::v(ss)")
-    def say_in(self, text: str, language: str) -> Any:
-        """Say a text in a language."""
-        return play_script(self._robot, self._saying(text, code_of(language)))
+        def play(begin: Begin) -> Script:
+            for part in read_text(text, self.voice, with_instructions=False):
+                if isinstance(part, Pause):
+                    yield begin("silence", seconds=part.seconds)
+                elif isinstance(part, Words):
+                    yield say_words(begin, part, language=code)
+
+        return play_script(self._robot, play)
 
     @method("sayToFile::v(ss)")
     def say_to_file(self, text: str, file: str) -> None:
@@ -157,30 +160,16 @@ class ALTextToSpeech(Module):
         """Stop saying anything."""
         self._robot.stop(lambda command: Limb.VOICE in command.limbs)
 
-    @method("setLanguage::v(s)")
-    def set_language(self, language: str) -> Any:
-        """Choose the language."""
-        return self._do("language", language=code_of(language))
-
-    @method("getLanguage::s()")
-    def language(self) -> str:
-        """Return the language that it speaks."""
-        return NAMES.get(str(self._robot.state().settings["language"]), "English")
-
-    @method("getAvailableLanguages::[s]()")
-    def available_languages(self) -> list[str]:
-        """Return the languages that it speaks."""
-        return list(CODES)
-
-    @method("getSupportedLanguages::[s]()")
-    def supported_languages(self) -> list[str]:
-        """Return the languages that there are."""
-        return list(CODES)
-
-    @method("locale::s()")
-    def locale(self) -> str:
-        """Return the code of the language that it speaks."""
-        return str(self._robot.state().settings["language"])
+    set_language = method("setLanguage::v(s)")(
+        lambda self, language: self._do("language", language=code_of(language))
+    )
+    language = method("getLanguage::s()")(
+        lambda self: NAMES.get(str(self._robot.state().settings["language"]), "English")
+    )
+    available_languages = always(
+        list(CODES), "getAvailableLanguages::[s]()", "getSupportedLanguages::[s]()"
+    )
+    locale = method("locale::s()")(lambda self: str(self._robot.state().settings["language"]))
 
     @method("setVolume::v(f)")
     def set_volume(self, volume: float) -> Any:
@@ -201,11 +190,7 @@ class ALTextToSpeech(Module):
     @method("getParameter::f(s)")
     def parameter(self, name: str) -> float:
         """Return how the voice sounds."""
-        if name not in self._parameters:
-            known = ", ".join(self._parameters)
-            raise CallFailed(
-                "The voice has no parameter “{name}”. Possible: {known}.", name=name, known=known
-            )
+        one_of(name, self._parameters, "The voice has no parameter “{name}”. Possible: {known}.")
         return self._parameters[name]
 
     @method("resetSpeed::v()")
@@ -218,33 +203,13 @@ class ALTextToSpeech(Module):
         """Let the voice sound as at the start."""
         self._parameters = dict(PARAMETERS)
 
-    @method("getAvailableVoices::[s]()")
-    def available_voices(self) -> list[str]:
-        """Return the voices that there are."""
-        return [VOICE]
-
-    @method("getVoice::s()")
-    def voice_name(self) -> str:
-        """Return the voice that speaks."""
-        return self._voice
+    available_voices = always([VOICE], "getAvailableVoices::[s]()")
+    voice_name = always(VOICE, "getVoice::s()")
 
     @method("setVoice::v(s)")
     def set_voice(self, name: str) -> None:
         """Choose the voice."""
-        if name != VOICE:
-            raise CallFailed(
-                "There is no voice “{name}”. Possible: {voice}.", name=name, voice=VOICE
-            )
-
-    def _saying(self, text: str, language: str) -> Plot:
-        def play(begin: Begin) -> Script:
-            for part in read_text(text, self.voice, with_instructions=False):
-                if isinstance(part, Pause):
-                    yield begin("silence", seconds=part.seconds)
-                elif isinstance(part, Words):
-                    yield say_words(begin, part, language=language)
-
-        return play
+        one_of(name, [VOICE], "There is no voice “{name}”. Possible: {voice}.")
 
 
 def say_words(
@@ -280,26 +245,23 @@ class ALAnimatedSpeech(Module):
         self._mode = "contextual"
         self._chance = random.Random(robot.name)
 
-    @method("say::v(s)")
-    def say(self, text: str) -> Any:
-        """Say a text with the body; wait until it is said."""
-        return self._say(text, self._mode)
-
-    @method("say::v(sm)")
-    def say_with(self, text: str, configuration: Any) -> Any:
-        """Say a text with settings: {"bodyLanguageMode": "disabled"}."""
+    @method("say::v(s)", "say::v(sm)")
+    def say(self, text: str, configuration: Any = ()) -> Any:
+        """Say a text with the body, with settings ({"bodyLanguageMode": "disabled"}); wait."""
         settings = words(configuration, "The settings of speech")
-        return self._say(text, _mode(settings.get("bodyLanguageMode", self._mode)))
+        mode = _mode(settings.get("bodyLanguageMode", self._mode))
+        parts = read_text(text, self._voice(), with_instructions=True)
+        for part in parts:  # an unknown animation is told before it begins to speak
+            if isinstance(part, Instruction):
+                self._check(part)
+        return play_script(self._robot, self._telling(parts, mode))
 
     @method("setBodyLanguageModeFromStr::v(s)")
     def set_mode_name(self, mode: str) -> None:
         """Choose how it moves while it speaks: disabled, random, contextual."""
         self._mode = _mode(mode)
 
-    @method("getBodyLanguageModeToStr::s()")
-    def mode_name(self) -> str:
-        """Return how it moves while it speaks."""
-        return self._mode
+    mode_name = method("getBodyLanguageModeToStr::s()")(lambda self: self._mode)
 
     @method("setBodyLanguageMode::v(I)")
     def set_mode(self, mode: int) -> None:
@@ -308,43 +270,23 @@ class ALAnimatedSpeech(Module):
             raise CallFailed("There is no mode {mode}. Possible: 0, 1, 2.", mode=mode)
         self._mode = MODES[mode]
 
-    @method("getBodyLanguageMode::I()")
-    def mode(self) -> int:
-        """Return how it moves while it speaks, as a number."""
-        return MODES.index(self._mode)
+    # How it moves while it speaks, as a number
+    mode = method("getBodyLanguageMode::I()")(lambda self: MODES.index(self._mode))
 
-    @method("setBodyLanguageEnabled::v(b)")
+    @method("setBodyLanguageEnabled::v(b)", "setBodyTalkEnabled::v(b)")
     def set_body_language(self, is_on: bool) -> None:
         """Let it move while it speaks, or not."""
         self._mode = "contextual" if is_on else "disabled"
 
-    @method("isBodyLanguageEnabled::b()")
-    def body_language(self) -> bool:
-        """Return whether it moves while it speaks."""
-        return self._mode != "disabled"
-
-    @method("setBodyTalkEnabled::v(b)")
-    def set_body_talk(self, is_on: bool) -> None:
-        """Let it move while it speaks, or not."""
-        self.set_body_language(is_on)
-
-    @method("isBodyTalkEnabled::b()")
-    def body_talk(self) -> bool:
-        """Return whether it moves while it speaks."""
-        return self.body_language()
+    body_language = method("isBodyLanguageEnabled::b()", "isBodyTalkEnabled::b()")(
+        lambda self: self._mode != "disabled"
+    )
 
     @method("declareTagForAnimations::v(m)")
     def declare_tags(self, tags: Any) -> None:
         """Give animations more tags."""
         for tag, paths in words(tags, "The tags of animations").items():
             self._names.tags.setdefault(tag, []).extend(texts(paths))
-
-    def _say(self, text: str, mode: str) -> Any:
-        parts = read_text(text, self._voice(), with_instructions=True)
-        for part in parts:  # an unknown animation is told before it begins to speak
-            if isinstance(part, Instruction):
-                self._check(part)
-        return play_script(self._robot, self._telling(parts, mode))
 
     def _check(self, part: Instruction) -> None:
         if part.verb == "mode":
@@ -391,8 +333,4 @@ class ALAnimatedSpeech(Module):
 
 
 def _mode(name: Any) -> str:
-    if name not in MODES:
-        raise CallFailed(
-            "There is no mode “{name}”. Possible: {modes}.", name=name, modes=", ".join(MODES)
-        )
-    return str(name)
+    return str(one_of(name, MODES, "There is no mode “{name}”. Possible: {modes}."))

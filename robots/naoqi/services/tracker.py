@@ -9,7 +9,7 @@ from robots.naoqi.serving import ServedRobot
 from robots.naoqi.wire.errors import CallFailed
 from robots.naoqi.wire.service import method
 
-from .arguments import number, within
+from .arguments import number, one_of, within
 from .module import Module, kept
 
 FRAMES = ("torso", "world", "robot")
@@ -75,10 +75,7 @@ class ALTracker(Module):
     @method("track::v(s)")
     def track(self, target: str) -> None:
         """Follow something from now on, as soon as it is seen; nobody waits."""
-        if target not in self._registered:
-            raise CallFailed(
-                "“{target}” is not registered: call registerTarget first.", target=target
-            )
+        one_of(target, self._registered, "“{target}” is not registered: call registerTarget first.")
         self._active = target
         using = "body" if self.mode() in ("WholeBody", "Move", "Navigate") else "head"
         # Refused now, when it is not in sight, it is followed all the same once it comes.
@@ -90,25 +87,13 @@ class ALTracker(Module):
         thing, self._active = THINGS.get(self._active, "face"), ""
         self._robot.ask("track", thing=thing, using="off")
 
-    @method("getActiveTarget::s()")
-    def active_target(self) -> str:
-        """Return what it follows."""
-        return self._active
+    active_target = method("getActiveTarget::s()")(lambda self: self._active)
+    is_active = method("isActive::b()")(lambda self: bool(self._active))
+    is_target_lost = method("isTargetLost::b()")(lambda self: self._place() is None)
 
-    @method("isActive::b()")
-    def is_active(self) -> bool:
-        """Return whether it follows something."""
-        return bool(self._active)
-
-    @method("isTargetLost::b()")
-    def is_target_lost(self) -> bool:
-        """Return whether what it follows is out of sight."""
-        return self._place() is None
-
-    @method("isNewTargetDetected::b()")
-    def is_new_target_detected(self) -> bool:
-        """Return whether what it follows is in sight."""
-        return self._place() is not None
+    is_new_target_detected = method("isNewTargetDetected::b()")(
+        lambda self: self._place() is not None
+    )
 
     @method("getTargetPosition::[f](i)")
     def target_position(self, frame: int) -> list[float]:
@@ -121,25 +106,11 @@ class ALTracker(Module):
                 return list(to_world(robot, place))
             return list(in_torso(robot, place, "robot") if wanted == "torso" else place)
 
-    @method("getRobotPosition::[f]()")
-    def robot_position(self) -> list[float]:
-        """Return where the robot is: x m, y m, theta rad."""
-        return list(self._robot.state().base)
-
-    @method("getAvailableModes::[s]()")
-    def available_modes(self) -> list[str]:
-        """Return the ways of following."""
-        return list(MODES)
-
-    @method("getSupportedTargets::[s]()")
-    def supported_targets(self) -> list[str]:
-        """Return what can be followed."""
-        return list(THINGS)
-
-    @method("getRegisteredTargets::[s]()")
-    def registered_targets(self) -> list[str]:
-        """Return what will be followed."""
-        return list(self._registered)
+    # Where the robot is: x m, y m, theta rad
+    robot_position = method("getRobotPosition::[f]()")(lambda self: list(self._robot.state().base))
+    available_modes = method("getAvailableModes::[s]()")(lambda self: list(MODES))
+    supported_targets = method("getSupportedTargets::[s]()")(lambda self: list(THINGS))
+    registered_targets = method("getRegisteredTargets::[s]()")(lambda self: list(self._registered))
 
     @method("lookAt::v([f]ifb)")
     def look_at(self, place: list[float], frame: int, fraction: float, use_body: bool) -> Any:
@@ -157,14 +128,8 @@ class ALTracker(Module):
     def point_at(self, effector: str, place: list[float], frame: int, fraction: float) -> Any:
         """Point at a place, m, in a frame; wait until it is done."""
         within(fraction, 0.0, 1.0, "The fraction of the top speed")
-        if effector not in ARMS:
-            raise CallFailed(
-                "There is no arm “{effector}”. Possible: {arms}.",
-                effector=effector,
-                arms=", ".join(ARMS),
-            )
+        arm = ARMS[one_of(effector, ARMS, "There is no arm “{effector}”. Possible: {arms}.")]
         x, y, z = _coordinates(place)
-        arm = ARMS[effector]
         return self._do("point_at", x_m=x, y_m=y, z_m=z, frame=_frame(frame), arm=arm)
 
     @method("pointAt::v(s[f]f)")
@@ -187,13 +152,7 @@ class ALTracker(Module):
 
 
 def _thing(target: str) -> str:
-    if target not in THINGS:
-        raise CallFailed(
-            "“{target}” cannot be followed. Possible: {things}.",
-            target=target,
-            things=", ".join(THINGS),
-        )
-    return THINGS[target]
+    return THINGS[one_of(target, THINGS, "“{target}” cannot be followed. Possible: {things}.")]
 
 
 def _frame(number_of: int) -> str:

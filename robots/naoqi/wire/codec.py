@@ -99,7 +99,16 @@ def _reader_of(kind: Type) -> Read:
     if letter in NUMBERS:
         return _read_number(NUMBERS[letter])
     if letter in "[#":
-        return _read_list(kind.parts[0])
+        element = kind.parts[0]
+        smallest, weight = element.smallest, element.weight
+        if element.letter in NUMBERS:
+            return _read_numbers(NUMBERS[element.letter], smallest)
+        read_element = _reader_of(element)
+
+        def read(reader: Reader) -> list[Any]:
+            return [read_element(reader) for _ in range(_checked_count(reader, smallest, weight))]
+
+        return read
     if letter in "{~":
         return _read_map(*(kind.parts if letter == "{" else (Type("s"), kind.parts[0])))
     if letter == "(":
@@ -172,18 +181,6 @@ def _checked_count(reader: Reader, smallest: int, weight: int) -> int:
     return count
 
 
-def _read_list(element: Type) -> Read:
-    smallest, weight = element.smallest, element.weight
-    if element.letter in NUMBERS:
-        return _read_numbers(NUMBERS[element.letter], smallest)
-    read_element = _reader_of(element)
-
-    def read(reader: Reader) -> list[Any]:
-        return [read_element(reader) for _ in range(_checked_count(reader, smallest, weight))]
-
-    return read
-
-
 def _read_numbers(code: str, size: int) -> Read:
     """Many numbers are read at once: robots send their joints so, fifty times a second."""
 
@@ -253,23 +250,14 @@ Write = Callable[[bytearray, Any, ObjectHost | None], None]
 def encode(type_text: str, value: Any, host: ObjectHost | None = None) -> bytes:
     """Return the bytes of a value as this type. Raises WrongArguments when it is not of it."""
     out = bytearray()
-    write_value(writer_of(type_text), out, value, host)
-    return bytes(out)
-
-
-def write_value(write: Write, out: bytearray, value: Any, host: ObjectHost | None) -> None:
-    """Write one value. Raises WrongArguments, whatever the value is.
-
-    ``write`` puts ``value`` at the end of ``out``; ``host`` takes the objects in it (None: it
-    may hold none).
-    """
     try:
-        write(out, value, host)
+        writer_of(type_text)(out, value, host)
     except (struct.error, TypeError, ValueError, OverflowError, RecursionError) as problem:
         text = repr(value) if not isinstance(problem, RecursionError) else "This"
         raise WrongArguments(
             "{text} is not a value for this: {problem}.", text=text[:200], problem=problem
         ) from problem
+    return bytes(out)
 
 
 @lru_cache(maxsize=1024)
@@ -281,7 +269,20 @@ def writer_of(type_text: str) -> Write:
 def _writer_of(kind: Type) -> Write:
     letter = kind.letter
     if letter in NUMBERS:
-        return _write_number(letter)
+        pack = struct.Struct("<" + NUMBERS[letter]).pack
+        is_whole = letter in WHOLE
+
+        def write(out: bytearray, value: Any, host: ObjectHost | None) -> None:
+            if is_whole and isinstance(value, float):
+                value = int(value)
+            out += pack(value)
+
+        def write_truth(out: bytearray, value: Any, host: ObjectHost | None) -> None:
+            if not isinstance(value, bool | int | float):
+                raise TypeError("neither true nor false")
+            out.append(bool(value))
+
+        return write_truth if letter == "b" else write
     if letter in "[#":
         return _write_list(kind.parts[0])
     if letter in "{~":
@@ -293,23 +294,6 @@ def _writer_of(kind: Type) -> Write:
     if letter in PLAIN_WRITERS:
         return PLAIN_WRITERS[letter]
     raise WrongArguments("Values of the type “{kind}” cannot be sent.", kind=kind)
-
-
-def _write_number(letter: str) -> Write:
-    pack = struct.Struct("<" + NUMBERS[letter]).pack
-    is_whole = letter in WHOLE
-
-    def write(out: bytearray, value: Any, host: ObjectHost | None) -> None:
-        if is_whole and isinstance(value, float):
-            value = int(value)
-        out += pack(value)
-
-    def write_truth(out: bytearray, value: Any, host: ObjectHost | None) -> None:
-        if not isinstance(value, bool | int | float):
-            raise TypeError("neither true nor false")
-        out.append(bool(value))
-
-    return write_truth if letter == "b" else write
 
 
 def _write_text(out: bytearray, value: Any, host: ObjectHost | None) -> None:

@@ -184,7 +184,15 @@ class Peer:
             return
         kind = frame.kind
         if kind == Kind.CALL or kind == Kind.POST:
-            self._take_call(frame)
+            key = (frame.service, frame.object)
+            bound = self.objects.get(key) or self.find(*key)
+            if bound is None:
+                place = f"{{{frame.service}.{frame.object}.{frame.action}, id:{frame.number}}}"
+                self.answer_error(frame, f"can't find service, address: {place}")
+            elif self._is_server:
+                bound.take(frame, self)
+            else:
+                self.turns.add(lambda: bound.take(frame, self))
         elif kind == Kind.REPLY or kind == Kind.ERROR or kind == Kind.CANCELLED:
             self._take_answer(frame)
         elif kind == Kind.EVENT:
@@ -201,17 +209,6 @@ class Peer:
         with contextlib.suppress(BadFrame):
             said = read_value(reader_of("{sm}"), Reader(frame.payload))
             self.capabilities = said
-
-    def _take_call(self, frame: Frame) -> None:
-        key = (frame.service, frame.object)
-        bound = self.objects.get(key) or self.find(*key)
-        if bound is None:
-            place = f"{{{frame.service}.{frame.object}.{frame.action}, id:{frame.number}}}"
-            self.answer_error(frame, f"can't find service, address: {place}")
-        elif self._is_server:
-            bound.take(frame, self)
-        else:
-            self.turns.add(lambda: bound.take(frame, self))
 
     def answer_error(self, frame: Frame, text: Words) -> None:
         """Say why a call could not be done."""

@@ -7,9 +7,9 @@
         @method("shine::b(sf)")
         def shine(self, colour: str, seconds: float) -> bool: ...
 
-Overloads are several methods with one NAOqi name. Calls of one caller come one after the other;
-callers come at the same time. A method that has to wait returns ``promise.future``, or says
-``blocks=True`` and gets a thread.
+Overloads are several methods with one NAOqi name, or one method with several signatures. Calls of
+one caller come one after the other; callers come at the same time. A method that has to wait
+returns ``promise.future``, or says ``blocks=True`` and gets a thread.
 """
 
 from __future__ import annotations
@@ -72,17 +72,18 @@ class Mark:
 
 
 def method(
-    signature: str, *, uid: int = 0, description: str = "", blocks: bool = False
+    *signatures: str, uid: int = 0, description: str = "", blocks: bool = False
 ) -> Callable[[Method], Method]:
-    """Offer a method under this signature, such as ``goToPosture::b(sf)``.
+    """Offer a method under these signatures, such as ``goToPosture::b(sf)``.
 
     ``uid`` is its number, where a robot has one for it; ``description`` is for people;
     ``blocks``: it may wait, and gets a thread.
     """
-    mark = Mark(Signature.parse(signature, uid=uid, description=description), blocks)
+    parsed = [Signature.parse(one, uid=uid, description=description) for one in signatures]
+    marks = tuple(Mark(one, blocks) for one in parsed)
 
     def note(function: Method) -> Method:
-        setattr(function, MARK, (*getattr(function, MARK, ()), mark))
+        setattr(function, MARK, (*getattr(function, MARK, ()), *marks))
         return function
 
     return note

@@ -136,7 +136,19 @@ def type_text_of(value: Any) -> str:
         return f"{{{_shared(list(value))}{_shared(list(value.values()))}}}" if value else "{sm}"
     if isinstance(value, tuple):
         return f"({''.join(map(type_text_of, value))})"
-    return _unusual(value)
+    # Subclasses of the usual types, numpy's values, objects
+    if is_object(value):
+        return "o"
+    if hasattr(value, "tolist"):
+        return type_text_of(value.tolist())
+    for usual, text in SCALARS.items():
+        if isinstance(value, usual):
+            return text
+    if isinstance(value, int):
+        return _whole(value)
+    if isinstance(value, list):
+        return type_text_of(list(value))
+    raise TypeError(f"NAOqi has no type for {type(value).__name__}")
 
 
 def _whole(value: int) -> str:
@@ -162,22 +174,6 @@ def _shared(values: list[Any]) -> str:
     return texts.pop() if len(texts) == 1 and kind is list else "m"
 
 
-def _unusual(value: Any) -> str:
-    """Subclasses of the usual types, numpy's values, objects."""
-    if is_object(value):
-        return "o"
-    if hasattr(value, "tolist"):
-        return type_text_of(value.tolist())
-    for usual, text in SCALARS.items():
-        if isinstance(value, usual):
-            return text
-    if isinstance(value, int):
-        return _whole(value)
-    if isinstance(value, list):
-        return type_text_of(list(value))
-    raise TypeError(f"NAOqi has no type for {type(value).__name__}")
-
-
 def fit(value: Any, wanted: Type) -> float:
     """Return how well a value fits a type: 1 as it is, 0 not at all."""
     letter = wanted.letter
@@ -186,38 +182,30 @@ def fit(value: Any, wanted: Type) -> float:
     if letter == "+":
         return 1.0 if value is None else fit(value, wanted.parts[0])
     if letter in NUMERIC:
-        return _fit_number(value, letter)
+        if isinstance(value, bool):
+            return 1.0 if letter == "b" else 0.92
+        if not isinstance(value, int | float):
+            return 0.0
+        if letter == "b":
+            return 0.91
+        if isinstance(value, int):
+            return 1.0 if letter in WHOLE else 0.95
+        return 1.0 if letter in FLOATING else 0.93
     if letter in "[#":
         return _fit_all(value, wanted.parts[0]) if isinstance(value, list | tuple) else 0.0
     if letter in "{~":
-        return _fit_map(value, wanted)
+        if not isinstance(value, Mapping):
+            return 0.0
+        key, part = wanted.parts if wanted.letter == "{" else (Type("s"), wanted.parts[0])
+        return min(_fit_all(value, key), _fit_all(value.values(), part))
     if letter == "(":
         return _fit_structure(value, wanted)
     usual = {"s": str, "r": bytes | bytearray | memoryview, "v": type(None)}.get(letter)
     return float(is_object(value) if usual is None else isinstance(value, usual))
 
 
-def _fit_number(value: Any, letter: str) -> float:
-    if isinstance(value, bool):
-        return 1.0 if letter == "b" else 0.92
-    if not isinstance(value, int | float):
-        return 0.0
-    if letter == "b":
-        return 0.91
-    if isinstance(value, int):
-        return 1.0 if letter in WHOLE else 0.95
-    return 1.0 if letter in FLOATING else 0.93
-
-
 def _fit_all(values: Any, wanted: Type) -> float:
     return min((fit(value, wanted) for value in values), default=0.99)
-
-
-def _fit_map(value: Any, wanted: Type) -> float:
-    if not isinstance(value, Mapping):
-        return 0.0
-    key, part = wanted.parts if wanted.letter == "{" else (Type("s"), wanted.parts[0])
-    return min(_fit_all(value, key), _fit_all(value.values(), part))
 
 
 def _fit_structure(value: Any, wanted: Type) -> float:

@@ -98,7 +98,7 @@ def test_a_robot_lies_or_stands_on_the_floor(
 ) -> None:
     placed = figure.pose(state(posture))
 
-    lowest = placed.farthest(np.array([0.0, 0.0, -1.0]))[:, 2].min()
+    lowest = placed.farthest(np.array([[0.0, 0.0, -1.0]]))[:, 0, 2].min()
     assert lowest == pytest.approx(0.0, abs=1e-6)
 
 
