@@ -45,15 +45,11 @@ def run_node(manifest: Manifest, name: str, given: dict[str, Any]) -> int:
             if node.stopping:
                 log.info("after it was asked to stop: %s", error)
             else:
-                return _failed(node, error)
+                node.close("crashed", error.fault)
+                handover.hand_over(error.fault)
+                print("\n".join([str(error), *steps_of(error)]), file=sys.stderr)
+                return 1
     return ASKED if is_launched and node.was_asked else 0
-
-
-def _failed(node: Node, error: FaultError) -> int:
-    node.close("crashed", error.fault)
-    handover.hand_over(error.fault)
-    print("\n".join([str(error), *steps_of(error)]), file=sys.stderr)
-    return 1
 
 
 def _run_function(manifest: Manifest) -> Callable[..., None]:
@@ -86,7 +82,13 @@ def _load(manifest: Manifest) -> ModuleType:
 
 def main(arguments: list[str]) -> int:
     """Run the node until it ends, Ctrl-C or SIGTERM; the exit code."""
-    options = _parser().parse_intermixed_args(arguments)
+    parser = argparse.ArgumentParser(
+        prog="nep-studio node", description="Run one node in this terminal; Ctrl-C stops it."
+    )
+    parser.add_argument("node", help='type and name, such as "sensory/virtual_watch", or a .toml')
+    parser.add_argument("--name", default="", help="the node's name in the network")
+    parser.add_argument("settings", nargs="*", metavar="setting=value")
+    options = parser.parse_intermixed_args(arguments)
     logging.basicConfig(level=logging.WARNING, format="%(levelname)s %(name)s: %(message)s")
     try:
         manifest = _manifest(options.node)
@@ -115,13 +117,3 @@ def _manifest(node: str) -> Manifest:
     if node.endswith(".toml"):
         return read_manifest(Path(node))
     return NodeCatalog(node_folders()).find(node)
-
-
-def _parser() -> argparse.ArgumentParser:
-    parser = argparse.ArgumentParser(
-        prog="nep-studio node", description="Run one node in this terminal; Ctrl-C stops it."
-    )
-    parser.add_argument("node", help='type and name, such as "sensory/virtual_watch", or a .toml')
-    parser.add_argument("--name", default="", help="the node's name in the network")
-    parser.add_argument("settings", nargs="*", metavar="setting=value")
-    return parser

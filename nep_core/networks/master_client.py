@@ -136,7 +136,15 @@ class MasterClient:
 
     def tend(self) -> None:
         """Read what the master says, and say what it should know (the I/O thread)."""
-        for answer in self._arrived():
+        answers = []
+        with contextlib.suppress(zmq.Again):
+            while True:
+                frame = self._socket.recv(zmq.NOBLOCK)
+                try:
+                    answers.append(says.decode_answer(frame))
+                except msgspec.MsgspecError as error:
+                    log.warning("the master says what cannot be read: %s", error)
+        for answer in answers:
             self._hear(answer)
         now_s = time.monotonic()
         if self._before_restart and now_s >= self._settled_s:
@@ -171,17 +179,6 @@ class MasterClient:
     def _answered(self, version: int) -> bool:
         return self._answer is not None and self._answer.version >= version
 
-    def _arrived(self) -> list[says.Answer]:
-        answers = []
-        with contextlib.suppress(zmq.Again):
-            while True:
-                frame = self._socket.recv(zmq.NOBLOCK)
-                try:
-                    answers.append(says.decode_answer(frame))
-                except msgspec.MsgspecError as error:
-                    log.warning("the master says what cannot be read: %s", error)
-        return answers
-
     def _hear(self, answer: says.Answer) -> None:
         match answer:
             case says.Registered():
@@ -190,12 +187,10 @@ class MasterClient:
                 self._epoch = answer.epoch
                 for topic, publishers in answer.publishers.items():
                     self._take_publishers(topic, publishers)
-                self._note(answer, answer.subscribers)
             case says.Refused():
                 if self._epoch and not isinstance(self._answer, says.Refused):
                     log.warning("the master does not take us back: %s", answer.sentence)
                 self._sent = None
-                self._note(answer, {})
             case says.Publishers():
                 self._take_publishers(answer.topic, answer.publishers)
             case says.Heard():
@@ -207,14 +202,12 @@ class MasterClient:
                 self._on_computers(answer.keys)
             case _:
                 log.warning("the master answered: %s", answer)
-
-    def _note(
-        self, answer: says.Registered | says.Refused, subscribers: dict[str, list[str]]
-    ) -> None:
-        with self._changed:
-            self._answer = answer
-            self._subscribers |= subscribers
-            self._changed.notify_all()
+        if isinstance(answer, says.Registered | says.Refused):
+            with self._changed:
+                self._answer = answer
+                if isinstance(answer, says.Registered):
+                    self._subscribers |= answer.subscribers
+                self._changed.notify_all()
 
     def _take_publishers(self, topic: str, publishers: list[Publishing]) -> None:
         with self._changed:
@@ -246,24 +239,31 @@ class MasterClient:
         if self._sent is None:
             request = says.Register(version=version, registration=told, epoch=self._epoch)
         else:
-            request = _difference(self._sent, told, asked)
-            request.version, request.base = version, self._sent_version
+            # What the master should know, beside the topics whose ends are asked for
+            sent = self._sent
+            before, now = set(sent.publishes), set(told.publishes)
+            request = says.Change(
+                instance=told.instance,
+                version=version,
+                base=self._sent_version,
+                publishes=sorted((now - before) | (now & asked)),
+                publishes_no_more=sorted(before - now),
+                subscribes=dict(told.subscribes.items() - sent.subscribes.items()),
+                subscribes_no_more=sorted(sent.subscribes.keys() - told.subscribes.keys()),
+            )
         if self._say(request):
             self._sent, self._sent_version = told, version
-            self._forget_topics(told)
+            # Topics that are neither heard nor published here any more
+            heard = set(told.subscribes.values())
+            with self._changed:
+                for topic in self._publishers.keys() - heard:
+                    del self._publishers[topic]
+                    self._before_restart.pop(topic, None)
+                for topic in self._subscribers.keys() - set(told.publishes):
+                    del self._subscribers[topic]
         else:
             with self._changed:
                 self._asked |= asked
-
-    def _forget_topics(self, told: Registration) -> None:
-        """Topics that are neither heard nor published here any more."""
-        heard = set(told.subscribes.values())
-        with self._changed:
-            for topic in self._publishers.keys() - heard:
-                del self._publishers[topic]
-                self._before_restart.pop(topic, None)
-            for topic in self._subscribers.keys() - set(told.publishes):
-                del self._subscribers[topic]
 
     def _say(self, request: says.Request) -> bool:
         try:
@@ -272,20 +272,6 @@ class MasterClient:
             return False  # the master is away: the next tick tries again
         self._next_beat_s = time.monotonic() + HEARTBEAT_S
         return True
-
-
-def _difference(sent: Registration, told: Registration, asked: set[str]) -> says.Change:
-    """What the master should know, beside the topics whose ends are asked for."""
-    before, now = set(sent.publishes), set(told.publishes)
-    return says.Change(
-        instance=told.instance,
-        version=0,
-        base=0,
-        publishes=sorted((now - before) | (now & asked)),
-        publishes_no_more=sorted(before - now),
-        subscribes=dict(told.subscribes.items() - sent.subscribes.items()),
-        subscribes_no_more=sorted(sent.subscribes.keys() - told.subscribes.keys()),
-    )
 
 
 # Following what a master has registered, for tools that show it.

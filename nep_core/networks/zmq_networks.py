@@ -9,6 +9,7 @@ from __future__ import annotations
 import contextlib
 import threading
 from collections.abc import Iterator
+from functools import partial
 from typing import Any, Literal
 
 import zmq
@@ -66,7 +67,8 @@ class ZmqNetwork(Network):
         )
         self.io.watch(self.outbox.file_number)
         self.io.tend(self.outbox.tend)
-        self.io.tend(self._let_go)
+        # The inboxes that were closed are given back: they end only when the waker looks up
+        self.io.tend(partial(self._waker.getsockopt, zmq.EVENTS))
 
     def _make_inbox(self, topic: str, subscriber: str, policy: Policy) -> Inbox:
         try:
@@ -87,10 +89,6 @@ class ZmqNetwork(Network):
                 topic=topic,
                 reason=reason_of(error),
             ) from error
-
-    def _let_go(self) -> None:
-        """Give back the inboxes that were closed: they end only when the waker looks up."""
-        self._waker.getsockopt(zmq.EVENTS)
 
     def take_warning(self) -> Fault | None:
         """Who was refused since the last time, and what to do."""
@@ -223,12 +221,9 @@ class PeerNetwork(ZmqNetwork):
 
     def _open_outbox(self) -> str:
         """Where subscribers find the messages."""
-        return self.outbox.bind(self._own_place())
-
-    def _own_place(self) -> str:
-        """Where to bind: this computer alone, or with keys where other computers reach it."""
+        # Where to bind: this computer alone, or with keys where other computers reach it
         host = "127.0.0.1" if self.security is None else own_address(self.master)
-        return endpoint_at(host, "*")
+        return self.outbox.bind(endpoint_at(host, "*"))
 
     def _tell_topics(self, told: Registration) -> None:
         told.publishes = sorted(topic for topic, count in self._topics.items() if count > 0)

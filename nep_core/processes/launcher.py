@@ -73,10 +73,6 @@ class LaunchedNode:
         elif state.event == "stopped" and self.owns(state.pid):
             self.said_end.set()
 
-    def was_ended(self, outcome: Outcome) -> bool:
-        """Whether it was killed on purpose: ``nep kill --force`` tells so before it does it."""
-        return outcome.code < 0 and self.said_end.is_set()
-
     def has_said_end(self, outcome: Outcome) -> bool:
         """Whether the node itself told that it stopped; waits a moment for its last message."""
         if outcome.code != 0 or not self.ready.is_set():
@@ -231,7 +227,11 @@ class Launcher:
         self.hear()
         manifest = self.catalog.find(node)
         name = name or manifest.name
-        settings = _settings(manifest.read_parameters(dict(parameters or {})))
+        words = {True: "true", False: "false"}  # that every language reads, as Python's are not
+        settings = [
+            f"{key}={words[value] if isinstance(value, bool) else value}"
+            for key, value in manifest.read_parameters(dict(parameters or {})).items()
+        ]
         if manifest.command:
             folder = Path(manifest.path).parent
             command = [part.replace("{folder}", str(folder)) for part in manifest.command]
@@ -322,7 +322,8 @@ class Launcher:
         )
 
     def _ended(self, launched: LaunchedNode, outcome: Outcome) -> None:
-        if launched.was_ended(outcome):
+        if outcome.code < 0 and launched.said_end.is_set():
+            # It was killed on purpose: ``nep kill --force`` tells so before it does it
             outcome = replace(outcome, asked=True)
         again = launched.deserves_another(outcome)
         self._tell_end(launched, outcome, again)
@@ -358,15 +359,6 @@ class Launcher:
         launched = self.nodes.get(state.node)
         if launched is not None:
             launched.hear(state)
-
-
-def _settings(parameters: Mapping[str, Value]) -> list[str]:
-    """As words that every language reads: no True and False of Python."""
-    words = {True: "true", False: "false"}
-    return [
-        f"{name}={words[value] if isinstance(value, bool) else value}"
-        for name, value in parameters.items()
-    ]
 
 
 def _guarded(command: list[str]) -> list[str]:

@@ -189,19 +189,15 @@ _wishes: SimpleQueue[tuple[Callable[[], Any], Future[Any]]] = SimpleQueue()
 
 def in_lasting_thread(start: Callable[[], T]) -> T:
     """Call ``start`` in that thread; what it returns or raises."""
-    result: Future[T] = Future()
-    _live()
-    _wishes.put((start, result))
-    return result.result()
-
-
-def _live() -> None:
     global _thread, _wishes
+    result: Future[T] = Future()
     with _lock:
         if _thread is None or not _thread.is_alive():  # a fork of this program has no threads
             _wishes = SimpleQueue()
             _thread = threading.Thread(target=_work, args=(_wishes,), name="nep-start", daemon=True)
             _thread.start()
+    _wishes.put((start, result))
+    return result.result()
 
 
 def _work(wishes: SimpleQueue[tuple[Callable[[], Any], Future[Any]]]) -> None:
@@ -301,19 +297,6 @@ class ChildProcess:
                     self._popen.kill()
         self._children_ended.wait(KILL_S)
 
-    def _end_children(self) -> None:
-        if self._job is not None:
-            self._job.end()
-        if not ON_WINDOWS:
-            with contextlib.suppress(ProcessLookupError, PermissionError):
-                os.killpg(self.pid, signal.SIGKILL)
-        for _ in range(MOST_LOOKS):
-            left = marked(self._mark)
-            if not left:
-                return
-            kill(left)  # what they started meanwhile is seen at the next look
-            psutil.wait_procs(left, timeout=LOOK_S)
-
     def _read(self) -> None:
         assert self._popen.stdout is not None
         node_log = NodeLog(self._log_file, goes_on=self._goes_on)
@@ -324,7 +307,17 @@ class ChildProcess:
 
     def _await_end(self) -> None:
         code = self._popen.wait()
-        self._end_children()  # at once, while no other process has its number
+        # Its children too, at once, while no other process has its number
+        if self._job is not None:
+            self._job.end()
+        if not ON_WINDOWS:
+            with contextlib.suppress(ProcessLookupError, PermissionError):
+                os.killpg(self.pid, signal.SIGKILL)
+        for _ in range(MOST_LOOKS):
+            if not (left := marked(self._mark)):
+                break
+            kill(left)  # what they started meanwhile is seen at the next look
+            psutil.wait_procs(left, timeout=LOOK_S)
         self._children_ended.set()
         self._reader.join(1.0)  # one that we may not end may hold the pipe open
         if self._popen.stdin is not None:
@@ -358,7 +351,6 @@ def _start(
 
 
 def _job_of(popen: subprocess.Popen[bytes]) -> Job | None:
-
     try:
         return Job(int(popen._handle))  # type: ignore[attr-defined]  # there is no other way
     except OSError as error:  # its life line and its mark are still there

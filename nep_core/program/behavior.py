@@ -164,11 +164,20 @@ class Behavior:
         self._busy_s = time.monotonic()
         listener.listen(self._on_behavior)
         try:
-            self._begin()
+            for rule in self._rules:
+                if rule.condition is not None:
+                    self._start(partial(self._watch, rule), f"watch-{rule.state}")
+            if self._goals:
+                self._start(self._goals.run, "goals")
+            for action in self._starts:
+                self._start(action, "")
             self._supervise()
         finally:
             listener.unlisten(self._on_behavior)
-            self._cancel_all()
+            for part in self._parts:
+                part.task.cancel()
+            for part in self._parts:
+                part.join(1.0)
             PROGRAM.end_undone()
             self._states.close()
             words.close()
@@ -177,15 +186,6 @@ class Behavior:
         """The words that rules and goals wait for: real robots must know them before."""
         states = [*(rule.state for rule in self._rules), *self._goals.states]
         return list(dict.fromkeys(filter(None, map(word_of_state, states))))
-
-    def _begin(self) -> None:
-        for rule in self._rules:
-            if rule.condition is not None:
-                self._start(partial(self._watch, rule), f"watch-{rule.state}")
-        if self._goals:
-            self._start(self._goals.run, "goals")
-        for action in self._starts:
-            self._start(action, "")
 
     def _watch(self, rule: Rule) -> None:
         """Fire a rule each time that its condition becomes true."""
@@ -209,21 +209,12 @@ class Behavior:
         while self._rules or self._parts:
             if PROGRAM.cancelled.wait(0.02):
                 return
-            self._raise_errors()
-
-    def _raise_errors(self) -> None:
-        with self._parts_lock:
-            ended = [part for part in self._parts if not part.is_running]
-            self._parts = [part for part in self._parts if part not in ended]
-        for part in ended:
-            if part.error is not None:
-                raise part.error
-
-    def _cancel_all(self) -> None:
-        for part in self._parts:
-            part.task.cancel()
-        for part in self._parts:
-            part.join(1.0)
+            with self._parts_lock:
+                ended = [part for part in self._parts if not part.is_running]
+                self._parts = [part for part in self._parts if part not in ended]
+            for part in ended:
+                if part.error is not None:
+                    raise part.error
 
     def _on_behavior(self, behavior: HumanBehavior) -> None:
         for rule in self._rules:
@@ -405,12 +396,6 @@ class Goals:
 
     def run(self) -> None:
         """Pursue goals one after the other until this part of the program is cancelled."""
-        self._give_hooks()
-        task = current_task()
-        while True:
-            self._pursue(self._next(task), task)
-
-    def _give_hooks(self) -> None:
         goals = {goal.name: goal for goal in self._goals}
         for name, event, action in self._hooks:
             if name not in goals:
@@ -420,6 +405,9 @@ class Goals:
                     name=name,
                 )
             goals[name].hooks.setdefault(event, []).append(action)
+        task = current_task()
+        while True:
+            self._pursue(self._next(task), task)
 
     def _next(self, task: Task) -> Goal:
         """Wait for a goal, and make it the running one."""
@@ -448,10 +436,7 @@ class Goals:
         self._tell(TOLD[end], goal.name)
         for action in goal.hooks.get(end, ()):
             _wait_for(Part(action, f"nep-goal-{goal.name}-{end}", task).start(), task)
-        self._release(goal, end)
-
-    def _release(self, goal: Goal, end: End) -> None:
-        """Let go of a goal that has ended; one that returns waits before those of its priority."""
+        # Let go of a goal that has ended; one that returns waits before those of its priority
         with self._news:
             self._running = None
             was_stopped = self._cut == "stopped"  # while its hooks ran

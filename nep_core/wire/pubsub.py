@@ -6,7 +6,7 @@ import logging
 import threading
 from collections import deque
 from collections.abc import Callable, Iterator
-from typing import Generic, TypeVar
+from typing import Any, Generic, TypeVar
 
 import msgspec
 
@@ -24,7 +24,6 @@ from .frames import (
     Sendable,
     check_topic,
     decoders,
-    lines_decoder,
     read_header,
 )
 from .messages import LATCHED
@@ -124,7 +123,8 @@ class Subscriber(Generic[T]):
         self._keeps_newest = policy == "state"
         self._decoders = decoders(kind)
         self._from_json = self._decoders["json"]
-        self._from_lines = lines_decoder(kind)
+        wanted: Any = Any if kind is None else kind
+        self._from_lines = msgspec.json.Decoder(wanted).decode_lines
         self._waiting: deque[T] = deque()
         self._id, self._inbox = self.network.open_inbox(topic, policy or "events")
         try:
@@ -132,10 +132,21 @@ class Subscriber(Generic[T]):
         except BaseException:
             self.close()
             raise
-        if known and not self._wait_for(known, 0, HANDSHAKE_S):
+        if known and not self._inbox.wait_for(known, 0, HANDSHAKE_S):
             log.warning("a publisher of %s does not answer", topic)
         if callback is not None:
-            self._call_back(callback)
+
+            def run() -> None:
+                for message in self:
+                    try:
+                        callback(message)
+                    except Exception:
+                        log.exception("%s: the callback failed", self.topic)
+                    except SystemExit:
+                        log.warning("%s: the callback ended itself, and hears no more", self.topic)
+                        self.close()  # else it would look as if it heard
+
+            threading.Thread(target=run, name=f"nep-hear-{self.topic}", daemon=True).start()
 
     @property
     def header(self) -> Header | None:
@@ -192,7 +203,7 @@ class Subscriber(Generic[T]):
 
     def wait_for_publishers(self, count: int, timeout_s: float) -> bool:
         """Wait until ``count`` publishers are heard; False when the time is over."""
-        return self._wait_for(set(), count, timeout_s)
+        return self._inbox.wait_for(set(), count, timeout_s)
 
     def close(self) -> None:
         """Hear no more; a thread that waits in receive() gets None."""
@@ -202,9 +213,6 @@ class Subscriber(Generic[T]):
         """Each message as it comes, until the subscriber is closed or the node stops."""
         while (message := self.receive()) is not None:
             yield message
-
-    def _wait_for(self, instances: set[str], count: int, timeout_s: float) -> bool:
-        return self._inbox.wait_for(instances, count, timeout_s)
 
     def _decoder_of(self, parts: list[bytes]) -> Decode | None:
         """How to decode a frame that begins in an unusual way; None: it cannot be read."""
@@ -248,16 +256,3 @@ class Subscriber(Generic[T]):
 
     def _sender(self) -> str:
         return header.node if (header := self.header) else "somebody"
-
-    def _call_back(self, callback: Callable[[T], None]) -> None:
-        def run() -> None:
-            for message in self:
-                try:
-                    callback(message)
-                except Exception:
-                    log.exception("%s: the callback failed", self.topic)
-                except SystemExit:
-                    log.warning("%s: the callback ended itself, and hears no more", self.topic)
-                    self.close()  # else it would look as if it heard
-
-        threading.Thread(target=run, name=f"nep-hear-{self.topic}", daemon=True).start()

@@ -190,9 +190,23 @@ class RunController:
         """Go on with the checks, or with the code, for so long."""
         try:
             if self._checks is not None and self._checks.run(slice_s):
-                self._on_checked(self._checks.result)
+                problems = self._checks.result
+                subject, self._checks = self._prepared, None
+                assert subject is not None
+                has_rules = next(rules(subject.project, subject.language), None) is not None
+                can_run = has_rules and all(problem.severity != "error" for problem in problems)
+                if can_run:
+                    self._generate(subject, is_shown=True)
+                else:
+                    self._give_up()
+                self._tell(Checked(problems, can_run))
             elif self._code is not None and self._code.run(slice_s):
-                self._on_generated(self._code.result)
+                # Which nodes does it need?
+                code = self._code.result
+                assert self._prepared is not None
+                request = Request(code, tuple(self._prepared.nodes()), self._is_shown)
+                self._prepared = self._generator = self._code = None
+                self.start(request)
         except (BlocksError, NepError) as error:
             self._give_up()
             self._tell(Refused(error, self._is_shown))
@@ -204,17 +218,6 @@ class RunController:
         self._checks = Sliced(problem_steps(project, language, subject.folder))
         self._set_state("checking")
 
-    def _on_checked(self, problems: list[BlockProblem]) -> None:
-        subject, self._checks = self._prepared, None
-        assert subject is not None
-        has_rules = next(rules(subject.project, subject.language), None) is not None
-        can_run = has_rules and all(problem.severity != "error" for problem in problems)
-        if can_run:
-            self._generate(subject, is_shown=True)
-        else:
-            self._give_up()
-        self._tell(Checked(problems, can_run))
-
     def _generate(self, subject: Subject, *, is_shown: bool) -> None:
         """What is its Python?"""
         self._prepared, self._is_shown = subject, is_shown
@@ -222,30 +225,20 @@ class RunController:
         self._code = Sliced(self._generator.steps())
         self._set_state("generating")
 
-    def _on_generated(self, code: Code) -> None:
-        """Which nodes does it need?"""
-        assert self._prepared is not None
-        request = Request(code, tuple(self._prepared.nodes()), self._is_shown)
-        self._prepared = self._generator = self._code = None
-        self.start(request)
-
     def edited(self, changes: Changes) -> None:
         """What is open has changed: what is prepared begins anew with that, what runs is old."""
         if self.state in PREPARING and self._is_shown:
-            self._prepare_again()
+            if self._checks is not None and self._prepared is not None:
+                self._checks.cancel()
+                self._check(self._prepared)
+            elif self._code is not None and self._generator is not None:
+                self._code.cancel()
+                self._code = Sliced(self._generator.steps())
         elif changes.kept and changes.kept <= AT_ONCE and not changes.stacks:
             return
         elif self.state not in PREPARING and self.state != "idle" and not self.is_stale:
             self.is_stale = True
             self._tell(BecameStale())
-
-    def _prepare_again(self) -> None:
-        if self._checks is not None and self._prepared is not None:
-            self._checks.cancel()
-            self._check(self._prepared)
-        elif self._code is not None and self._generator is not None:
-            self._code.cancel()
-            self._code = Sliced(self._generator.steps())
 
     def _give_up(self) -> None:
         """Prepare no more."""
@@ -265,7 +258,7 @@ class RunController:
         self.is_stale = self._was_stopped = self._had_begun = False
         self._tell(Begun(request))
         nodes, watching = list(request.nodes), self._watching()
-        self._session = Session(Path(), nodes, _ignore, network=self._network, watching=watching)
+        self._session = Session(Path(), nodes, None, network=self._network, watching=watching)
         self._set_state("starting")
         args = (self._session, request.code)
         self._thread = threading.Thread(
@@ -279,7 +272,7 @@ class RunController:
             with tempfile.TemporaryDirectory(prefix="nep-", ignore_cleanup_errors=True) as folder:
                 program = Path(folder) / "program.py"
                 program.write_text(code.text, encoding="utf-8")
-                session.use_program(program)
+                session.program = program
                 with session:
                     self._post(self._on_begun)
                     ending = session.wait()
@@ -289,7 +282,9 @@ class RunController:
             ending = Ending(_disk_problem(error))
         except Exception as error:
             log.exception("the program could not be run")
-            ending = Ending(_unknown_problem(error))
+            sentence = f"{type(error).__name__}: {error}"
+            steps = ("Try it once more.", "Save the project, and start NEP Studio again.")
+            ending = Ending(Problem("The program could not be started", sentence, steps))
         self._post(lambda: self._on_over(ending))
 
     def _on_begun(self) -> None:
@@ -374,10 +369,6 @@ class RunController:
             self._tell(StateChanged(state))
 
 
-def _ignore(*_message: object) -> None:
-    """Whoever owns the network hears it."""
-
-
 def _disk_problem(error: OSError) -> Problem:
     return Problem(
         "The program could not be written",
@@ -388,9 +379,3 @@ def _disk_problem(error: OSError) -> Problem:
         ),
         details=str(error),
     )
-
-
-def _unknown_problem(error: Exception) -> Problem:
-    sentence = f"{type(error).__name__}: {error}"
-    steps = ("Try it once more.", "Save the project, and start NEP Studio again.")
-    return Problem("The program could not be started", sentence, steps)

@@ -48,11 +48,12 @@ def problem_steps(
     """The same in steps; ``known`` has what was found the last time."""
     known = known or KnownProblems()
     nodes, robots = node_entries(project, language), robot_entries(project, language)
-    gestures = _known_gestures(project, language)
+    # those that the project has learned, and those that every project has
+    gestures = [*trained_gestures(project), *language.choices.get("gestures", {})]
     found = [
         *(yield from check_steps(project, language, known.chains)),
         *known.of_nodes(nodes, gestures, folder),
-        *(problem for entry in robots for problem in _robot(entry)),
+        *(_without_address(entry) for entry in robots),
         *(_reserved("nodes", entry.name, entry.block_id) for entry in nodes),
         *(_reserved("robots", entry.name, entry.block_id) for entry in robots),
     ]
@@ -114,11 +115,6 @@ def _file(entry: NodeEntry, name: str, value: str, folder: Path) -> Iterator[Pro
         )
 
 
-def _known_gestures(project: Project, language: Language) -> list[str]:
-    """The gestures that the project has learned, and those that every project has."""
-    return [*trained_gestures(project), *language.choices.get("gestures", {})]
-
-
 def _gesture(entry: NodeEntry, manifest: Manifest, known: Collection[str]) -> Iterator[Problem]:
     if manifest.id != GESTURE_NODE or entry.parameters.get("model"):
         return
@@ -141,19 +137,20 @@ def _wrong(entry: NodeEntry, sentence: Text, checklist: tuple[Words, ...]) -> Pr
     return Problem("error", "node_settings", "nodes", entry.block_id, words, checklist)
 
 
-def _robot(entry: RobotEntry) -> Iterator[Problem]:
-    if entry.driver == "naoqi" and not entry.address.strip():
-        yield Problem(
-            "error",
-            "robot_address",
-            "robots",
-            entry.block_id,
-            text_of("Where is {name}? A real robot needs its address.", name=entry.name),
-            (
-                "Press the robot's chest button once: it says its address. Write it here.",
-                "Or choose the robot on this screen.",
-            ),
-        )
+def _without_address(entry: RobotEntry) -> Problem | None:
+    if entry.driver != "naoqi" or entry.address.strip():
+        return None
+    return Problem(
+        "error",
+        "robot_address",
+        "robots",
+        entry.block_id,
+        text_of("Where is {name}? A real robot needs its address.", name=entry.name),
+        (
+            "Press the robot's chest button once: it says its address. Write it here.",
+            "Or choose the robot on this screen.",
+        ),
+    )
 
 
 def _reserved(page: str, name: str, block_id: str) -> Problem | None:

@@ -229,7 +229,13 @@ class LocalNetwork:
         """Start the master and join it, unless that is done; one that is gone is replaced."""
         with self._opening:
             if self.is_open:
-                self._replace_master()
+                # Start one where the last one was, if that is gone: all who were there come to it
+                if self.shared_master and ask_master(self.shared_master) is None:
+                    self.shared_master, self.has_master = "", False
+                if not self.has_master:
+                    self._start_master(self.launcher.master)
+                    self.has_master = True
+                    self.on_master("back", "")
                 return
             self._make_launchers()
             try:
@@ -241,8 +247,13 @@ class LocalNetwork:
     def _open(self) -> None:
         self._stack.callback(self._master_launcher.close)
         if transport() == "p2p":  # a broker or a router serves more than one session
-            self.launcher.master = self.joined_master or self._find_master()
-        network = self._stack.enter_context(self._join())
+            if not self.joined_master:
+                self.shared_master = "" if self.wanted_master else shared_master(self.name)
+            self.launcher.master = (
+                self.joined_master or self.shared_master or self._start_master(self.wanted_master)
+            )
+        network = self._join()
+        self._stack.callback(network.close)
         self.voice = Voice(network)
         self._stack.callback(self.voice.fall_silent)
         self._stack.callback(self._master_launcher.leave)
@@ -271,10 +282,6 @@ class LocalNetwork:
             network.close()
             raise
         return network
-
-    def _find_master(self) -> str:
-        self.shared_master = "" if self.wanted_master else shared_master(self.name)
-        return self.shared_master or self._start_master(self.wanted_master)
 
     def _start_master(self, wanted: str | None) -> str:
         return start_master(self._master_launcher, wanted, self.master_options())
@@ -323,7 +330,18 @@ class LocalNetwork:
             if self.planned.get(planned.name) == planned:
                 return running
             self.launcher.stop(planned.name)
-        _write_files(planned)
+        # Write what a node will read, as the motions of the project
+        try:
+            if planned.files is not None:
+                planned.files.write()
+        except OSError as error:
+            raise NodeStartError(
+                "What {name} needs could not be written: {reason}.",
+                checklist=("Is there room on the disk?",),
+                details=str(error),
+                name=planned.name,
+                reason=reason_of(error),
+            ) from error
         self.planned[planned.name] = planned
         return self.launcher.launch(planned.node, planned.name, planned.parameters)
 
@@ -358,15 +376,6 @@ class LocalNetwork:
         for listener in self._end_listeners:
             listener(launched, outcome, again)
 
-    def _replace_master(self) -> None:
-        """Start one where the last one was, if that is gone: all who were there come to it."""
-        if self.shared_master and ask_master(self.shared_master) is None:
-            self.shared_master, self.has_master = "", False
-        if not self.has_master:
-            self._start_master(self.launcher.master)
-            self.has_master = True
-            self.on_master("back", "")
-
     def _on_master_end(self, launched: LaunchedNode, outcome: Outcome, again: bool) -> None:
         if launched.stopping or not self.is_open:
             return  # it was stopped, or never answered: who starts it tells of that
@@ -385,21 +394,6 @@ class LocalNetwork:
             time.sleep(LOOK_S)
         if is_up(launched, endpoint) and not launched.stopping:
             self.on_master("back", "")
-
-
-def _write_files(planned: PlannedNode) -> None:
-    """Write what a node will read, as the motions of the project."""
-    try:
-        if planned.files is not None:
-            planned.files.write()
-    except OSError as error:
-        raise NodeStartError(
-            "What {name} needs could not be written: {reason}.",
-            checklist=("Is there room on the disk?",),
-            details=str(error),
-            name=planned.name,
-            reason=reason_of(error),
-        ) from error
 
 
 # What it takes to use keys: a key file for each other computer, and the variables that name it.

@@ -87,22 +87,21 @@ class Choices:
 def plan(project: Project, language: Language, choices: Choices, folder: Path) -> list[PlannedNode]:
     """The nodes to start; files in their settings are looked for in ``folder``, the project's."""
     listed = node_entries(project, language)
-    robots = _robots(project, language, choices)
     nodes = [_listed(entry, folder) for entry in listed]
     names = {node.name for node in nodes}
-    nodes += [robot for robot in robots if robot.name not in names]
+    nodes += [
+        _robot(entry, choices, language.profile.node)
+        for entry in robot_entries(project, language)
+        if entry.name not in names
+    ]
     if (files := animation_files(project)) is not None:
         nodes = [_with_animations(node, files, language.profile.node) for node in nodes]
-    nodes = [_with_recogniser(node, entry, project) for node, entry in _paired(nodes, listed)]
+    entries = {entry.block_id: entry for entry in listed}
+    nodes = [_with_recogniser(node, entries.get(node.block_id), project) for node in nodes]
     nodes += _missing_gestures(project, language, listed, {node.name for node in nodes})
     nodes = _with_a_watch(nodes, choices, _known_gestures(project, language))
     nodes = [with_takes(node, project) for node in nodes]
     return [_hurried(node, choices.speed, language.profile.node) for node in nodes]
-
-
-def _robots(project: Project, language: Language, choices: Choices) -> list[PlannedNode]:
-    node = language.profile.node
-    return [_robot(entry, choices, node) for entry in robot_entries(project, language)]
 
 
 def _robot(entry: RobotEntry, choices: Choices, node: str) -> PlannedNode:
@@ -137,15 +136,13 @@ def _hurried(planned: PlannedNode, speed: float, robot: str) -> PlannedNode:
 
 
 def _listed(entry: NodeEntry, folder: Path) -> PlannedNode:
-    settings = {key: _found(value, folder) for key, value in entry.parameters.items()}
+    """A node of the page; a file in the project's folder is given with its path."""
+    settings: dict[str, Setting] = {}
+    for key, value in entry.parameters.items():
+        may_be_file = isinstance(value, str) and 0 < len(value) <= 255 and "\0" not in value
+        is_file = may_be_file and (folder / str(value)).is_file()
+        settings[key] = str(folder / str(value)) if is_file else value
     return PlannedNode(entry.node, entry.name, settings, "", entry.block_id)
-
-
-def _found(value: Setting, folder: Path) -> Setting:
-    """A file name as a path, when there is such a file in the project's folder."""
-    if not isinstance(value, str) or not value or "\0" in value or len(value) > 255:
-        return value
-    return str(folder / value) if (folder / value).is_file() else value
 
 
 def _known_gestures(project: Project, language: Language) -> list[str]:
@@ -174,13 +171,6 @@ def _missing_gestures(
         node = PlannedNode(GESTURE, _free("gestures", names), {}, "rules wait for your gestures")
         nodes.append(_of_project(node, project))
     return nodes
-
-
-def _paired(
-    nodes: list[PlannedNode], listed: tuple[NodeEntry, ...]
-) -> list[tuple[PlannedNode, NodeEntry | None]]:
-    entries = {entry.block_id: entry for entry in listed}
-    return [(node, entries.get(node.block_id)) for node in nodes]
 
 
 def _with_recogniser(node: PlannedNode, entry: NodeEntry | None, project: Project) -> PlannedNode:

@@ -104,11 +104,20 @@ class MessageCard(QFrame):
         self.message = message
         self.setProperty("kind", message.kind)
         self.setAccessibleName(message.spoken)
-        self.close_button = _cross(theme)
+        button = QToolButton()
+        button.setIcon(icon("x", theme))
+        button.setIconSize(icon_room(button.fontMetrics().height()))
+        button.setToolTip(tr("Close"))
+        button.setAccessibleName(tr("Close this message"))
+        self.close_button = button
         self.close_button.clicked.connect(self.closed)
         self.buttons = [self._button(answer) for answer in message.answers]
         self._fill(theme)
-        self._add_shadow(theme)
+        shadow = QGraphicsDropShadowEffect(self)
+        shadow.setBlurRadius(self.fontMetrics().height() * 1.2)
+        shadow.setOffset(0, 2)
+        shadow.setColor(QColor(theme.colour("sprite_shadow")))
+        self.setGraphicsEffect(shadow)
 
     def _fill(self, theme: Theme) -> None:
         line = self.fontMetrics().height()
@@ -141,27 +150,11 @@ class MessageCard(QFrame):
         button.clicked.connect(lambda: answer.do())
         return button
 
-    def _add_shadow(self, theme: Theme) -> None:
-        shadow = QGraphicsDropShadowEffect(self)
-        shadow.setBlurRadius(self.fontMetrics().height() * 1.2)
-        shadow.setOffset(0, 2)
-        shadow.setColor(QColor(theme.colour("sprite_shadow")))
-        self.setGraphicsEffect(shadow)
-
     def changeEvent(self, event: QEvent) -> None:
         """Take the room that the words need in another font."""
         super().changeEvent(event)
         if event.type() == QEvent.Type.FontChange:
             self.updateGeometry()
-
-
-def _cross(theme: Theme) -> QToolButton:
-    button = QToolButton()
-    button.setIcon(icon("x", theme))
-    button.setIconSize(icon_room(button.fontMetrics().height()))
-    button.setToolTip(tr("Close"))
-    button.setAccessibleName(tr("Close this message"))
-    return button
 
 
 def _endless_progress() -> QProgressBar:

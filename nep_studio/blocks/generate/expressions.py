@@ -9,11 +9,11 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 from nep_studio.blocks.arithmetic import ArithmeticRefused, calculate
-from nep_studio.blocks.definitions import Call, Definition, Slot
+from nep_studio.blocks.definitions import Call, Definition
 from nep_studio.blocks.errors import CodeRefused
 from nep_studio.blocks.language import Language
 from nep_studio.blocks.program import Block, Project, split_slot
-from nep_studio.blocks.slots import TEXT_RESULTS, FieldValue, constant
+from nep_studio.blocks.slots import TEXT_RESULTS, constant
 
 from .names import NameTable, ProgramNames
 
@@ -140,7 +140,28 @@ class Expressions:
         slot = definition.slots[split_slot(key)[0]]
         plugged = self.plugged(block, key)
         if plugged is None:
-            return self._field(block, slot, key, definition.value(block, key))
+            value = definition.value(block, key)
+            kind = slot.kind
+            if kind.name == "robot":
+                self.robots.add(str(value))
+                return ast.Name(self.names.robots[str(value)])
+            if kind.name == "variable":
+                return ast.Name(self.variable(block))
+            if kind.name == "choice":
+                return ast.Constant(self.choice(block, key))
+            if kind.is_number and isinstance(value, str):
+                try:
+                    arithmetic = calculate(value)
+                except ArithmeticRefused as refused:
+                    raise CodeRefused(
+                        refused.sentence,
+                        block=block.id,
+                        checklist=("Correct what is written in this block.",),
+                    ) from refused
+                if arithmetic.needs_math:
+                    self.modules.add("math")
+                return arithmetic.node
+            return kind.to_python(value)
         node = self.value(plugged)
         if slot.kind.becomes_text and self.definition(plugged).result not in TEXT_RESULTS:
             return call("str", node)
@@ -246,32 +267,6 @@ class Expressions:
         return self.plugged(block, key) is None and (
             definition.value(block, key) == definition.defaults[key]
         )
-
-    def _field(self, block: Block, slot: Slot, key: str, value: FieldValue | None) -> ast.expr:
-        kind = slot.kind
-        if kind.name == "robot":
-            self.robots.add(str(value))
-            return ast.Name(self.names.robots[str(value)])
-        if kind.name == "variable":
-            return ast.Name(self.variable(block))
-        if kind.name == "choice":
-            return ast.Constant(self.choice(block, key))
-        if kind.is_number and isinstance(value, str):
-            return self._arithmetic(block, value)
-        return kind.to_python(value)
-
-    def _arithmetic(self, block: Block, text: str) -> ast.expr:
-        try:
-            arithmetic = calculate(text)
-        except ArithmeticRefused as refused:
-            raise CodeRefused(
-                refused.sentence,
-                block=block.id,
-                checklist=("Correct what is written in this block.",),
-            ) from refused
-        if arithmetic.needs_math:
-            self.modules.add("math")
-        return arithmetic.node
 
 
 def value_cost(block: Block) -> int:

@@ -6,7 +6,7 @@ import ast
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 
-from nep_studio.blocks.deployment import NodeEntry, RobotEntry, chains, node_entries, robot_entries
+from nep_studio.blocks.deployment import RobotEntry, chains, node_entries, robot_entries
 from nep_studio.blocks.errors import CodeRefused
 from nep_studio.blocks.language import Language
 from nep_studio.blocks.procedures import DEFINE, parameters, procedure_of, words
@@ -238,7 +238,7 @@ def generate_launch(project: Project, language: Language) -> Code:
         lines.append(_start(language.profile.node, robot.name, _robot_settings(robot)))
         blocks.append(robot.block_id)
     for node in node_entries(project, language):
-        lines.append(_start(node.node, node.name, _node_settings(node)))
+        lines.append(_start(node.node, node.name, dict(node.parameters)))
         blocks.append(node.block_id)
     return Code("\n".join(lines) + "\n", tuple(blocks))
 
@@ -246,10 +246,6 @@ def generate_launch(project: Project, language: Language) -> Code:
 def _robot_settings(robot: RobotEntry) -> dict[str, Setting]:
     settings = {"robot": robot.name, "driver": robot.driver, "address": robot.address}
     return {**settings, "model": robot.model} if robot.model else {**settings}
-
-
-def _node_settings(node: NodeEntry) -> dict[str, Setting]:
-    return dict(node.parameters)
 
 
 def _start(node: str, name: str, settings: dict[str, Setting]) -> str:

@@ -283,17 +283,14 @@ class RuleWriter:
             elif (inner := self._piece(frame, item)) is not None:
                 frames.append(inner)
         if self._has_code_blocks:
-            self._require_python()
-
-    def _require_python(self) -> None:
-        """Code that a person wrote is right by itself, but perhaps not where it is."""
-        try:
-            compile_quietly("\n".join(self.lines))
-        except CodeTextRefused as refused:
-            line = min(max(refused.line, 1), len(self.blocks))
-            raise CodeRefused(
-                refused.sentence, block=self.blocks[line - 1], checklist=("Change the code.",)
-            ) from refused
+            # Code that a person wrote is right by itself, but perhaps not where it is
+            try:
+                compile_quietly("\n".join(self.lines))
+            except CodeTextRefused as refused:
+                line = min(max(refused.line, 1), len(self.blocks))
+                raise CodeRefused(
+                    refused.sentence, block=self.blocks[line - 1], checklist=("Change the code.",)
+                ) from refused
 
     def _block(self, chain: _Frame, block: Block) -> _Frame:
         self._comment(block, _MARGINS[chain.indent])
@@ -326,7 +323,9 @@ class RuleWriter:
                 self._line("", "")
             self._line(f"{margin}def {piece.name}():", frame.block)
             return self._function(chain, frame.block, frame.indent + 1)
-        return self._chain(chain, frame, piece)
+        indent, loops = frame.indent + 1, frame.loops + piece.loop
+        blocks = self._enabled(chain, frame.block, indent, loops)
+        return _Frame(blocks, frame.block, indent, loops, frame.scope)
 
     def _simple(
         self, frame: _Frame, piece: Gap | Assignment | Leave | GiveBack | Written, margin: str
@@ -357,11 +356,6 @@ class RuleWriter:
                 checklist=("Put it under the header of an own block.",),
             )
         self._line(margin + piece.line, frame.block)
-
-    def _chain(self, chain: Sequence[str], owner: _Frame, body: Body) -> _Frame:
-        indent, loops = owner.indent + 1, owner.loops + body.loop
-        blocks = self._enabled(chain, owner.block, indent, loops)
-        return _Frame(blocks, owner.block, indent, loops, owner.scope)
 
     def _function(self, chain: Sequence[str], owner: str, indent: int) -> _Frame:
         gives_back = bool(self._code.procedure) and indent == 1

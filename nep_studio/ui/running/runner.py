@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import contextlib
 import logging
 import queue
 import threading
 import time
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -126,7 +126,7 @@ class _Inlet:
         self._subscriber: Subscriber[Any] | None = None
         self._lock = threading.Lock()
         self._is_closed = False
-        threading.Thread(target=self._run, name=f"nep-tap-{topic}", daemon=True).start()
+        threading.Thread(target=self._hear, name=f"nep-tap-{topic}", daemon=True).start()
 
     def close(self) -> None:
         """Hear no more."""
@@ -135,12 +135,11 @@ class _Inlet:
             if self._subscriber is not None:
                 self._subscriber.close()
 
-    def _run(self) -> None:
-        with contextlib.suppress(NepError):  # the network was closed meanwhile
-            self._hear()
-
     def _hear(self) -> None:
-        subscriber = Subscriber[Any](self._topic, self._kind, network=self._network)
+        try:
+            subscriber = Subscriber[Any](self._topic, self._kind, network=self._network)
+        except NepError:
+            return  # the network was closed meanwhile
         with self._lock:
             self._subscriber = subscriber
             if self._is_closed:
@@ -251,7 +250,7 @@ class Runner(QObject):
         """Nodes of which a dialog tells what becomes of them: no message is needed."""
         self.controller = RunController(self.local, subject, self._background.post, self._on_told)
         self._preparing = QTimer(self, interval=BETWEEN_SLICES_MS)
-        self._preparing.timeout.connect(self._on_time_left)
+        self._preparing.timeout.connect(partial(self.controller.work, SLICE_S))
         self._shown_state: State = "idle"
         self._is_closed = False
         self._looked_s = 0.0
@@ -402,9 +401,6 @@ class Runner(QObject):
         self.told.emit(event)
         if isinstance(event, Ended):
             self.ended.emit(event.ending)
-
-    def _on_time_left(self) -> None:
-        self.controller.work(SLICE_S)
 
     def _on_came_up(self) -> None:
         self._looking.start()

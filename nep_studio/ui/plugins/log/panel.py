@@ -98,16 +98,6 @@ class WhatHappens(QWidget):
         self.search = QLineEdit()
         self.hint = QLabel()
         self.buttons = LogButtons(look)
-        self._set_up_list()
-        self._set_up_filters()
-        self._lay_out()
-        runner.arrived.connect(self._on_arrived)
-        runner.state_changed.connect(self._on_state_changed)
-        look.theme_changed.connect(self._dress)
-        self._dress()
-        self._show_hint()
-
-    def _set_up_list(self) -> None:
         self._painter = LinePainter(self._look)
         self.list.setModel(self.model)
         self.list.setItemDelegate(self._painter)
@@ -118,6 +108,13 @@ class WhatHappens(QWidget):
         copy = QShortcut(QKeySequence(QKeySequence.StandardKey.Copy), self.list)
         copy.setContext(Qt.ShortcutContext.WidgetShortcut)
         copy.activated.connect(self.copy)
+        self._set_up_filters()
+        self._lay_out()
+        runner.arrived.connect(self._on_arrived)
+        runner.state_changed.connect(self._on_state_changed)
+        look.theme_changed.connect(self._dress)
+        self._dress()
+        self._show_hint()
 
     def _set_up_filters(self) -> None:
         parts = {

@@ -75,7 +75,17 @@ def notice_of(before: NodeStatus | None, after: NodeStatus, at: Circumstances) -
     if after.health == "frozen":
         return _frozen(after, at)
     if after.event == "connection_failed":
-        return _no_connection(after, at)
+        # The node's own words are a sentence and a checklist
+        fault = after.fault
+        where = tr(
+            "The program could not reach {name} at {address}.", name=after.name, address=at.address
+        )
+        title = tr("{name} does not answer", name=after.name)
+        problem = Problem(title, fault.sentence or where, fault.checklist)
+        fixes: tuple[Fix, ...] = (
+            ("use_virtual", "test_connection", "change_address") if at.has_block else ()
+        )
+        return Notice(after.name, f"connection {at.address}", "error", problem, fixes)
     if after.health == "warning":
         return _warning(after, at)
     if after.health == "crashed":
@@ -117,20 +127,6 @@ def _frozen(status: NodeStatus, at: Circumstances) -> Notice:
 
 def _silent(name: str) -> str:
     return tr("“{name}” has said nothing for three seconds.", name=name)
-
-
-def _no_connection(status: NodeStatus, at: Circumstances) -> Notice:
-    """The node's own words are a sentence and a checklist."""
-    fault = status.fault
-    where = tr(
-        "The program could not reach {name} at {address}.", name=status.name, address=at.address
-    )
-    title = tr("{name} does not answer", name=status.name)
-    problem = Problem(title, fault.sentence or where, fault.checklist)
-    fixes: tuple[Fix, ...] = (
-        ("use_virtual", "test_connection", "change_address") if at.has_block else ()
-    )
-    return Notice(status.name, f"connection {at.address}", "error", problem, fixes)
 
 
 def _warning(status: NodeStatus, at: Circumstances) -> Notice:
@@ -287,7 +283,11 @@ class NodeFixes:
             case "test_connection":
                 self._host.ask("connecting.open", name)
             case "change_address":
-                self._change_address(name)
+                # Show the robot's block with its address open to be written
+                block, workbench = self._robot_block(name), self._host.workbench
+                if block:
+                    workbench.show_block(block)
+                    workbench.canvas.fields.open(block, "address")
             case "run":
                 self._host.services.runner.run()
             case "stop":
@@ -315,13 +315,6 @@ class NodeFixes:
             self._host.services.messages.refuse(refusal.sentence, refusal.checklist)
             return
         self.start(name)  # the running one is as it was before, so it is started anew
-
-    def _change_address(self, name: str) -> None:
-        """Show the robot's block with its address open to be written."""
-        block, workbench = self._robot_block(name), self._host.workbench
-        if block:
-            workbench.show_block(block)
-            workbench.canvas.fields.open(block, "address")
 
     def _robot_block(self, name: str) -> str:
         block = self.block_of(name)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 import uuid
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from functools import partial
 
 from PySide6.QtCore import Qt, QTimer, Signal
@@ -205,7 +205,18 @@ class RobotCard(QFrame):
         self.facts = Facts(look)
         self.fallen = FallenBar(look)
         self.touch, self.back = QToolButton(), QToolButton()
-        self._fill_touch_menu(language.choices.get("touch_parts", {}))
+        names = language.choices.get("touch_parts", {})
+        menu = QMenu(self.touch)
+        for sensor in TOUCH_SENSORS:
+            menu.addAction(names.get(sensor, sensor)).triggered.connect(
+                partial(self._touch_for_a_moment, sensor)
+            )
+        self.touch.setMenu(menu)
+        self.touch.setPopupMode(QToolButton.ToolButtonPopupMode.InstantPopup)
+        self.touch.setText(tr("Touch"))
+        self.touch.setToolTip(tr("Touch it here, or click its head, hands, feet or chest"))
+        self.back.setText(tr("Back to start"))
+        self.back.setToolTip(tr("Put the robot back to where it began"))
         self._lay_out()
         self.fallen.help_button.clicked.connect(self.help_asked)
         self.back.clicked.connect(self.start_asked)
@@ -241,19 +252,6 @@ class RobotCard(QFrame):
         box.addWidget(self.fallen)
         box.addWidget(self.facts)
         box.addWidget(self._buttons)
-
-    def _fill_touch_menu(self, names: Mapping[str, str]) -> None:
-        menu = QMenu(self.touch)
-        for sensor in TOUCH_SENSORS:
-            menu.addAction(names.get(sensor, sensor)).triggered.connect(
-                partial(self._touch_for_a_moment, sensor)
-            )
-        self.touch.setMenu(menu)
-        self.touch.setPopupMode(QToolButton.ToolButtonPopupMode.InstantPopup)
-        self.touch.setText(tr("Touch"))
-        self.touch.setToolTip(tr("Touch it here, or click its head, hands, feet or chest"))
-        self.back.setText(tr("Back to start"))
-        self.back.setToolTip(tr("Put the robot back to where it began"))
 
     def show_plan(self, plan: RobotPlan) -> None:
         """Say which kind of robot it is."""

@@ -160,7 +160,19 @@ class StageTools(QWidget):
         self.follow = QAction(tr("Follow the robot"), self, checkable=True, checked=True)
         self._things_menu = QMenu(tr("Choose"), self)
         self._lay_out()
-        self._fill_view_menu()
+        menu = QMenu(self.view)
+        presets = {
+            "front": tr("From the front"),
+            "side": tr("From the side"),
+            "back": tr("From behind"),
+            "top": tr("From above"),
+            "face": tr("Into the face"),
+        }
+        for preset, words in presets.items():
+            menu.addAction(words).triggered.connect(partial(self._ask_view, preset))
+        menu.addSeparator()
+        menu.addActions([self.fit, self.follow, self.clear])
+        self.view.setMenu(menu)
         self._fill_place_menu()
         self._connect()
         self.show_things([])
@@ -188,21 +200,6 @@ class StageTools(QWidget):
             button.setPopupMode(QToolButton.ToolButtonPopupMode.InstantPopup)
         self.sound.setCheckable(True)
         self.large.setCheckable(True)
-
-    def _fill_view_menu(self) -> None:
-        menu = QMenu(self.view)
-        presets = {
-            "front": tr("From the front"),
-            "side": tr("From the side"),
-            "back": tr("From behind"),
-            "top": tr("From above"),
-            "face": tr("Into the face"),
-        }
-        for preset, words in presets.items():
-            menu.addAction(words).triggered.connect(partial(self._ask_view, preset))
-        menu.addSeparator()
-        menu.addActions([self.fit, self.follow, self.clear])
-        self.view.setMenu(menu)
 
     def _ask_view(self, preset: str) -> None:
         self.view_asked.emit(preset)
