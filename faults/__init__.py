@@ -106,7 +106,14 @@ def told(text: Words, tr: Tr = plain) -> str:
 
 def values_told(values: Mapping[str, object], tr: Tr) -> dict[str, object]:
     """Return the values with words in the place of texts."""
-    return {name: _told(value, tr) for name, value in values.items()}
+    words: dict[str, object] = {**values}
+    for name, value in values.items():
+        if isinstance(value, Text):
+            words[name] = _Inner(told(value, tr))
+        elif isinstance(value, list):
+            several = (told(one, tr) if isinstance(one, Text) else str(one) for one in value)
+            words[name] = ", ".join(several)
+    return words
 
 
 def filled(template: str, values: Mapping[str, object]) -> str:
@@ -258,15 +265,6 @@ def _value(value: object) -> Value:
         case list() | tuple():
             return [one if isinstance(one, Text) else str(one) for one in value]
     return str(value)
-
-
-def _told(value: object, tr: Tr) -> object:
-    match value:
-        case Text():
-            return _Inner(told(value, tr))
-        case list():
-            return ", ".join(told(one, tr) if isinstance(one, Text) else str(one) for one in value)
-    return value
 
 
 # What another program told, which may be anything.

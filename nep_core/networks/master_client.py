@@ -4,8 +4,6 @@ from __future__ import annotations
 
 import contextlib
 import logging
-import os
-import socket as sockets
 import threading
 import time
 from collections.abc import Callable
@@ -92,17 +90,6 @@ class MasterClient:
         io.watch(self._socket)
         io.tend(self.tend)
 
-    @staticmethod
-    def registration(node: str, instance: str, endpoint: str) -> Registration:
-        """What this process tells of itself before it has any topic."""
-        return Registration(
-            instance=instance,
-            node=node,
-            pid=os.getpid(),
-            host=sockets.gethostname(),
-            endpoint=endpoint,
-        )
-
     def change(self, edit: Callable[[Registration], None], topic: str = "") -> Ends:
         """Change what is told and wait for the master's answer: who is at ``topic``.
 
@@ -111,8 +98,10 @@ class MasterClient:
         with self._changed:
             version = self._edit(edit, topic)
             self._io.wake()
-            self._changed.wait_for(lambda: self._closed or self._answered(version), ANSWER_S)
-            answer, answered = self._answer, self._answered(version)
+            self._changed.wait_for(
+                lambda: self._closed or (self._answer and self._answer.version >= version), ANSWER_S
+            )
+            answer = self._answer
             ends = Ends(self._publishers.get(topic, []), self._subscribers.get(topic, []))
         if self._closed:
             raise NetworkError(
@@ -120,7 +109,7 @@ class MasterClient:
                 checklist=("Start it again.",),
                 node=self._told.node,
             )
-        if not answered or answer is None:
+        if answer is None or answer.version < version:
             raise no_master(self.master)
         if isinstance(answer, says.Refused):
             if (fault := heard_fault(answer.fault)) is not None:
@@ -175,9 +164,6 @@ class MasterClient:
         self._version += 1
         self._asked.add(topic)
         return self._version
-
-    def _answered(self, version: int) -> bool:
-        return self._answer is not None and self._answer.version >= version
 
     def _hear(self, answer: says.Answer) -> None:
         match answer:

@@ -226,15 +226,11 @@ class MasterProbe:
             answer = decode_answer(self._socket.recv())
         return answer if isinstance(answer, kind) else None
 
-    def close(self) -> None:
-        """Ask no more."""
-        self._context.destroy(linger=0)
-
     def __enter__(self) -> Self:
         return self
 
     def __exit__(self, *_error: object) -> None:
-        self.close()
+        self._context.destroy(linger=0)
 
 
 def ask_master(endpoint: str, timeout_s: float = 2.0) -> Listing | None:

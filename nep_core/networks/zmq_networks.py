@@ -7,6 +7,8 @@ BrokerNetwork sends its messages through the broker.
 from __future__ import annotations
 
 import contextlib
+import os
+import socket
 import threading
 from collections.abc import Iterator
 from functools import partial
@@ -169,9 +171,14 @@ class PeerNetwork(ZmqNetwork):
             self.outbox.close()
             self._end()
             raise
-        told = MasterClient.registration(self.node, self.instance, endpoint)
-        if self.security is not None:
-            told.key = self.security.key
+        told = Registration(
+            instance=self.instance,
+            node=self.node,
+            pid=os.getpid(),
+            host=socket.gethostname(),
+            endpoint=endpoint,
+            key=self.security.key if self.security is not None else "",
+        )
         self._client = MasterClient(
             self.context,
             self.io,

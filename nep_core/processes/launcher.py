@@ -66,13 +66,6 @@ class LaunchedNode:
         """Whether the process ``pid`` is its own, perhaps started by a wrapper or a launch stub."""
         return self.process is not None and is_in_tree(pid, self.process.pid)
 
-    def hear(self, state: NodeState) -> None:
-        """Take note of what a node of its name told."""
-        if not self.ready.is_set() and state.event in AT_WORK and self.owns(state.pid):
-            self.ready.set()
-        elif state.event == "stopped" and self.owns(state.pid):
-            self.said_end.set()
-
     def has_said_end(self, outcome: Outcome) -> bool:
         """Whether the node itself told that it stopped; waits a moment for its last message."""
         if outcome.code != 0 or not self.ready.is_set():
@@ -125,40 +118,6 @@ class LaunchedNode:
                 )
 
 
-# Tells on the network how nodes ended that cannot say it any more.
-
-
-class Herald:
-    """Speaks until it is closed, which it must be before the network is."""
-
-    def __init__(self, network: Network | None) -> None:
-        self._lock = threading.Lock()
-        self._host = socket.gethostname()
-        self._states: Publisher | None = Publisher(NODE_STATE, network=network)
-
-    def tell_end(self, launched: LaunchedNode, outcome: Outcome, again: bool) -> None:
-        """Say how a node ended, unless it ended well by itself, or has said it."""
-        is_well = outcome.was_successful and not outcome.asked
-        if is_well or (outcome.asked and launched.has_said_end(outcome)):
-            return
-        state = NodeState(
-            node=launched.name,
-            type=launched.manifest.type if launched.manifest else "cognitive",
-            event="stopped" if outcome.asked else "crashed",
-            pid=launched.pid,
-            host=self._host,
-            **described(outcome.fault(again=again)),
-        )
-        with self._lock:
-            if self._states is not None and not self._states.network.closed:
-                self._states.send(state)
-
-    def close(self) -> None:
-        """Say nothing any more: a node may still end when the network is closed."""
-        with self._lock:
-            self._states = None  # not closed: a node of this network may speak on
-
-
 __all__ = ["LaunchedNode", "Launcher", "Report"]
 
 
@@ -195,15 +154,17 @@ class Launcher:
         self.master = master or master_endpoint()
         self._on_end = on_end
         self._lock = threading.RLock()
-        self._states: Subscriber[NodeState] | None = None
-        self._herald: Herald | None = None
+        self._heard: Subscriber[NodeState] | None = None
+        self._speaking = threading.Lock()
+        self._said: Publisher | None = None
+        """Says how nodes ended that cannot say it any more; silent before the network is closed."""
 
     def hear(self, network: Network | None = None) -> None:
         """Hear on ``network`` (default: this program's) which nodes are ready, tell who ended."""
         with self._lock:
-            if self._states is None:
-                self._herald = Herald(network)
-                self._states = Subscriber(
+            if self._heard is None:
+                self._said = Publisher(NODE_STATE, network=network)
+                self._heard = Subscriber(
                     NODE_STATE, NodeState, network=network, callback=self._on_node_state
                 )
 
@@ -278,10 +239,10 @@ class Launcher:
 
     def leave(self) -> None:
         """Hear and tell no more, as when the network is about to be closed."""
-        if self._herald is not None:
-            self._herald.close()
-        if self._states is not None:
-            self._states.close()
+        with self._speaking:  # a node may still end when the network is closed
+            self._said = None  # not closed: a node of this network may speak on
+        if self._heard is not None:
+            self._heard.close()
 
     def __enter__(self) -> Launcher:
         return self
@@ -334,8 +295,19 @@ class Launcher:
         launched.outcome = outcome
         if not again:
             launched.ended.set()
-        if self._herald is not None:
-            self._herald.tell_end(launched, outcome, again)
+        is_well = outcome.was_successful and not outcome.asked
+        if not is_well and not (outcome.asked and launched.has_said_end(outcome)):
+            state = NodeState(
+                node=launched.name,
+                type=launched.manifest.type if launched.manifest else "cognitive",
+                event="stopped" if outcome.asked else "crashed",
+                pid=launched.pid,
+                host=socket.gethostname(),
+                **described(outcome.fault(again=again)),
+            )
+            with self._speaking:
+                if self._said is not None and not self._said.network.closed:
+                    self._said.send(state)
         if self._on_end is not None:
             self._on_end(launched, outcome, again)
         if not again:
@@ -356,9 +328,14 @@ class Launcher:
         self._tell_end(launched, outcome, again=False)
 
     def _on_node_state(self, state: NodeState) -> None:
+        """Take note of what a node of ours told, or another of its name."""
         launched = self.nodes.get(state.node)
-        if launched is not None:
-            launched.hear(state)
+        if launched is None:
+            return
+        if not launched.ready.is_set() and state.event in AT_WORK and launched.owns(state.pid):
+            launched.ready.set()
+        elif state.event == "stopped" and launched.owns(state.pid):
+            launched.said_end.set()
 
 
 def _guarded(command: list[str]) -> list[str]:

@@ -9,6 +9,7 @@ import os
 import signal
 import subprocess
 import sys
+import tempfile
 import threading
 import uuid
 from collections import deque
@@ -23,7 +24,7 @@ from typing import Any, TypeVar
 
 import psutil
 
-from faults import Fault, Text, Words, fault_of, reason_of, text_of, verbatim
+from faults import Fault, Text, fault_of, reason_of, text_of, verbatim
 from nep_core.errors import NodeStartError
 from nep_core.wire.messages import PROCESS_ENDED, PROCESS_RESTARTS, PROCESS_STOPPED
 
@@ -95,8 +96,12 @@ _SIGNALS = {
     "SIGABRT": "{node} crashed (it aborted itself)",
 }
 
-
 _UNKNOWN_SIGNAL = "{node} was ended by signal {number}"
+_ENDED_WITH = {
+    0: "{node} ended by itself",
+    ASKED: "{node} was asked to stop",
+    ORPHANED: "{node} ended because the program that started it is gone",
+}
 
 
 @dataclass(frozen=True)
@@ -122,8 +127,19 @@ class Outcome:
     @property
     def text(self) -> Text:
         """How it ended, without the final full stop."""
-        values = {"number": -self.code, "name": self._signal, "reason": self._reason}
-        return text_of(self._words, node=self.node, **values)
+        name = next((one.name for one in signal.Signals if one == -self.code), "")
+        if self.refusal is None and self.last_words:
+            reason = verbatim(self.last_words.rstrip("."))
+        else:
+            reason = self.why or text_of("exit code {code}", code=self.code)
+        if self.asked:
+            words = "{node} was stopped"
+        elif self.code < 0:
+            unknown = "{node} was ended by {name}" if name else _UNKNOWN_SIGNAL
+            words = _SIGNALS.get(name, unknown)
+        else:
+            words = _ENDED_WITH.get(self.code, "{node} ended with an error: {reason}")
+        return text_of(words, node=self.node, number=-self.code, name=name, reason=reason)
 
     @property
     def checklist(self) -> tuple[Text, ...]:
@@ -142,34 +158,6 @@ class Outcome:
             return fault_of(words, code=PROCESS_RESTARTS, outcome=self.text)
         code = PROCESS_STOPPED if self.asked else PROCESS_ENDED
         return Fault(code, self.text, self.checklist)
-
-    @property
-    def _words(self) -> str:
-        if self.asked:
-            return "{node} was stopped"
-        if self.code < 0:
-            unknown = "{node} was ended by {name}" if self._signal else _UNKNOWN_SIGNAL
-            return _SIGNALS.get(self._signal, unknown)
-        if self.code == 0:
-            return "{node} ended by itself"
-        if self.code == ASKED:
-            return "{node} was asked to stop"
-        if self.code == ORPHANED:
-            return "{node} ended because the program that started it is gone"
-        return "{node} ended with an error: {reason}"
-
-    @property
-    def _signal(self) -> str:
-        try:
-            return signal.Signals(-self.code).name
-        except ValueError:
-            return ""
-
-    @property
-    def _reason(self) -> Words:
-        if self.refusal is None and self.last_words:
-            return verbatim(self.last_words.rstrip("."))
-        return self.why or text_of("exit code {code}", code=self.code)
 
     def __str__(self) -> str:
         return str(self.text)
@@ -250,7 +238,7 @@ class ChildProcess:
         self._children_ended = threading.Event()
         self._mark = uuid.uuid4().hex
         marks = f"{environment.get(VARIABLE, '')} {self._mark}".strip()
-        self._refusal = handover.place()
+        self._refusal = Path(tempfile.gettempdir()) / f"nep-fault-{uuid.uuid4().hex}.json"
         environment = {**environment, VARIABLE: marks, handover.VARIABLE: str(self._refusal)}
         self._popen, self._job = in_lasting_thread(partial(_start, name, command, environment))
         self._reader = threading.Thread(target=self._read, name=f"nep-log-{name}", daemon=True)

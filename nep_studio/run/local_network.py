@@ -10,6 +10,7 @@ import threading
 import time
 import uuid
 from collections.abc import Callable, Iterable
+from functools import partial
 from pathlib import Path
 from typing import Literal
 from urllib.parse import urlsplit
@@ -126,26 +127,19 @@ class Voice:
 
     def stop_robots(self) -> None:
         """Stop all that the robots do; waits for nothing."""
-        request = m.ActionRequest(id=uuid.uuid4().hex, robots=[], action="stop", priority=100)
-        self._say(self._requests, request)
-
-    def order(self, order: m.ProgramControl) -> None:
-        """Ask the program for something."""
-        self._say(self._control, order)
-
-    def stop_program(self) -> None:
-        """Ask the program to end."""
-        self._say(self._control, m.ProgramControl(command="stop"))
+        self.say(m.ActionRequest(id=uuid.uuid4().hex, robots=[], action="stop", priority=100))
 
     def fall_silent(self) -> None:
         """Say nothing any more: a session may still end when the network is closed."""
         with self._lock:
             self._is_silent = True
 
-    def _say(self, publisher: Publisher, message: msgspec.Struct) -> None:
+    def say(self, message: m.ActionRequest | m.ProgramControl) -> None:
+        """Ask the robots, or the program, for something."""
+        is_request = isinstance(message, m.ActionRequest)
         with self._lock:
             if not self._is_silent:
-                publisher.send(message)
+                (self._requests if is_request else self._control).send(message)
 
 
 STUDIO = "studio"
@@ -261,7 +255,8 @@ class LocalNetwork:
         for launcher in (self.launcher, self._master_launcher):
             launcher.hear(network)
         for topic in HEARD:
-            self._hear(topic, network)
+            on_message = partial(self._on_message, topic)
+            Subscriber(topic, m.BY_TOPIC[topic], network=network, callback=on_message)
         self.network = network
         self.has_master = True
         self.on_open()
@@ -363,12 +358,9 @@ class LocalNetwork:
                 return launched.process.last_lines
         return []
 
-    def _hear(self, topic: str, network: Network) -> None:
-        def callback(message: msgspec.Struct) -> None:
-            for listener in self._listeners:
-                listener(topic, message)
-
-        Subscriber(topic, m.BY_TOPIC[topic], network=network, callback=callback)
+    def _on_message(self, topic: str, message: msgspec.Struct) -> None:
+        for listener in self._listeners:
+            listener(topic, message)
 
     def _on_end(self, launched: LaunchedNode, outcome: Outcome, again: bool) -> None:
         if launched.name == MASTER:

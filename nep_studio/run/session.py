@@ -101,7 +101,7 @@ class Session:
         voice = self.network.voice
         if voice is not None:
             voice.stop_robots()
-            voice.stop_program()
+            voice.say(m.ProgramControl(command="stop"))
 
     def stop(self) -> None:
         """Stop the robots at once, then the program, then all nodes; the master goes last."""
@@ -195,7 +195,7 @@ class Session:
                 breakpoints=list(watching.breakpoints),
                 line_s=watching.line_s,
             )
-            voice.order(order)
+            voice.say(order)
 
     def _on_message(self, topic: str, message: msgspec.Struct) -> None:
         match message:

@@ -22,7 +22,8 @@ from .names import NameTable, ProgramNames
 
 def call(name: str, /, *arguments: ast.expr, **keywords: ast.expr) -> ast.Call:
     """A call of a function by its name."""
-    return ast.Call(ast.Name(name), list(arguments), _keywords(keywords))
+    named = [ast.keyword(key, value) for key, value in keywords.items()]
+    return ast.Call(ast.Name(name), list(arguments), named)
 
 
 def method_call(
@@ -32,7 +33,8 @@ def method_call(
     keywords: Mapping[str, ast.expr] | None = None,
 ) -> ast.Call:
     """A call of a method."""
-    return ast.Call(ast.Attribute(target, method), arguments or [], _keywords(keywords or {}))
+    named = [ast.keyword(key, value) for key, value in (keywords or {}).items()]
+    return ast.Call(ast.Attribute(target, method), arguments or [], named)
 
 
 def whole(node: ast.expr) -> ast.expr:
@@ -80,10 +82,6 @@ def plus(node: ast.expr, number: int) -> ast.expr:
 def compare(left: ast.expr, sign: ast.cmpop, right: ast.expr) -> ast.Compare:
     """A comparison of two values."""
     return ast.Compare(left, [sign], [right])
-
-
-def _keywords(keywords: Mapping[str, ast.expr]) -> list[ast.keyword]:
-    return [ast.keyword(name, value) for name, value in keywords.items()]
 
 
 VARIABLE_BLOCK = "variable.get"
@@ -213,11 +211,11 @@ class Expressions:
     def call(self, block: Block, made: Call) -> ast.Call:
         """The call that a block stands for."""
         arguments = [self.slot(block, key) for key in made.arguments]
-        keywords = {
-            name: self.slot(block, key)
-            for name, key in made.keywords.items()
-            if key not in made.optional or not self._is_default(block, key)
-        }
+        definition, keywords = self.definition(block), dict[str, ast.expr]()
+        for name, key in made.keywords.items():
+            is_usual = key in made.optional and self.plugged(block, key) is None
+            if not is_usual or definition.value(block, key) != definition.defaults[key]:
+                keywords[name] = self.slot(block, key)
         keywords |= {name: constant(value) for name, value in made.constants.items()}
         if not made.on:
             return self.api_call(made.name, *arguments, **keywords)
@@ -261,12 +259,6 @@ class Expressions:
         if self._part_names is None:
             self._part_names = NameTable(self.names.taken())
         return self._part_names.give(f"part_{self._parts}", "part")
-
-    def _is_default(self, block: Block, key: str) -> bool:
-        definition = self.definition(block)
-        return self.plugged(block, key) is None and (
-            definition.value(block, key) == definition.defaults[key]
-        )
 
 
 def value_cost(block: Block) -> int:
@@ -338,22 +330,24 @@ def _constant(node: ast.Constant) -> tuple[str, int]:
     return literal(value), _ATOM if is_number else _TARGET  # a dot after a number is its point
 
 
-def _name(node: ast.Name) -> tuple[str, int]:
-    return node.id, _TARGET
-
-
-def _attribute(node: ast.Attribute) -> tuple[str, int]:
-    return f"{show(node.value, _TARGET)}.{node.attr}", _TARGET
-
-
-def _call(node: ast.Call) -> tuple[str, int]:
-    arguments = [show(argument) for argument in node.args]
-    arguments += [f"{keyword.arg}={show(keyword.value)}" for keyword in node.keywords]
-    return f"{show(node.func, _TARGET)}({', '.join(arguments)})", _TARGET
-
-
-def _list(node: ast.List) -> tuple[str, int]:
-    return f"[{', '.join(map(show, node.elts))}]", _TARGET
+def _target(
+    node: ast.Name | ast.Attribute | ast.Call | ast.List | ast.Subscript,
+) -> tuple[str, int]:
+    """What binds tightest: a dot, a bracket or a parenthesis may follow it."""
+    match node:
+        case ast.Name():
+            text = node.id
+        case ast.Attribute():
+            text = f"{show(node.value, _TARGET)}.{node.attr}"
+        case ast.Call():
+            arguments = [show(argument) for argument in node.args]
+            arguments += [f"{keyword.arg}={show(keyword.value)}" for keyword in node.keywords]
+            text = f"{show(node.func, _TARGET)}({', '.join(arguments)})"
+        case ast.List():
+            text = f"[{', '.join(map(show, node.elts))}]"
+        case ast.Subscript():
+            text = f"{show(node.value, _TARGET)}[{show(node.slice)}]"
+    return text, _TARGET
 
 
 def _binary(node: ast.BinOp) -> tuple[str, int]:
@@ -390,10 +384,6 @@ def _choose(node: ast.IfExp) -> tuple[str, int]:
     return f"{body} if {test} else {show(node.orelse)}", _LAMBDA
 
 
-def _subscript(node: ast.Subscript) -> tuple[str, int]:
-    return f"{show(node.value, _TARGET)}[{show(node.slice)}]", _TARGET
-
-
 def _slice(node: ast.Slice) -> tuple[str, int]:
     low = show(node.lower) if node.lower is not None else ""
     high = show(node.upper) if node.upper is not None else ""
@@ -406,17 +396,17 @@ def _verbatim(node: Verbatim) -> tuple[str, int]:
 
 _PRINTERS: dict[type[ast.expr], Callable[..., tuple[str, int]]] = {
     ast.Constant: _constant,
-    ast.Name: _name,
-    ast.Attribute: _attribute,
-    ast.Call: _call,
-    ast.List: _list,
+    ast.Name: _target,
+    ast.Attribute: _target,
+    ast.Call: _target,
+    ast.List: _target,
+    ast.Subscript: _target,
     ast.BinOp: _binary,
     ast.UnaryOp: _unary,
     ast.BoolOp: _junction,
     ast.Compare: _compare,
     ast.Lambda: _lambda,
     ast.IfExp: _choose,
-    ast.Subscript: _subscript,
     ast.Slice: _slice,
     Verbatim: _verbatim,
 }

@@ -321,10 +321,6 @@ class Runner(QObject):
         if name in self.local.planned:
             self._aside(name, lambda: self.local.restart(name).wait_ready())
 
-    def is_ours(self, name: str) -> bool:
-        """Whether a node was started here, and can be stopped and started here."""
-        return name in self.local.planned
-
     def log_of(self, name: str) -> list[str]:
         """The last lines that a node wrote; at most 200."""
         return self.local.log_of(name)

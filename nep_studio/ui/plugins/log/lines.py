@@ -90,7 +90,9 @@ class LinesModel(QAbstractListModel):
             self._all.append(line)
             if self._fits(line):
                 new.append(line)
-        self._tell_counted()
+        if self._shown:  # it may say now that it came again
+            last_shown = self.index(len(self._shown) - 1)
+            self.dataChanged.emit(last_shown, last_shown)
         self._append(new[-self._most :])
 
     def show_part(self, part: str) -> None:
@@ -134,11 +136,6 @@ class LinesModel(QAbstractListModel):
         if self._part and line.part not in (self._part, RUN):
             return False
         return not self._words or self._words in f"{line.source} {line.what}".casefold()
-
-    def _tell_counted(self) -> None:
-        if self._shown:
-            last = self.index(len(self._shown) - 1)
-            self.dataChanged.emit(last, last)
 
     def _append(self, new: list[Line]) -> None:
         surplus = len(self._shown) + len(new) - self._most

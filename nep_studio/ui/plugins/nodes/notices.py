@@ -70,7 +70,12 @@ class Notice:
 
 def notice_of(before: NodeStatus | None, after: NodeStatus, at: Circumstances) -> Notice | None:
     """What has to be told; None when nothing has."""
-    if before is not None and _same(before, after):
+    is_known = before is not None and before.health == after.health
+    if (
+        before is not None
+        and is_known
+        and (before.event, before.fault) == (after.event, after.fault)
+    ):
         return None
     if after.health == "frozen":
         return _frozen(after, at)
@@ -95,17 +100,6 @@ def notice_of(before: NodeStatus | None, after: NodeStatus, at: Circumstances) -
     if after.health == "stopped" and before is not None:
         return _stopped(after, at)
     return None
-
-
-def is_recovered(before: NodeStatus | None, after: NodeStatus) -> bool:
-    """Whether what was told of a node is over: it is well again, or was started anew."""
-    is_back = after.health in WELL and (before is None or before.health not in WELL)
-    return is_back or (after.health == "stopped" and before is not None and before.is_there)
-
-
-def _same(before: NodeStatus, after: NodeStatus) -> bool:
-    mine = (before.health, before.event, before.fault)
-    return mine == (after.health, after.event, after.fault)
 
 
 def _frozen(status: NodeStatus, at: Circumstances) -> Notice:

@@ -24,7 +24,6 @@ from .notices import (
     NodeFixes,
     Notice,
     could_not_start,
-    is_recovered,
     master_notice,
     notice_of,
     started_again,
@@ -85,8 +84,9 @@ class NodeNotifier(QObject):
                 self._before.pop(name, None)
                 continue
             self._before[name] = after
-            if is_recovered(before, after):
-                self._recover(name)
+            is_back = after.health in WELL and (before is None or before.health not in WELL)
+            if is_back or (after.health == "stopped" and before is not None and before.is_there):
+                self._recover(name)  # it is well again, or was started anew
             notice = notice_of(before, after, self._circumstances(after))
             if notice is not None:
                 self.tell(notice)
@@ -107,13 +107,14 @@ class NodeNotifier(QObject):
     def _circumstances(self, status: NodeStatus) -> Circumstances:
         runner, name = self._runner, status.name
         plan = self.fixes.plan_of(name)
+        blocks = self._host.workbench.canvas.editor.project.blocks
         return Circumstances(
-            is_ours=runner.is_ours(name),
+            is_ours=name in runner.local.planned,
             is_program=name == PROGRAM,
             was_asked=name in self._asked,
             is_ending=self._is_ending or name in self._restarted or self._is_news_of_a_stop(status),
             was_ready=name in self._was_ready,
-            has_block=bool(self.fixes.block_of(name)),
+            has_block=plan is not None and plan.block_id in blocks,
             address=str(plan.parameters.get("address", "")) if plan is not None else "",
         )
 

@@ -204,7 +204,9 @@ class RobotsPanel(QWidget):
         planned = self._runner.planned()
         plans = {plan.name: plan for plan in robots_of(planned)}
         self._begin_at = start_places(planned)
-        for name in [*self._heard, *self._nodes_there()]:
+        nodes = self._runner.board.nodes.values()
+        there = [node.name for node in nodes if node.type == "action" and node.is_there]
+        for name in [*self._heard, *there]:
             plans.setdefault(name, RobotPlan(name))
         for name in self.cards.keys() - plans.keys():
             card = self.cards.pop(name)
@@ -245,10 +247,6 @@ class RobotsPanel(QWidget):
             self.large.close()
         self.elsewhere.setVisible(self.large is not None)
         self.stage.tools.show_large(self.large is not None)
-
-    def _nodes_there(self) -> list[str]:
-        nodes = self._runner.board.nodes.values()
-        return [node.name for node in nodes if node.type == "action" and node.is_there]
 
     def _add_card(self, plan: RobotPlan) -> RobotCard:
         card = self.cards[plan.name] = RobotCard(plan, self._language, self._look)
