@@ -164,6 +164,9 @@ class PeerNetwork(ZmqNetwork):
         self.master = fixed_endpoint(master or master_endpoint())
         super().__init__(node, high_water_mark=high_water_mark, is_far=is_far)
         self._topics: dict[str, int] = {}
+        """How many publishers of each topic there are here."""
+        self._heard: dict[str, str] = {}
+        """The topic of each subscriber here."""
         self._inboxes_by_topic: dict[str, list[Inbox]] = {}
         try:
             endpoint = self._open_outbox()
@@ -192,7 +195,7 @@ class PeerNetwork(ZmqNetwork):
 
     def join(self) -> None:
         """Make the node's name known at once; the first topic would do it too."""
-        self._client.change(lambda told: None)
+        self._client.change(self._tell_topics)
 
     def add_publisher(self, topic: str) -> set[str]:
         """Register the topic; the subscribers that the master knows."""
@@ -204,11 +207,9 @@ class PeerNetwork(ZmqNetwork):
         """Register the subscriber; the publishers that the master knows."""
         with self._lock:
             self._inboxes_by_topic.setdefault(topic, []).append(inbox)
-
-        def add(told: Registration) -> None:
-            told.subscribes[subscriber] = topic
-
-        return {publisher.instance for publisher in self._client.change(add, topic).publishers}
+            self._heard[subscriber] = topic
+        ends = self._client.change(self._tell_topics, topic)
+        return {publisher.instance for publisher in ends.publishers}
 
     def remove_publisher(self, topic: str) -> None:
         """Tell the master, without waiting, when the topic's last publisher here is closed."""
@@ -219,12 +220,13 @@ class PeerNetwork(ZmqNetwork):
     def remove_subscriber(self, subscriber: str) -> None:
         """End a subscriber and tell the master, without waiting."""
         with self._lock:
+            self._heard.pop(subscriber, None)
             inbox = self._inboxes.get(subscriber)
             for inboxes in self._inboxes_by_topic.values():
                 if inbox in inboxes:
                     inboxes.remove(inbox)
         super().remove_subscriber(subscriber)
-        self._client.change_later(lambda told: _forget(told, subscriber))
+        self._client.change_later(self._tell_topics)
 
     def _open_outbox(self) -> str:
         """Where subscribers find the messages."""
@@ -233,7 +235,9 @@ class PeerNetwork(ZmqNetwork):
         return self.outbox.bind(endpoint_at(host, "*"))
 
     def _tell_topics(self, told: Registration) -> None:
-        told.publishes = sorted(topic for topic, count in self._topics.items() if count > 0)
+        topics = self._topics.copy()  # other threads may change it meanwhile
+        told.publishes = sorted(topic for topic, count in topics.items() if count > 0)
+        told.subscribes = self._heard.copy()
 
     def _connect_subscribers(self, topic: str, publishers: list[Publishing]) -> None:
         endpoints = self._endpoints_of(publishers)
@@ -248,10 +252,6 @@ class PeerNetwork(ZmqNetwork):
 
     def _leave(self) -> None:
         self._client.close()
-
-
-def _forget(told: Registration, subscriber: str) -> None:
-    told.subscribes.pop(subscriber, None)
 
 
 # The central service of the broker network: a proxy for its messages, a master for its names.

@@ -10,6 +10,7 @@ import threading
 import time
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field, replace
+from functools import partial
 from pathlib import Path
 
 from faults import fault_in
@@ -279,7 +280,7 @@ class Launcher:
             environment={**os.environ, **SETTINGS, MASTER_VARIABLE: self.master},
             log_file=self.logs / log_file_name(launched.name),
             goes_on=launched.restarts > 0,
-            on_end=lambda outcome: self._ended(launched, outcome),
+            on_end=partial(self._ended, launched),
         )
 
     def _ended(self, launched: LaunchedNode, outcome: Outcome) -> None:

@@ -241,14 +241,10 @@ class ChildProcess:
         self._refusal = Path(tempfile.gettempdir()) / f"nep-fault-{uuid.uuid4().hex}.json"
         environment = {**environment, VARIABLE: marks, handover.VARIABLE: str(self._refusal)}
         self._popen, self._job = in_lasting_thread(partial(_start, name, command, environment))
+        self.pid = self._popen.pid
         self._reader = threading.Thread(target=self._read, name=f"nep-log-{name}", daemon=True)
         self._reader.start()
         threading.Thread(target=self._await_end, name=f"nep-wait-{name}", daemon=True).start()
-
-    @property
-    def pid(self) -> int:
-        """The process id."""
-        return self._popen.pid
 
     @property
     def last_lines(self) -> list[str]:

@@ -42,14 +42,19 @@ class Totals:
     def note(self, header: Header, messages: int) -> bool:
         """Count a frame with so many messages; whether they are new to the subscriber."""
         known = self._known.get((header.node, header.run))
+        last = header.sequence + messages - 1
         self._notes += 1
-        if known is not None:
-            known[2] = self._notes
+        if known is None:
+            if len(self._known) >= MOST_PUBLISHERS:
+                del self._known[min(self._known, key=lambda start: self._known[start][2])]
+            ends = (
+                [header.sequence, last] if header.sent is None else [header.sent + 1, header.sent]
+            )
+            self._known[header.node, header.run] = [*ends, self._notes]
+            return header.sent is None or messages > 0
+        known[2] = self._notes
         if header.sent is not None:
-            sent = header.sent or 0
-            if known is None:
-                self._remember(header, sent + 1, sent)
-                return messages > 0
+            sent = header.sent
             was_lost = header.sequence > known[1]
             is_new = messages > 0 and (was_lost or header.sequence < known[0])
             self.lost += max(0, sent - known[1] - (messages if was_lost else 0))
@@ -57,19 +62,10 @@ class Totals:
             if is_new:
                 known[0] = min(known[0], header.sequence)
             return is_new
-        last = header.sequence + messages - 1
-        if known is None:
-            self._remember(header, header.sequence, last)
-        else:
-            if header.sequence > known[1] + 1:
-                self.lost += header.sequence - known[1] - 1
-            known[1] = last  # lower than before: a sender without a run has started again
+        if header.sequence > known[1] + 1:
+            self.lost += header.sequence - known[1] - 1
+        known[1] = last  # lower than before: a sender without a run has started again
         return True
-
-    def _remember(self, header: Header, first: int, last: int) -> None:
-        if len(self._known) >= MOST_PUBLISHERS:
-            del self._known[min(self._known, key=lambda start: self._known[start][2])]
-        self._known[header.node, header.run] = [first, last, self._notes]
 
 
 # What has arrived for one subscriber and waits to be read.

@@ -7,6 +7,7 @@ import socket
 import threading
 import time
 from collections.abc import Callable
+from functools import partial
 
 import zmq
 
@@ -65,14 +66,10 @@ class IoThread:
         self._hurry_until_s = 0.0
         self._stopping = threading.Event()
         self._thread = threading.Thread(target=self._run, name=f"nep-io-{name}", daemon=True)
-
-    def start(self) -> None:
-        """Begin; call once."""
-        self._thread.start()
-
-    def watch(self, readable: zmq.Socket[bytes] | int) -> None:
-        """Wake when this socket of ours, or file number, has something; before start()."""
-        self._poller.register(readable, zmq.POLLIN)
+        self.start = self._thread.start
+        """Begins; to be called once."""
+        self.watch = partial(self._poller.register, flags=zmq.POLLIN)
+        """Wakes when this socket of ours, or file number, has something; before start()."""
 
     def tend(self, function: Callable[[], object]) -> None:
         """Call ``function`` again and again from this thread."""

@@ -11,7 +11,7 @@ from typing import Any
 from faults import Text, Words, text_of
 from nep_core.errors import ManifestError, NepError
 from nep_core.places import node_folders
-from nep_core.processes.manifest import Manifest, NodeCatalog, read_manifest
+from nep_core.processes.manifest import NodeCatalog, read_manifest
 from nep_studio import paths
 from nep_studio.blocks.checks import KnownChains, check_steps
 from nep_studio.blocks.checks.problem import Problem
@@ -103,7 +103,18 @@ def _node(
     for name, value in settings.items():
         if manifest.parameters[name].type == "file" and isinstance(value, str) and value:
             yield from _file(entry, name, value, folder)
-    yield from _gesture(entry, manifest, gestures)
+    if manifest.id != GESTURE_NODE or entry.parameters.get("model"):
+        return
+    for gesture in named_gestures(entry):
+        if gesture not in gestures:
+            yield _wrong(
+                entry,
+                text_of("Nobody has taught the gesture “{gesture}” yet.", gesture=gesture),
+                (
+                    text_of("Choose one of: {known}.", known=", ".join(gestures)),
+                    "Or name a model of your own: model=...",
+                ),
+            )
 
 
 def _file(entry: NodeEntry, name: str, value: str, folder: Path) -> Iterator[Problem]:
@@ -113,21 +124,6 @@ def _file(entry: NodeEntry, name: str, value: str, folder: Path) -> Iterator[Pro
             text_of("There is no file {value} ({name}).", value=value, name=name),
             ("Put it beside the project.", "Or correct its name."),
         )
-
-
-def _gesture(entry: NodeEntry, manifest: Manifest, known: Collection[str]) -> Iterator[Problem]:
-    if manifest.id != GESTURE_NODE or entry.parameters.get("model"):
-        return
-    for gesture in named_gestures(entry):
-        if gesture not in known:
-            yield _wrong(
-                entry,
-                text_of("Nobody has taught the gesture “{gesture}” yet.", gesture=gesture),
-                (
-                    text_of("Choose one of: {known}.", known=", ".join(known)),
-                    "Or name a model of your own: model=...",
-                ),
-            )
 
 
 def _wrong(entry: NodeEntry, sentence: Text, checklist: tuple[Words, ...]) -> Problem:

@@ -208,7 +208,10 @@ class MessageArea(QWidget):
         self.cards.append(card)
         self._box.addWidget(card)
         if message.passes:
-            self._pass(card)
+            timer = QTimer(card, singleShot=True)
+            timer.setInterval(max(LEAST_READ_MS, len(message.spoken) * READ_MS_PER_LETTER))
+            timer.timeout.connect(lambda: self._pass_away(card, timer))
+            timer.start()
         self._host.installEventFilter(self)
         self.show()
         self._place()
@@ -242,13 +245,6 @@ class MessageArea(QWidget):
             return
         super().keyPressEvent(event)
 
-    def _pass(self, card: MessageCard) -> None:
-        letters = len(card.message.spoken)
-        timer = QTimer(card, singleShot=True)
-        timer.setInterval(max(LEAST_READ_MS, letters * READ_MS_PER_LETTER))
-        timer.timeout.connect(lambda: self._pass_away(card, timer))
-        timer.start()
-
     def _pass_away(self, card: MessageCard, timer: QTimer) -> None:
         is_read = card.underMouse() or card.isAncestorOf(self.focusWidget() or self)
         if is_read or card.isHidden():
@@ -273,23 +269,20 @@ class MessageArea(QWidget):
             return
         widest = self.fontMetrics().averageCharWidth() * WIDEST_LETTERS
         width = min(self._host.width(), widest)
-        self._hide_what_has_no_room(width)
+        # Older cards wait until newer ones are closed: squeezed together, none could be read
+        margins = self._box.contentsMargins()
+        inside = width - margins.left() - margins.right()
+        room = self._host.height() - margins.top() - margins.bottom()
+        for card in reversed(self.cards):
+            has_room = card is self.cards[-1] or room >= card.heightForWidth(inside)
+            card.setHidden(not has_room)
+            room = room - card.heightForWidth(inside) - self._box.spacing() if has_room else 0
         height = self._box.heightForWidth(width) if self._box.hasHeightForWidth() else -1
         height = min(max(height, self._box.sizeHint().height() if height < 0 else height), 10_000)
         left = (self._host.width() - width) // 2
         self.setGeometry(left, 0, width, min(height, self._host.height()))
         self.move(QPoint(left, 0))
         self.raise_()
-
-    def _hide_what_has_no_room(self, width: int) -> None:
-        """Older cards wait until newer ones are closed: squeezed together, none could be read."""
-        margins = self._box.contentsMargins()
-        inside = width - margins.left() - margins.right()
-        left = self._host.height() - margins.top() - margins.bottom()
-        for card in reversed(self.cards):
-            has_room = card is self.cards[-1] or left >= card.heightForWidth(inside)
-            card.setHidden(not has_room)
-            left = left - card.heightForWidth(inside) - self._box.spacing() if has_room else 0
 
 
 # A question that must be answered: a dialog with the answers as buttons.

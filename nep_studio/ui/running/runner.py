@@ -122,11 +122,15 @@ class _Inlet:
         self, topic: str, kind: type[Any] | None, network: Network, monitor: Monitor
     ) -> None:
         self._topic, self._kind, self._network, self._monitor = topic, kind, network, monitor
-        self.lost = 0
         self._subscriber: Subscriber[Any] | None = None
         self._lock = threading.Lock()
         self._is_closed = False
         threading.Thread(target=self._hear, name=f"nep-tap-{topic}", daemon=True).start()
+
+    @property
+    def lost(self) -> int:
+        """How many messages were sent but did not arrive."""
+        return self._subscriber.lost if self._subscriber is not None else 0
 
     def close(self) -> None:
         """Hear no more."""
@@ -147,7 +151,6 @@ class _Inlet:
                 return
         for message in subscriber:
             header = subscriber.header
-            self.lost = subscriber.lost
             sent_s, sender = (header.time_ns / 1e9, header.node) if header else (0.0, "")
             self._monitor.hear(Heard(sent_s, message, sender))
 
