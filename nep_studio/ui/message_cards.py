@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 from PySide6.QtCore import QEvent, QObject, QPoint, Qt, QTimer, Signal
-from PySide6.QtGui import QColor, QGuiApplication, QKeyEvent
+from PySide6.QtGui import QColor, QGuiApplication, QKeyEvent, QPainter, QPaintEvent
 from PySide6.QtWidgets import (
     QApplication,
     QDialog,
     QFrame,
-    QGraphicsDropShadowEffect,
     QHBoxLayout,
     QLabel,
     QPlainTextEdit,
@@ -113,11 +112,6 @@ class MessageCard(QFrame):
         self.close_button.clicked.connect(self.closed)
         self.buttons = [self._button(answer) for answer in message.answers]
         self._fill(theme)
-        shadow = QGraphicsDropShadowEffect(self)
-        shadow.setBlurRadius(self.fontMetrics().height() * 1.2)
-        shadow.setOffset(0, 2)
-        shadow.setColor(QColor(theme.colour("sprite_shadow")))
-        self.setGraphicsEffect(shadow)
 
     def _fill(self, theme: Theme) -> None:
         line = self.fontMetrics().height()
@@ -238,6 +232,21 @@ class MessageArea(QWidget):
             self._place()
         return super().event(event)
 
+    def paintEvent(self, event: QPaintEvent) -> None:
+        """Paint a soft shadow under each card; an effect of Qt's would wake every hidden panel."""
+        reach = self.fontMetrics().height() // 2
+        colour = QColor(self._look.theme.colour("sprite_shadow"))
+        colour.setAlphaF(colour.alphaF() / reach)
+        painter = QPainter(self)
+        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+        painter.setPen(Qt.PenStyle.NoPen)
+        painter.setBrush(colour)
+        for card in self.cards:
+            for out in range(0 if card.isHidden() else reach):
+                room = card.geometry().adjusted(-out, 2 - out, out, 2 + out)
+                painter.drawRoundedRect(room, reach, reach)
+        painter.end()
+
     def keyPressEvent(self, event: QKeyEvent) -> None:
         """Esc closes the newest card."""
         if event.key() == Qt.Key.Key_Escape and self.cards:
@@ -283,6 +292,7 @@ class MessageArea(QWidget):
         self.setGeometry(left, 0, width, min(height, self._host.height()))
         self.move(QPoint(left, 0))
         self.raise_()
+        self.update()
 
 
 # A question that must be answered: a dialog with the answers as buttons.
