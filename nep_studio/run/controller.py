@@ -47,12 +47,18 @@ AT_ONCE = frozenset((triggers.KEY, surroundings.KEY))
 
 @dataclass(frozen=True)
 class Subject:
-    """What is to be run: a project, where its files are, and who plays its robots."""
+    """What is to be run: a project, where its files are, and who plays its robots.
+
+    ``is_in_order``: it was checked as it is now, and nothing is wrong; ``code``: its Python, where
+    that was made already.
+    """
 
     project: Project
     language: Language
     folder: Path
     choices: Choices = field(default_factory=Choices)
+    is_in_order: bool = False
+    code: Code | None = None
 
     def nodes(self) -> list[PlannedNode]:
         """The nodes that it needs."""
@@ -171,7 +177,15 @@ class RunController:
         elif self.state == "running":
             self.run_next()
         elif self.state == "idle" and (subject := self._subject()) is not None:
-            self._check(subject)
+            if not subject.is_in_order:
+                self._check(subject)
+            elif subject.code is None:
+                self._generate(subject, is_shown=True)
+            else:
+                try:
+                    self.start(Request(subject.code, tuple(subject.nodes())))
+                except (BlocksError, NepError) as error:
+                    self._tell(Refused(error, is_shown=True))
 
     def run_next(self) -> None:
         """Run what is open as soon as what runs now is stopped."""

@@ -68,17 +68,20 @@ class KnownProblems:
         self.chains = KnownChains()
         self._in_order: list[tuple[NodeEntry, list[str]]] = []
         """Nodes of the Nodes page, each with the gestures that were known then."""
+        self.is_whole = False
+        """Whether all nodes were, and what they need is nowhere that it could be gone from."""
 
     def of_nodes(
         self, entries: Iterable[NodeEntry], gestures: list[str], folder: Path
     ) -> list[Problem]:
         """What is wrong with these nodes."""
-        found, in_order = list[Problem](), []
+        found, in_order, self.is_whole = list[Problem](), [], True
         for entry in entries:
             if (entry, gestures) not in self._in_order:
                 wrong = list(_node(entry, NodeCatalog(node_folders()), gestures, folder))
                 found += wrong
                 if wrong or _names_file(entry, folder):
+                    self.is_whole = False
                     continue
             in_order.append((entry, gestures))
         self._in_order = in_order

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -155,7 +156,9 @@ class RunControl(QObject):
     def _subject(self) -> Subject | None:
         document = self._host.services.document
         if document is not None:
-            return self._subject_of(document)
+            checks, code = self._host.workbench.checks, self._host.workbench.code.live.program
+            subject = self._subject_of(document)
+            return replace(subject, is_in_order=checks.is_in_order, code=code)
         self._host.services.messages.refuse(
             "There is no project to run.", ("Open or make one first.",)
         )

@@ -8,7 +8,6 @@ import threading
 import time
 from collections.abc import Callable
 from dataclasses import dataclass
-from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -253,7 +252,7 @@ class Runner(QObject):
         """Nodes of which a dialog tells what becomes of them: no message is needed."""
         self.controller = RunController(self.local, subject, self._background.post, self._on_told)
         self._preparing = QTimer(self, interval=BETWEEN_SLICES_MS)
-        self._preparing.timeout.connect(partial(self.controller.work, SLICE_S))
+        self._preparing.timeout.connect(lambda: self.controller.work(SLICE_S))
         self._shown_state: State = "idle"
         self._is_closed = False
         self._looked_s = 0.0

@@ -176,16 +176,6 @@ class RunOverlay:
         return self.marks.values.get(name, "")
 
 
-def touched(view: CanvasHost, blocks: Iterable[str], *, with_chips: bool = False) -> None:
-    """Let blocks with the glow around them be painted again, perhaps with what stands beside."""
-    reach = REACH * view.look.measures.unit if with_chips else 20.0
-    for block in blocks:
-        placed = view.page_layout.placed(block)
-        if placed is not None:
-            x, y, width, height = placed.rect
-            view.layers.update_page(Rect(x - reach, y - 16, width + 2 * reach, height + 32))
-
-
 def _pause_sign(painter: QPainter, view: CanvasHost, placed: Placed) -> None:
     """The program waits here: two bars in a disc."""
     centre, size = _before(view, placed), 8 * view.look.measures.unit
@@ -329,8 +319,16 @@ class Stage(QObject):
         return marks.glowing | marks.around | frozenset(marks.paused.values())
 
     def _touch(self, blocks: Iterable[str], *, with_chips: bool = False) -> None:
-        if self._canvas is not None and self._canvas.isVisible():
-            touched(self._canvas, blocks, with_chips=with_chips)
+        """Paint blocks and the glow around them again, perhaps with what stands beside them."""
+        view = self._canvas
+        if view is None or not view.isVisible():
+            return
+        reach = REACH * view.look.measures.unit if with_chips else 20.0
+        for block in blocks:
+            placed = view.page_layout.placed(block)
+            if placed is not None:
+                x, y, width, height = placed.rect
+                view.layers.update_page(Rect(x - reach, y - 16, width + 2 * reach, height + 32))
 
     def _repaint_all(self) -> None:
         if self._canvas is not None:

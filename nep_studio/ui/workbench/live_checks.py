@@ -34,6 +34,13 @@ class LiveChecks(QObject):
         self._next = QTimer(self, singleShot=True, interval=BETWEEN_SLICES_MS)
         self._next.timeout.connect(self._on_next_slice)
         self.problems: list[Problem] = []
+        self._are_true = False
+
+    @property
+    def is_in_order(self) -> bool:
+        """Whether the program was checked as it is now, files and all, and nothing is wrong."""
+        errors = (problem for problem in self.problems if problem.severity == "error")
+        return self._are_true and self._known.is_whole and not any(errors)
 
     def follow(self, editor: Editor | None, folder: Callable[[], Path] = Path.cwd) -> None:
         """Check another project; None checks nothing."""
@@ -67,8 +74,9 @@ class LiveChecks(QObject):
         self._tell(problems)
 
     def cancel(self) -> None:
-        """Give up the check that is under way."""
+        """Give up the check that is under way; what was found may be true no more."""
         self._next.stop()
+        self._are_true = False
         if self._check is not None:
             self._check.cancel()
             self._check = None
@@ -78,7 +86,7 @@ class LiveChecks(QObject):
         if check is None:
             self.start()  # of what was just opened
         elif check.run(SLICE_S):
-            self._check = None
+            self._check, self._are_true = None, True
             self._tell(check.result)
         else:
             self._next.start()

@@ -102,6 +102,12 @@ def notice_of(before: NodeStatus | None, after: NodeStatus, at: Circumstances) -
     return None
 
 
+def is_recovered(before: NodeStatus | None, after: NodeStatus) -> bool:
+    """Whether what was told of a node is over: it is well again, or was started anew."""
+    is_back = after.health in WELL and (before is None or before.health not in WELL)
+    return is_back or (after.health == "stopped" and before is not None and before.is_there)
+
+
 def _frozen(status: NodeStatus, at: Circumstances) -> Notice:
     name = status.name
     steps: tuple[str, ...]

@@ -24,6 +24,7 @@ from .notices import (
     NodeFixes,
     Notice,
     could_not_start,
+    is_recovered,
     master_notice,
     notice_of,
     started_again,
@@ -84,9 +85,8 @@ class NodeNotifier(QObject):
                 self._before.pop(name, None)
                 continue
             self._before[name] = after
-            is_back = after.health in WELL and (before is None or before.health not in WELL)
-            if is_back or (after.health == "stopped" and before is not None and before.is_there):
-                self._recover(name)  # it is well again, or was started anew
+            if is_recovered(before, after):
+                self._recover(name)
             notice = notice_of(before, after, self._circumstances(after))
             if notice is not None:
                 self.tell(notice)
