@@ -63,12 +63,12 @@ class Document(QObject):
         self._journal = _journal(editor, path, is_unsaved)
         self._flush = QTimer(self, interval=FLUSH_MS)
         self._flush.timeout.connect(self.flush)
-        self._flush.start()
         self._edits = edits_of(editor)
         self._edits.edited.connect(self._on_edited)
         self._edits.settled.connect(self._on_settled)
         self._shown = (self.path, self.title, self.is_modified)
         self._was_kept = self.is_kept
+        self._flush.start()  # until all is on the disk
 
     @property
     def project(self) -> Project:
@@ -109,6 +109,7 @@ class Document(QObject):
         self._saved_position = self.editor.history.position
         if self._journal is not None:
             self._journal.saved(path)
+            self._flush.start()
         self._tell()
 
     def flush(self) -> None:
@@ -116,6 +117,8 @@ class Document(QObject):
         if self._journal is not None:
             self._journal.flush()
             self._look_at_journal()
+        if self.is_kept:
+            self._flush.stop()
 
     def use_language(self, language: Language) -> None:
         """Show the blocks in the words of another language."""
@@ -140,6 +143,8 @@ class Document(QObject):
             self.editor.apply(rename)
 
     def _on_edited(self, changes: Changes) -> None:
+        if not self._flush.isActive():
+            self._flush.start()
         self.edited.emit(changes)
         self._tell()
 

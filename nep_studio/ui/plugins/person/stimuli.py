@@ -227,8 +227,8 @@ class Stimuli(QObject):
         self.certainty = 1.0
         runner.connected.connect(self.changed)
         runner.disconnected.connect(self.changed)
-        runner.state_changed.connect(self._on_changed)
-        runner.nodes_changed.connect(self._on_changed)
+        runner.state_changed.connect(self.changed)
+        runner.nodes_changed.connect(self.changed)
 
     @property
     def robots(self) -> list[str]:
@@ -322,9 +322,6 @@ class Stimuli(QObject):
         return self.has_watch and gesture in self._watch_gestures()
 
     # How things happen
-
-    def _on_changed(self, _what: object) -> None:
-        self.changed.emit()
 
     def _let(self, robot: str, occurrence: Occurrence) -> None:
         value, amount = occurrence.value, occurrence.amount
