@@ -128,10 +128,12 @@ class Outcome:
     def text(self) -> Text:
         """How it ended, without the final full stop."""
         name = next((one.name for one in signal.Signals if one == -self.code), "")
-        if self.refusal is None and self.last_words:
+        if self.refusal is not None and self.refusal.sentence:
+            reason = self.refusal.sentence
+        elif self.refusal is None and self.last_words:
             reason = verbatim(self.last_words.rstrip("."))
         else:
-            reason = self.why or text_of("exit code {code}", code=self.code)
+            reason = text_of("exit code {code}", code=self.code)
         if self.asked:
             words = "{node} was stopped"
         elif self.code < 0:
@@ -306,7 +308,7 @@ class ChildProcess:
         self._reader.join(1.0)  # one that we may not end may hold the pipe open
         if self._popen.stdin is not None:
             self._popen.stdin.close()
-        words, refusal = last_words(self.last_lines), handover.take(self._refusal)
+        words, refusal = last_words(list(self._last_lines)), handover.take(self._refusal)
         self._on_end(Outcome(self.name, code, self._asked, words, refusal))
 
 

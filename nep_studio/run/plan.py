@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from pathlib import Path
-from typing import Protocol
 
 from nep_studio.blocks.deployment import (
     NodeEntry,
@@ -21,6 +20,8 @@ from nep_studio.blocks.own_gestures import TRIGGER, trained_gestures
 from nep_studio.blocks.program import Project
 from nep_studio.project.kept_files import (
     AnimationFiles,
+    RecogniserFile,
+    TakeFiles,
     animation_files,
     recogniser_file,
     take_files,
@@ -35,18 +36,8 @@ FASTEST = 50.0
 Setting = str | float | int | bool
 
 
-class KeptFiles(Protocol):
-    """What a node reads of what the project keeps, in a folder of its own."""
-
-    @property
-    def folder(self) -> Path:
-        """Where it is, or will be."""
-
-    def moved(self, folder: Path) -> KeptFiles:
-        """The same in another folder."""
-
-    def write(self) -> None:
-        """Write what is not there. Raises OSError."""
+KeptFiles = AnimationFiles | RecogniserFile | TakeFiles
+"""What a node reads of what the project keeps, in a folder of its own."""
 
 
 @dataclass(frozen=True)

@@ -183,7 +183,7 @@ def _program_ended(status: NodeStatus) -> Notice | None:
 
 def _how_it_ended(status: NodeStatus) -> Text:
     """That alone; what becomes of the node then is in the title."""
-    outcome = status.fault.values.get("outcome")
+    outcome = status.fault.sentence.values.get("outcome")
     return outcome if isinstance(outcome, Text) else status.fault.sentence
 
 
