@@ -135,18 +135,8 @@ class Subscriber(Generic[T]):
         if known and not self._inbox.wait_for(known, 0, HANDSHAKE_S):
             log.warning("a publisher of %s does not answer", topic)
         if callback is not None:
-
-            def run() -> None:
-                for message in self:
-                    try:
-                        callback(message)
-                    except Exception:
-                        log.exception("%s: the callback failed", self.topic)
-                    except SystemExit:
-                        log.warning("%s: the callback ended itself, and hears no more", self.topic)
-                        self.close()  # else it would look as if it heard
-
-            threading.Thread(target=run, name=f"nep-hear-{self.topic}", daemon=True).start()
+            name, args = f"nep-hear-{topic}", (callback,)
+            threading.Thread(target=self._tell, args=args, name=name, daemon=True).start()
 
     @property
     def header(self) -> Header | None:
@@ -213,6 +203,16 @@ class Subscriber(Generic[T]):
         """Each message as it comes, until the subscriber is closed or the node stops."""
         while (message := self.receive()) is not None:
             yield message
+
+    def _tell(self, callback: Callable[[T], None]) -> None:
+        for message in self:
+            try:
+                callback(message)
+            except Exception:
+                log.exception("%s: the callback failed", self.topic)
+            except SystemExit:
+                log.warning("%s: the callback ended itself, and hears no more", self.topic)
+                self.close()  # else it would look as if it heard
 
     def _decoder_of(self, parts: list[bytes]) -> Decode | None:
         """How to decode a frame that begins in an unusual way; None: it cannot be read."""

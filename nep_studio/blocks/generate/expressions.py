@@ -13,7 +13,7 @@ from nep_studio.blocks.definitions import Call, Definition
 from nep_studio.blocks.errors import CodeRefused
 from nep_studio.blocks.language import Language
 from nep_studio.blocks.program import Block, Project, split_slot
-from nep_studio.blocks.slots import TEXT_RESULTS, constant
+from nep_studio.blocks.slots import TEXT_RESULTS, FieldValue, Kind, constant
 
 from .names import NameTable, ProgramNames
 
@@ -138,34 +138,35 @@ class Expressions:
         slot = definition.slots[split_slot(key)[0]]
         plugged = self.plugged(block, key)
         if plugged is None:
-            value = definition.value(block, key)
-            kind = slot.kind
-            if kind.name == "robot":
-                self.robots.add(str(value))
-                return ast.Name(self.names.robots[str(value)])
-            if kind.name == "variable":
-                return ast.Name(self.variable(block))
-            if kind.name == "choice":
-                return ast.Constant(self.choice(block, key))
-            if kind.is_number and isinstance(value, str):
-                try:
-                    arithmetic = calculate(value)
-                except ArithmeticRefused as refused:
-                    raise CodeRefused(
-                        refused.sentence,
-                        block=block.id,
-                        checklist=("Correct what is written in this block.",),
-                    ) from refused
-                if arithmetic.needs_math:
-                    self.modules.add("math")
-                return arithmetic.node
-            return kind.to_python(value)
+            return self._field(block, key, slot.kind, definition.value(block, key))
         node = self.value(plugged)
         if slot.kind.becomes_text and self.definition(plugged).result not in TEXT_RESULTS:
             return call("str", node)
         if slot.kind.name == "list" and plugged.type == VARIABLE_BLOCK:
             self.begins_as(plugged, "list")
         return node
+
+    def _field(self, block: Block, key: str, kind: Kind, value: FieldValue | None) -> ast.expr:
+        if kind.name == "robot":
+            self.robots.add(str(value))
+            return ast.Name(self.names.robots[str(value)])
+        if kind.name == "variable":
+            return ast.Name(self.variable(block))
+        if kind.name == "choice":
+            return ast.Constant(self.choice(block, key))
+        if not kind.is_number or not isinstance(value, str):
+            return kind.to_python(value)
+        try:
+            arithmetic = calculate(value)
+        except ArithmeticRefused as refused:
+            raise CodeRefused(
+                refused.sentence,
+                block=block.id,
+                checklist=("Correct what is written in this block.",),
+            ) from refused
+        if arithmetic.needs_math:
+            self.modules.add("math")
+        return arithmetic.node
 
     def plugged(self, block: Block, key: str) -> Block | None:
         """The block plugged into a slot, or None; a disabled one does not count."""

@@ -70,27 +70,14 @@ class Notice:
 
 def notice_of(before: NodeStatus | None, after: NodeStatus, at: Circumstances) -> Notice | None:
     """What has to be told; None when nothing has."""
-    is_known = before is not None and before.health == after.health
-    if (
-        before is not None
-        and is_known
-        and (before.event, before.fault) == (after.event, after.fault)
-    ):
-        return None
+    if before is not None:
+        was = (before.health, before.event, before.fault)
+        if was == (after.health, after.event, after.fault):
+            return None
     if after.health == "frozen":
         return _frozen(after, at)
     if after.event == "connection_failed":
-        # The node's own words are a sentence and a checklist
-        fault = after.fault
-        where = tr(
-            "The program could not reach {name} at {address}.", name=after.name, address=at.address
-        )
-        title = tr("{name} does not answer", name=after.name)
-        problem = Problem(title, fault.sentence or where, fault.checklist)
-        fixes: tuple[Fix, ...] = (
-            ("use_virtual", "test_connection", "change_address") if at.has_block else ()
-        )
-        return Notice(after.name, f"connection {at.address}", "error", problem, fixes)
+        return _no_connection(after, at)
     if after.health == "warning":
         return _warning(after, at)
     if after.health == "crashed":
@@ -106,6 +93,20 @@ def is_recovered(before: NodeStatus | None, after: NodeStatus) -> bool:
     """Whether what was told of a node is over: it is well again, or was started anew."""
     is_back = after.health in WELL and (before is None or before.health not in WELL)
     return is_back or (after.health == "stopped" and before is not None and before.is_there)
+
+
+def _no_connection(status: NodeStatus, at: Circumstances) -> Notice:
+    """The node's own words are a sentence and a checklist."""
+    fault = status.fault
+    where = tr(
+        "The program could not reach {name} at {address}.", name=status.name, address=at.address
+    )
+    title = tr("{name} does not answer", name=status.name)
+    problem = Problem(title, fault.sentence or where, fault.checklist)
+    fixes: tuple[Fix, ...] = (
+        ("use_virtual", "test_connection", "change_address") if at.has_block else ()
+    )
+    return Notice(status.name, f"connection {at.address}", "error", problem, fixes)
 
 
 def _frozen(status: NodeStatus, at: Circumstances) -> Notice:
