@@ -2,8 +2,9 @@
 
     idle -> checking -> generating -> starting -> running <-> paused -> stopping -> idle
 
-Read it from ``run`` downwards. Checking and generating are work, done in slices by ``work``; only
-what really waits, the session, has a thread, which posts what it has to say.
+Read it from ``run`` downwards. Checking and generating are work, done in slices by ``work``; what
+was checked or generated already, while the person looked, is not done again. Only what really
+waits, the session, has a thread, which posts what it has to say.
 """
 
 from __future__ import annotations
