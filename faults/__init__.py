@@ -257,15 +257,6 @@ def _value(value: object) -> Value:
     return str(value)
 
 
-def _told(value: object, tr: Tr) -> object:
-    match value:
-        case Text():
-            return _Inner(told(value, tr))
-        case list():
-            return ", ".join(told(one, tr) if isinstance(one, Text) else str(one) for one in value)
-    return value
-
-
 # What another program told, which may be anything.
 
 
@@ -324,3 +315,12 @@ def _heard(value: object, deepest: int) -> Value:
 
 def _cut(words: str) -> str:
     return words if len(words) <= LONGEST else words[:LONGEST] + "…"
+
+
+def _told(value: object, tr: Tr) -> object:
+    match value:
+        case Text():
+            return _Inner(told(value, tr))
+        case list():
+            return ", ".join(told(one, tr) if isinstance(one, Text) else str(one) for one in value)
+    return value

@@ -277,11 +277,22 @@ class Master:
                 self._drop(told)
         self._news.tell(now_s)
         if self._waiting and now_s >= self._grace_until_s:
-            self._admit()
+            # Register the newcomers that had to wait
+            waiting, self._waiting = self._waiting, []
+            for request, address in waiting:
+                answer = self._register(request, address)
+                if answer is not None:
+                    self._send(address, says.encode(answer))
         if is_quiet and now_s >= self._next_check_s:  # not while heartbeats wait unread
             self._registry.lengthen_leases(max(0.0, now_s - self._next_check_s - CHECK_S))
             self._next_check_s = now_s + CHECK_S
-            self._drop_the_gone(now_s)
+            entries = self._registry.entries
+            gone = set(self._registry.expired(now_s))
+            ended = self._processes.has_ended
+            gone |= {i for i, entry in entries.items() if ended(entry.registration)}
+            for instance in gone:
+                self._drop(entries[instance].registration)
+            self._processes.keep_only(entry.registration for entry in entries.values())
 
     def _serve_for(self, seconds: float) -> bool:
         """Answer requests; True when there are no more."""
@@ -386,14 +397,6 @@ class Master:
         is_known = request.epoch or request.registration.instance in self._registry.entries
         return self._is_restart and not is_known and time.monotonic() < self._grace_until_s
 
-    def _admit(self) -> None:
-        """Register the newcomers that had to wait."""
-        waiting, self._waiting = self._waiting, []
-        for request, address in waiting:
-            answer = self._register(request, address)
-            if answer is not None:
-                self._send(address, says.encode(answer))
-
     def _change(self, request: says.Change, address: bytes) -> says.Answer:
         entry = self._registry.entries.get(request.instance)
         if entry is None or (entry.version, entry.address) != (request.base, address):
@@ -413,15 +416,6 @@ class Master:
             publishers={topic: self._registry.publishers(topic) for topic in set(wanted)},
             subscribers={topic: self._registry.subscribers(topic) for topic in publishes},
         )
-
-    def _drop_the_gone(self, now_s: float) -> None:
-        entries = self._registry.entries
-        gone = set(self._registry.expired(now_s))
-        ended = self._processes.has_ended
-        gone |= {i for i, entry in entries.items() if ended(entry.registration)}
-        for instance in gone:
-            self._drop(entries[instance].registration)
-        self._processes.keep_only(entry.registration for entry in entries.values())
 
     def _drop(self, told: Registration) -> None:
         log.info("%s is gone", told.node)

@@ -4,8 +4,6 @@ from __future__ import annotations
 
 import contextlib
 import logging
-import os
-import socket as sockets
 import threading
 import time
 from collections.abc import Callable
@@ -96,17 +94,6 @@ class MasterClient:
         io.watch(self._socket)
         io.tend(self.tend)
 
-    @staticmethod
-    def registration(node: str, instance: str, endpoint: str) -> Registration:
-        """What this process tells of itself before it has any topic."""
-        return Registration(
-            instance=instance,
-            node=node,
-            pid=os.getpid(),
-            host=sockets.gethostname(),
-            endpoint=endpoint,
-        )
-
     def change(self, edit: Callable[[Registration], None], topic: str = "") -> Ends:
         """Change what is told and wait for the master's answer: who is at ``topic``.
 
@@ -115,8 +102,10 @@ class MasterClient:
         with self._changed:
             version = self._edit(edit, topic)
             self._io.wake()
-            self._changed.wait_for(lambda: self._closed or self._answered(version), ANSWER_S)
-            answer, answered = self._answer, self._answered(version)
+            self._changed.wait_for(
+                lambda: self._closed or (self._answer and self._answer.version >= version), ANSWER_S
+            )
+            answer = self._answer
             ends = Ends(self._publishers.get(topic, []), self._subscribers.get(topic, []))
         if self._closed:
             raise NetworkError(
@@ -124,7 +113,7 @@ class MasterClient:
                 checklist=("Start it again.",),
                 node=self._registration.node,
             )
-        if not answered or answer is None:
+        if answer is None or answer.version < version:
             raise no_master(self.master)
         if isinstance(answer, says.Refused):
             if (fault := heard_fault(answer.fault)) is not None:
@@ -140,7 +129,15 @@ class MasterClient:
 
     def tend(self) -> None:
         """Read what the master says, and say what it should know (the I/O thread)."""
-        for answer in self._arrived():
+        answers = []
+        with contextlib.suppress(zmq.Again):
+            while True:
+                frame = self._socket.recv(zmq.NOBLOCK)
+                try:
+                    answers.append(says.decode_answer(frame))
+                except msgspec.MsgspecError as error:
+                    log.warning("the master says what cannot be read: %s", error)
+        for answer in answers:
             self._hear(answer)
         now_s = time.monotonic()
         if self._before_restart and now_s >= self._settled_s:
@@ -172,20 +169,6 @@ class MasterClient:
         self._asked.add(topic)
         return self._version
 
-    def _answered(self, version: int) -> bool:
-        return self._answer is not None and self._answer.version >= version
-
-    def _arrived(self) -> list[says.Answer]:
-        answers = []
-        with contextlib.suppress(zmq.Again):
-            while True:
-                frame = self._socket.recv(zmq.NOBLOCK)
-                try:
-                    answers.append(says.decode_answer(frame))
-                except msgspec.MsgspecError as error:
-                    log.warning("the master says what cannot be read: %s", error)
-        return answers
-
     def _hear(self, answer: says.Answer) -> None:
         match answer:
             case says.Registered():
@@ -194,12 +177,10 @@ class MasterClient:
                 self._epoch = answer.epoch
                 for topic, publishers in answer.publishers.items():
                     self._take_publishers(topic, publishers)
-                self._note(answer, answer.subscribers)
             case says.Refused():
                 if self._epoch and not isinstance(self._answer, says.Refused):
                     log.warning("the master does not take us back: %s", answer.sentence)
                 self._sent = None
-                self._note(answer, {})
             case says.Publishers():
                 self._take_publishers(answer.topic, answer.publishers)
             case says.Heard():
@@ -211,14 +192,12 @@ class MasterClient:
                 self._on_computers(answer.keys)
             case _:
                 log.warning("the master answered: %s", answer)
-
-    def _note(
-        self, answer: says.Registered | says.Refused, subscribers: dict[str, list[str]]
-    ) -> None:
-        with self._changed:
-            self._answer = answer
-            self._subscribers |= subscribers
-            self._changed.notify_all()
+        if isinstance(answer, says.Registered | says.Refused):
+            with self._changed:
+                self._answer = answer
+                if isinstance(answer, says.Registered):
+                    self._subscribers |= answer.subscribers
+                self._changed.notify_all()
 
     def _take_publishers(self, topic: str, publishers: list[Publishing]) -> None:
         with self._changed:
@@ -250,24 +229,31 @@ class MasterClient:
         if self._sent is None:
             request = says.Register(version=version, registration=told, epoch=self._epoch)
         else:
-            request = _difference(self._sent, told, asked)
-            request.version, request.base = version, self._sent_version
+            # What the master should know, beside the topics whose ends are asked for
+            sent = self._sent
+            before, now = set(sent.publishes), set(told.publishes)
+            request = says.Change(
+                instance=told.instance,
+                version=version,
+                base=self._sent_version,
+                publishes=sorted((now - before) | (now & asked)),
+                publishes_no_more=sorted(before - now),
+                subscribes=dict(told.subscribes.items() - sent.subscribes.items()),
+                subscribes_no_more=sorted(sent.subscribes.keys() - told.subscribes.keys()),
+            )
         if self._say(request):
             self._sent, self._sent_version = told, version
-            self._forget_topics(told)
+            # Topics that are neither heard nor published here any more
+            heard = set(told.subscribes.values())
+            with self._changed:
+                for topic in self._publishers.keys() - heard:
+                    del self._publishers[topic]
+                    self._before_restart.pop(topic, None)
+                for topic in self._subscribers.keys() - set(told.publishes):
+                    del self._subscribers[topic]
         else:
             with self._changed:
                 self._asked |= asked
-
-    def _forget_topics(self, told: Registration) -> None:
-        """Topics that are neither heard nor published here any more."""
-        heard = set(told.subscribes.values())
-        with self._changed:
-            for topic in self._publishers.keys() - heard:
-                del self._publishers[topic]
-                self._before_restart.pop(topic, None)
-            for topic in self._subscribers.keys() - set(told.publishes):
-                del self._subscribers[topic]
 
     def _say(self, request: says.Request) -> bool:
         try:
@@ -276,20 +262,6 @@ class MasterClient:
             return False  # the master is away: the next tick tries again
         self._next_beat_s = time.monotonic() + HEARTBEAT_S
         return True
-
-
-def _difference(sent: Registration, told: Registration, asked: set[str]) -> says.Change:
-    """What the master should know, beside the topics whose ends are asked for."""
-    before, now = set(sent.publishes), set(told.publishes)
-    return says.Change(
-        instance=told.instance,
-        version=0,
-        base=0,
-        publishes=sorted((now - before) | (now & asked)),
-        publishes_no_more=sorted(before - now),
-        subscribes=dict(told.subscribes.items() - sent.subscribes.items()),
-        subscribes_no_more=sorted(sent.subscribes.keys() - told.subscribes.keys()),
-    )
 
 
 # Following what a master has registered, for tools that show it.

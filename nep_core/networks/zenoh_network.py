@@ -275,7 +275,14 @@ class ZenohNetwork(Network):
         with self._lock:
             if self._name is None:
                 self._name = self._claim_name()
-                self._hear_stop()
+                import zenoh
+
+                def on_stop(_sample: zenoh.Sample) -> None:
+                    self._is_asked_to_stop = True
+                    self.io.wake()
+
+                asked = zenoh.handlers.Callback(on_stop, indirect=False)
+                self.session.declare_subscriber(stop_key(self.instance), asked)
 
     def add_publisher(self, topic: str) -> set[str]:
         """Tell of the topic; the subscribers that are there."""
@@ -346,16 +353,6 @@ class ZenohNetwork(Network):
             pid=told.pid,
             host=told.host,
         )
-
-    def _hear_stop(self) -> None:
-        import zenoh
-
-        def on_stop(_sample: zenoh.Sample) -> None:
-            self._is_asked_to_stop = True
-            self.io.wake()
-
-        asked = zenoh.handlers.Callback(on_stop, indirect=False)
-        self.session.declare_subscriber(stop_key(self.instance), asked)
 
     def _stop_when_asked(self) -> None:
         if self._is_asked_to_stop:

@@ -137,7 +137,15 @@ def _open(
     failure: NetworkError,
 ) -> zenoh.Session:
     """A session; raises ``failure`` when zenoh does not open it."""
-    _require_zenoh()
+    # Raise NetworkError when the library is not installed
+    if find_spec("zenoh") is None:
+        raise NetworkError(
+            "The zenoh library is not installed.",
+            checklist=(
+                'Install it: pip install "nep-studio[zenoh]"',
+                "Or use another network: NEP_NETWORK=p2p",
+            ),
+        )
     import zenoh
 
     settings = SETTINGS | settings
@@ -178,18 +186,6 @@ def _certificates() -> dict[str, Any]:
         "connect_certificate": certificate,
         "connect_private_key": key,
     }
-
-
-def _require_zenoh() -> None:
-    """Raise NetworkError when the library is not installed."""
-    if find_spec("zenoh") is None:
-        raise NetworkError(
-            "The zenoh library is not installed.",
-            checklist=(
-                'Install it: pip install "nep-studio[zenoh]"',
-                "Or use another network: NEP_NETWORK=p2p",
-            ),
-        )
 
 
 # The key expressions of a zenoh network: where frames go, and the tokens that say who is there.

@@ -7,8 +7,11 @@ BrokerNetwork sends its messages through the broker.
 from __future__ import annotations
 
 import contextlib
+import os
+import socket
 import threading
 from collections.abc import Iterator
+from functools import partial
 from typing import Any, Literal
 
 import zmq
@@ -66,7 +69,8 @@ class ZmqNetwork(Network):
         )
         self.io.watch(self.outbox.file_number)
         self.io.tend(self.outbox.tend)
-        self.io.tend(self._let_go)
+        # The inboxes that were closed are given back: they end only when the waker looks up
+        self.io.tend(partial(self._waker.getsockopt, zmq.EVENTS))
 
     def _make_inbox(self, topic: str, subscriber: str, policy: Policy) -> Inbox:
         try:
@@ -87,10 +91,6 @@ class ZmqNetwork(Network):
                 topic=topic,
                 reason=reason_of(error),
             ) from error
-
-    def _let_go(self) -> None:
-        """Give back the inboxes that were closed: they end only when the waker looks up."""
-        self._waker.getsockopt(zmq.EVENTS)
 
     def take_warning(self) -> Fault | None:
         """Who was refused since the last time, and what to do."""
@@ -170,6 +170,9 @@ class PeerNetwork(ZmqNetwork):
         self.master = fixed_endpoint(master or master_endpoint())
         super().__init__(node, high_water_mark=high_water_mark, is_far=is_far)
         self._topics: dict[str, int] = {}
+        """How many publishers of each topic there are here."""
+        self._heard: dict[str, str] = {}
+        """The topic of each subscriber here."""
         self._inboxes_by_topic: dict[str, list[Inbox]] = {}
         try:
             endpoint = self._open_outbox()
@@ -177,9 +180,14 @@ class PeerNetwork(ZmqNetwork):
             self.outbox.close()
             self._end()
             raise
-        told = MasterClient.registration(self.node, self.instance, endpoint)
-        if self.security is not None:
-            told.key = self.security.key
+        told = Registration(
+            instance=self.instance,
+            node=self.node,
+            pid=os.getpid(),
+            host=socket.gethostname(),
+            endpoint=endpoint,
+            key=self.security.key if self.security is not None else "",
+        )
         self._client = MasterClient(
             self.context,
             self.io,
@@ -193,7 +201,7 @@ class PeerNetwork(ZmqNetwork):
 
     def join(self) -> None:
         """Make the node's name known at once; the first topic would do it too."""
-        self._client.change(lambda told: None)
+        self._client.change(self._tell_topics)
 
     def add_publisher(self, topic: str) -> set[str]:
         """Register the topic; the subscribers that the master knows."""
@@ -205,11 +213,9 @@ class PeerNetwork(ZmqNetwork):
         """Register the subscriber; the publishers that the master knows."""
         with self._lock:
             self._inboxes_by_topic.setdefault(topic, []).append(inbox)
-
-        def add(told: Registration) -> None:
-            told.subscribes[subscriber] = topic
-
-        return {publisher.instance for publisher in self._client.change(add, topic).publishers}
+            self._heard[subscriber] = topic
+        ends = self._client.change(self._tell_topics, topic)
+        return {publisher.instance for publisher in ends.publishers}
 
     def remove_publisher(self, topic: str) -> None:
         """Tell the master, without waiting, when the topic's last publisher here is closed."""
@@ -220,24 +226,24 @@ class PeerNetwork(ZmqNetwork):
     def remove_subscriber(self, subscriber: str) -> None:
         """End a subscriber and tell the master, without waiting."""
         with self._lock:
+            self._heard.pop(subscriber, None)
             inbox = self._inboxes.get(subscriber)
             for inboxes in self._inboxes_by_topic.values():
                 if inbox in inboxes:
                     inboxes.remove(inbox)
         super().remove_subscriber(subscriber)
-        self._client.change_later(lambda told: _forget(told, subscriber))
+        self._client.change_later(self._tell_topics)
 
     def _open_outbox(self) -> str:
         """Where subscribers find the messages."""
-        return self.outbox.bind(self._own_place())
-
-    def _own_place(self) -> str:
-        """Where to bind: this computer alone, or with keys where other computers reach it."""
+        # Where to bind: this computer alone, or with keys where other computers reach it
         host = "127.0.0.1" if self.security is None else own_address(self.master)
-        return endpoint_at(host, "*")
+        return self.outbox.bind(endpoint_at(host, "*"))
 
     def _tell_topics(self, told: Registration) -> None:
-        told.publishes = sorted(topic for topic, count in self._topics.items() if count > 0)
+        topics = self._topics.copy()  # other threads may change it meanwhile
+        told.publishes = sorted(topic for topic, count in topics.items() if count > 0)
+        told.subscribes = self._heard.copy()
 
     def _connect_subscribers(self, topic: str, publishers: list[Publishing]) -> None:
         endpoints = self._endpoints_of(publishers)
@@ -252,10 +258,6 @@ class PeerNetwork(ZmqNetwork):
 
     def _leave(self) -> None:
         self._client.close()
-
-
-def _forget(told: Registration, subscriber: str) -> None:
-    told.subscribes.pop(subscriber, None)
 
 
 # The central service of the broker network: a proxy for its messages, a master for its names.

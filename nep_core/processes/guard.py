@@ -42,7 +42,12 @@ def main(words: list[str]) -> int:
     code = child.wait()
     if stopped.is_set():
         ending.join()  # else what the node started would outlive us
-    return _ended_like(code)
+    # End by the signal that ended the node, so that the launcher knows of it
+    if code < 0:
+        with contextlib.suppress(OSError, ValueError):
+            signal.signal(-code, signal.SIG_DFL)
+        os.kill(os.getpid(), -code)
+    return code
 
 
 def _start(words: list[str]) -> subprocess.Popen[bytes]:
@@ -75,12 +80,3 @@ def _end_when(stopped: threading.Event, child: subprocess.Popen[bytes]) -> None:
     child.terminate()
     psutil.wait_procs(started, timeout=GRACE_S)
     process.kill(started | process.descendants(os.getpid()))
-
-
-def _ended_like(code: int) -> int:
-    """End by the signal that ended the node, so that the launcher knows of it."""
-    if code < 0:
-        with contextlib.suppress(OSError, ValueError):
-            signal.signal(-code, signal.SIG_DFL)
-        os.kill(os.getpid(), -code)
-    return code

@@ -10,8 +10,6 @@ from __future__ import annotations
 import contextlib
 import logging
 import os
-import tempfile
-import uuid
 from pathlib import Path
 
 import msgspec
@@ -24,11 +22,6 @@ VARIABLE = "NEP_FAULT_FILE"
 """In the environment of a launched process: where it may write why it would not go on."""
 
 MOST_BYTES = 100_000
-
-
-def place() -> Path:
-    """A file of its own for a process that is about to be started; it is not made."""
-    return Path(tempfile.gettempdir()) / f"nep-fault-{uuid.uuid4().hex}.json"
 
 
 def hand_over(fault: Fault) -> None:

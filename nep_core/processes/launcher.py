@@ -10,6 +10,7 @@ import threading
 import time
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field, replace
+from functools import partial
 from pathlib import Path
 
 from faults import fault_in
@@ -67,17 +68,6 @@ class LaunchedNode:
         """Whether the process ``pid`` is its own, perhaps started by a wrapper or a launch stub."""
         return self.process is not None and is_in_tree(pid, self.process.pid)
 
-    def hear(self, state: NodeState) -> None:
-        """Take note of what a node of its name told."""
-        if not self.ready.is_set() and state.event in AT_WORK and self.owns(state.pid):
-            self.ready.set()
-        elif state.event == "stopped" and self.owns(state.pid):
-            self.said_end.set()
-
-    def was_ended(self, outcome: Outcome) -> bool:
-        """Whether it was killed on purpose: ``nep kill --force`` tells so before it does it."""
-        return outcome.code < 0 and self.said_end.is_set()
-
     def has_said_end(self, outcome: Outcome) -> bool:
         """Whether the node itself told that it stopped; waits a moment for its last message."""
         if outcome.code != 0 or not self.ready.is_set():
@@ -130,40 +120,6 @@ class LaunchedNode:
                 )
 
 
-# Tells on the network how nodes ended that cannot say it any more.
-
-
-class Herald:
-    """Speaks until it is closed, which it must be before the network is."""
-
-    def __init__(self, network: Network | None) -> None:
-        self._lock = threading.Lock()
-        self._host = socket.gethostname()
-        self._states: Publisher | None = Publisher(NODE_STATE, network=network)
-
-    def tell_end(self, launched: LaunchedNode, outcome: Outcome, again: bool) -> None:
-        """Say how a node ended, unless it ended well by itself, or has said it."""
-        is_well = outcome.was_successful and not outcome.asked
-        if is_well or (outcome.asked and launched.has_said_end(outcome)):
-            return
-        state = NodeState(
-            node=launched.name,
-            type=launched.manifest.type if launched.manifest else "cognitive",
-            event="stopped" if outcome.asked else "crashed",
-            pid=launched.pid,
-            host=self._host,
-            **described(outcome.fault(again=again)),
-        )
-        with self._lock:
-            if self._states is not None and not self._states.network.closed:
-                self._states.send(state)
-
-    def close(self) -> None:
-        """Say nothing any more: a node may still end when the network is closed."""
-        with self._lock:
-            self._states = None  # not closed: a node of this network may speak on
-
-
 __all__ = ["LaunchedNode", "Launcher", "Report"]
 
 
@@ -204,15 +160,17 @@ class Launcher(Closing):
         self.master = master or master_endpoint()
         self._on_end = on_end
         self._lock = threading.RLock()
-        self._states: Subscriber[NodeState] | None = None
-        self._herald: Herald | None = None
+        self._heard: Subscriber[NodeState] | None = None
+        self._speaking = threading.Lock()
+        self._said: Publisher | None = None
+        """Says how nodes ended that cannot say it any more; silent before the network is closed."""
 
     def hear(self, network: Network | None = None) -> None:
         """Hear on ``network`` (default: this program's) which nodes are ready, tell who ended."""
         with self._lock:
-            if self._states is None:
-                self._herald = Herald(network)
-                self._states = Subscriber(
+            if self._heard is None:
+                self._said = Publisher(NODE_STATE, network=network)
+                self._heard = Subscriber(
                     NODE_STATE, NodeState, network=network, callback=self._on_node_state
                 )
 
@@ -239,7 +197,11 @@ class Launcher(Closing):
         self.hear()
         manifest = self.catalog.find(node)
         name = name or manifest.name
-        settings = _settings(manifest.read_parameters(dict(parameters or {})))
+        words = {True: "true", False: "false"}  # that every language reads, as Python's are not
+        settings = [
+            f"{key}={words[value] if isinstance(value, bool) else value}"
+            for key, value in manifest.read_parameters(dict(parameters or {})).items()
+        ]
         if manifest.command:
             folder = Path(manifest.path).parent
             command = [part.replace("{folder}", str(folder)) for part in manifest.command]
@@ -286,10 +248,10 @@ class Launcher(Closing):
 
     def leave(self) -> None:
         """Hear and tell no more, as when the network is about to be closed."""
-        if self._herald is not None:
-            self._herald.close()
-        if self._states is not None:
-            self._states.close()
+        with self._speaking:  # a node may still end when the network is closed
+            self._said = None  # not closed: a node of this network may speak on
+        if self._heard is not None:
+            self._heard.close()
 
     def _launch(self, launched: LaunchedNode) -> LaunchedNode:
         check_node_name(launched.name)
@@ -320,11 +282,12 @@ class Launcher(Closing):
             environment={**os.environ, **SETTINGS, MASTER_VARIABLE: self.master},
             log_file=self.logs / log_file_name(launched.name),
             goes_on=launched.restarts > 0,
-            on_end=lambda outcome: self._ended(launched, outcome),
+            on_end=partial(self._ended, launched),
         )
 
     def _ended(self, launched: LaunchedNode, outcome: Outcome) -> None:
-        if launched.was_ended(outcome):
+        if outcome.code < 0 and launched.said_end.is_set():
+            # It was killed on purpose: ``nep kill --force`` tells so before it does it
             outcome = replace(outcome, asked=True)
         again = launched.deserves_another(outcome)
         self._tell_end(launched, outcome, again)
@@ -335,8 +298,19 @@ class Launcher(Closing):
         launched.outcome = outcome
         if not again:
             launched.ended.set()
-        if self._herald is not None:
-            self._herald.tell_end(launched, outcome, again)
+        is_well = outcome.was_successful and not outcome.asked
+        if not is_well and not (outcome.asked and launched.has_said_end(outcome)):
+            state = NodeState(
+                node=launched.name,
+                type=launched.manifest.type if launched.manifest else "cognitive",
+                event="stopped" if outcome.asked else "crashed",
+                pid=launched.pid,
+                host=socket.gethostname(),
+                **described(outcome.fault(again=again)),
+            )
+            with self._speaking:
+                if self._said is not None and not self._said.network.closed:
+                    self._said.send(state)
         if self._on_end is not None:
             self._on_end(launched, outcome, again)
         if not again:
@@ -357,18 +331,14 @@ class Launcher(Closing):
         self._tell_end(launched, outcome, again=False)
 
     def _on_node_state(self, state: NodeState) -> None:
+        """Take note of what a node of ours told, or another of its name."""
         launched = self.nodes.get(state.node)
-        if launched is not None:
-            launched.hear(state)
-
-
-def _settings(parameters: Mapping[str, Value]) -> list[str]:
-    """As words that every language reads: no True and False of Python."""
-    words = {True: "true", False: "false"}
-    return [
-        f"{name}={words[value] if isinstance(value, bool) else value}"
-        for name, value in parameters.items()
-    ]
+        if launched is None:
+            return
+        if not launched.ready.is_set() and state.event in AT_WORK and launched.owns(state.pid):
+            launched.ready.set()
+        elif state.event == "stopped" and launched.owns(state.pid):
+            launched.said_end.set()
 
 
 def _guarded(command: list[str]) -> list[str]:

@@ -50,7 +50,23 @@ class Parameter(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
 
     def read(self, name: str, value: object) -> Value:
         """``value`` (perhaps text, from a command line) as this type; raises ParameterError."""
-        read = self._as_type(value)
+        read: Value | None = None
+        if self.type in ("number", "integer"):
+            number = finite_number(value)
+            if number is not None and self.allows(number):
+                if self.type == "number":
+                    read = number
+                elif number == int(number):
+                    read = int(number)
+        elif self.type == "boolean":
+            words = {"true": True, "yes": True, "1": True, "false": False, "no": False, "0": False}
+            if isinstance(value, bool):
+                read = value
+            elif isinstance(value, str):
+                read = words.get(value.lower())
+        elif isinstance(value, str):
+            is_usable = value in self.choices if self.type == "choice" else "\0" not in value
+            read = value if is_usable else None
         if read is None:
             raise ParameterError(
                 'The setting "{name}" is {value}, but it takes {wanted}.',
@@ -60,23 +76,6 @@ class Parameter(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
                 wanted=self._wanted(),
             )
         return read
-
-    def _as_type(self, value: object) -> Value | None:
-        match self.type:
-            case "boolean":
-                return _boolean(value)
-            case "number":
-                number = finite_number(value)
-                return None if number is None or not self.allows(number) else number
-            case "integer":
-                number = finite_number(value)
-                whole = number is not None and number == int(number) and self.allows(number)
-                return int(number) if whole and number is not None else None
-            case "choice":
-                return value if isinstance(value, str) and value in self.choices else None
-            case _:
-                usable = isinstance(value, str) and "\0" not in value
-                return value if usable and isinstance(value, str) else None
 
     def allows(self, number: float) -> bool:
         """Whether the number is within its limits."""
@@ -142,23 +141,18 @@ class Manifest(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
                     name=name,
                     known=known,
                 )
-        return {
-            name: self._read_one(name, parameter, given)
-            for name, parameter in self.parameters.items()
-        }
-
-    def _read_one(self, name: str, parameter: Parameter, given: dict[str, Any]) -> Value:
-        if name in given:
-            return parameter.read(name, given[name])
-        if parameter.required or parameter.default is None:
-            raise ParameterError(
-                'The node {id} needs the setting "{name}": {help}',
-                checklist=("Add {name}=... to it.",),
-                id=self.id,
-                name=name,
-                help=parameter.help,
-            )
-        return parameter.read(name, parameter.default)
+        read = {}
+        for name, parameter in self.parameters.items():
+            if name not in given and (parameter.required or parameter.default is None):
+                raise ParameterError(
+                    'The node {id} needs the setting "{name}": {help}',
+                    checklist=("Add {name}=... to it.",),
+                    id=self.id,
+                    name=name,
+                    help=parameter.help,
+                )
+            read[name] = parameter.read(name, given.get(name, parameter.default))
+        return read
 
 
 def finite_number(value: object) -> float | None:
@@ -170,13 +164,6 @@ def finite_number(value: object) -> float | None:
     except (ValueError, OverflowError):
         return None
     return number if math.isfinite(number) else None
-
-
-def _boolean(value: object) -> bool | None:
-    if isinstance(value, bool):
-        return value
-    words = {"true": True, "yes": True, "1": True, "false": False, "no": False, "0": False}
-    return words.get(value.lower()) if isinstance(value, str) else None
 
 
 def read_manifest(path: Path) -> Manifest:
@@ -224,21 +211,19 @@ def _check(manifest: Manifest) -> None:
         if not topic.startswith("/"):
             raise ParameterError('the topic "{topic}" does not begin with /', topic=topic)
     for name, parameter in manifest.parameters.items():
-        _check_parameter(name, parameter)
-
-
-def _check_parameter(name: str, parameter: Parameter) -> None:
-    if not name.isidentifier() or iskeyword(name) or name == "node":
-        raise ParameterError('"{name}" cannot name a setting: use letters, digits and _', name=name)
-    has_limits = parameter.minimum is not None or parameter.maximum is not None
-    if has_limits and parameter.type not in ("number", "integer"):
-        raise ParameterError('the setting "{name}" has limits, but is no number', name=name)
-    if parameter.minimum is not None and not parameter.allows(parameter.minimum):
-        raise ParameterError('the setting "{name}" has a minimum above its maximum', name=name)
-    if parameter.type == "choice" and not parameter.choices:
-        raise ParameterError('the setting "{name}" has no choices', name=name)
-    if parameter.default is not None:
-        parameter.read(name, parameter.default)
+        if not name.isidentifier() or iskeyword(name) or name == "node":
+            raise ParameterError(
+                '"{name}" cannot name a setting: use letters, digits and _', name=name
+            )
+        has_limits = parameter.minimum is not None or parameter.maximum is not None
+        if has_limits and parameter.type not in ("number", "integer"):
+            raise ParameterError('the setting "{name}" has limits, but is no number', name=name)
+        if parameter.minimum is not None and not parameter.allows(parameter.minimum):
+            raise ParameterError('the setting "{name}" has a minimum above its maximum', name=name)
+        if parameter.type == "choice" and not parameter.choices:
+            raise ParameterError('the setting "{name}" has no choices', name=name)
+        if parameter.default is not None:
+            parameter.read(name, parameter.default)
 
 
 def _wrong(path: Path, reason: object) -> ManifestError:

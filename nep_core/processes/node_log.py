@@ -43,7 +43,7 @@ class NodeLog(Closing):
         self._file: FileIO | None = None
         try:
             path.parent.mkdir(parents=True, exist_ok=True)
-            self._begin(goes_on=goes_on and _size(path) < LOG_BYTES)
+            self._begin(goes_on=goes_on)
         except OSError as error:
             self._give_up(error)
         if goes_on:
@@ -69,29 +69,21 @@ class NodeLog(Closing):
 
     def _begin(self, *, goes_on: bool = False) -> None:
         self.close()  # a file that is open can have no other name on Windows
-        if not goes_on:
-            _set_aside(self._path)
+        size = self._path.stat().st_size if self._path.exists() else 0
+        goes_on = goes_on and size < LOG_BYTES
+        if size and not goes_on:
+            # It is kept beside; where somebody reads one and the system forbids, one is lost
+            for number in range(KEPT_FILES - 1, 0, -1):
+                younger = self._path.with_suffix(f".{number - 1}.log") if number > 1 else self._path
+                with suppress(OSError):
+                    younger.replace(self._path.with_suffix(f".{number}.log"))
         # without a buffer, which would fail again in close()
         self._file = self._path.open("ab" if goes_on else "wb", buffering=0)
-        self._left_bytes = LOG_BYTES - (_size(self._path) if goes_on else 0)
+        self._left_bytes = LOG_BYTES - (size if goes_on else 0)
 
     def _give_up(self, error: OSError) -> None:
         log.warning("The log %s cannot be kept: %s.", self._path, error.strerror)
         self.close()
-
-
-def _size(path: Path) -> int:
-    return path.stat().st_size if path.exists() else 0
-
-
-def _set_aside(path: Path) -> None:
-    """Keep the file beside it; where somebody reads one and the system forbids, one is lost."""
-    if not _size(path):
-        return
-    for number in range(KEPT_FILES - 1, 0, -1):
-        younger = path.with_suffix(f".{number - 1}.log") if number > 1 else path
-        with suppress(OSError):
-            younger.replace(path.with_suffix(f".{number}.log"))
 
 
 def log_file_name(node: str) -> str:

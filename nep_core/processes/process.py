@@ -9,6 +9,7 @@ import os
 import signal
 import subprocess
 import sys
+import tempfile
 import threading
 import uuid
 from collections import deque
@@ -23,7 +24,7 @@ from typing import Any, TypeVar
 
 import psutil
 
-from faults import Fault, Text, Words, fault_of, reason_of, text_of, verbatim
+from faults import Fault, Text, fault_of, reason_of, text_of, verbatim
 from nep_core.errors import NodeStartError
 from nep_core.wire.messages import PROCESS_ENDED, PROCESS_RESTARTS, PROCESS_STOPPED
 
@@ -95,8 +96,12 @@ _SIGNALS = {
     "SIGABRT": "{node} crashed (it aborted itself)",
 }
 
-
 _UNKNOWN_SIGNAL = "{node} was ended by signal {number}"
+_ENDED_WITH = {
+    0: "{node} ended by itself",
+    ASKED: "{node} was asked to stop",
+    ORPHANED: "{node} ended because the program that started it is gone",
+}
 
 
 @dataclass(frozen=True)
@@ -122,8 +127,21 @@ class Outcome:
     @property
     def text(self) -> Text:
         """How it ended, without the final full stop."""
-        values = {"number": -self.code, "name": self._signal, "reason": self._reason}
-        return text_of(self._words, node=self.node, **values)
+        name = next((one.name for one in signal.Signals if one == -self.code), "")
+        if self.refusal is not None and self.refusal.sentence:
+            reason = self.refusal.sentence
+        elif self.refusal is None and self.last_words:
+            reason = verbatim(self.last_words.rstrip("."))
+        else:
+            reason = text_of("exit code {code}", code=self.code)
+        if self.asked:
+            words = "{node} was stopped"
+        elif self.code < 0:
+            unknown = "{node} was ended by {name}" if name else _UNKNOWN_SIGNAL
+            words = _SIGNALS.get(name, unknown)
+        else:
+            words = _ENDED_WITH.get(self.code, "{node} ended with an error: {reason}")
+        return text_of(words, node=self.node, number=-self.code, name=name, reason=reason)
 
     @property
     def checklist(self) -> tuple[Text, ...]:
@@ -143,34 +161,6 @@ class Outcome:
         code = PROCESS_STOPPED if self.asked else PROCESS_ENDED
         return Fault(code, self.text, self.checklist)
 
-    @property
-    def _words(self) -> str:
-        if self.asked:
-            return "{node} was stopped"
-        if self.code < 0:
-            unknown = "{node} was ended by {name}" if self._signal else _UNKNOWN_SIGNAL
-            return _SIGNALS.get(self._signal, unknown)
-        if self.code == 0:
-            return "{node} ended by itself"
-        if self.code == ASKED:
-            return "{node} was asked to stop"
-        if self.code == ORPHANED:
-            return "{node} ended because the program that started it is gone"
-        return "{node} ended with an error: {reason}"
-
-    @property
-    def _signal(self) -> str:
-        try:
-            return signal.Signals(-self.code).name
-        except ValueError:
-            return ""
-
-    @property
-    def _reason(self) -> Words:
-        if self.refusal is None and self.last_words:
-            return verbatim(self.last_words.rstrip("."))
-        return self.why or text_of("exit code {code}", code=self.code)
-
     def __str__(self) -> str:
         return str(self.text)
 
@@ -189,19 +179,15 @@ _wishes: SimpleQueue[tuple[Callable[[], Any], Future[Any]]] = SimpleQueue()
 
 def in_lasting_thread(start: Callable[[], T]) -> T:
     """Call ``start`` in that thread; what it returns or raises."""
-    result: Future[T] = Future()
-    _live()
-    _wishes.put((start, result))
-    return result.result()
-
-
-def _live() -> None:
     global _thread, _wishes
+    result: Future[T] = Future()
     with _lock:
         if _thread is None or not _thread.is_alive():  # a fork of this program has no threads
             _wishes = SimpleQueue()
             _thread = threading.Thread(target=_work, args=(_wishes,), name="nep-start", daemon=True)
             _thread.start()
+    _wishes.put((start, result))
+    return result.result()
 
 
 def _work(wishes: SimpleQueue[tuple[Callable[[], Any], Future[Any]]]) -> None:
@@ -257,17 +243,13 @@ class ChildProcess:
         self._children_ended = threading.Event()
         self._mark = uuid.uuid4().hex
         marks = f"{environment.get(VARIABLE, '')} {self._mark}".strip()
-        self._refusal = handover.place()
+        self._refusal = Path(tempfile.gettempdir()) / f"nep-fault-{uuid.uuid4().hex}.json"
         environment = {**environment, VARIABLE: marks, handover.VARIABLE: str(self._refusal)}
         self._popen, self._job = in_lasting_thread(partial(_start, name, command, environment))
+        self.pid = self._popen.pid
         self._reader = threading.Thread(target=self._read, name=f"nep-log-{name}", daemon=True)
         self._reader.start()
         threading.Thread(target=self._await_end, name=f"nep-wait-{name}", daemon=True).start()
-
-    @property
-    def pid(self) -> int:
-        """The process id."""
-        return self._popen.pid
 
     @property
     def last_lines(self) -> list[str]:
@@ -304,19 +286,6 @@ class ChildProcess:
                     self._popen.kill()
         self._children_ended.wait(KILL_S)
 
-    def _end_children(self) -> None:
-        if self._job is not None:
-            self._job.end()
-        if not ON_WINDOWS:
-            with contextlib.suppress(ProcessLookupError, PermissionError):
-                os.killpg(self.pid, signal.SIGKILL)
-        for _ in range(MOST_LOOKS):
-            left = marked(self._mark)
-            if not left:
-                return
-            kill(left)  # what they started meanwhile is seen at the next look
-            psutil.wait_procs(left, timeout=LOOK_S)
-
     def _read(self) -> None:
         assert self._popen.stdout is not None
         node_log = NodeLog(self._log_file, goes_on=self._goes_on)
@@ -327,12 +296,22 @@ class ChildProcess:
 
     def _await_end(self) -> None:
         code = self._popen.wait()
-        self._end_children()  # at once, while no other process has its number
+        # Its children too, at once, while no other process has its number
+        if self._job is not None:
+            self._job.end()
+        if not ON_WINDOWS:
+            with contextlib.suppress(ProcessLookupError, PermissionError):
+                os.killpg(self.pid, signal.SIGKILL)
+        for _ in range(MOST_LOOKS):
+            if not (left := marked(self._mark)):
+                break
+            kill(left)  # what they started meanwhile is seen at the next look
+            psutil.wait_procs(left, timeout=LOOK_S)
         self._children_ended.set()
         self._reader.join(1.0)  # one that we may not end may hold the pipe open
         if self._popen.stdin is not None:
             self._popen.stdin.close()
-        words, refusal = last_words(self.last_lines), handover.take(self._refusal)
+        words, refusal = last_words(list(self._last_lines)), handover.take(self._refusal)
         self._on_end(Outcome(self.name, code, self._asked, words, refusal))
 
 
@@ -361,7 +340,6 @@ def _start(
 
 
 def _job_of(popen: subprocess.Popen[bytes]) -> Job | None:
-
     try:
         return Job(int(popen._handle))  # type: ignore[attr-defined]  # there is no other way
     except OSError as error:  # its life line and its mark are still there

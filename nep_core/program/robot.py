@@ -41,16 +41,13 @@ class RobotListener:
         """
         waited_s = 0.0
         with self._news:
-            while not self._is_new(robot, since):
+            while not (robot in self._states and self._states[robot].time >= since):
                 if waited_s >= (FRESH_STATE_S if robot in self._states else FIRST_STATE_S):
                     break
                 current_task().check()
                 self._news.wait(POLL_S)
                 waited_s += POLL_S
             return self._states.get(robot)
-
-    def _is_new(self, robot: str, since: float) -> bool:
-        return robot in self._states and self._states[robot].time >= since
 
     def _on_state(self, state: RobotState) -> None:
         with self._news:

@@ -168,8 +168,3 @@ def decoders(kind: type[Any] | None) -> dict[Encoding, Decode]:
         ways["text"] = bytes.decode
         ways["bytes"] = bytes
     return ways
-
-
-def lines_decoder(kind: type[Any] | None) -> Callable[[bytes], list[Any]]:
-    """How to decode JSON lines into a list of ``kind``; it raises what ``decoders`` raise."""
-    return msgspec.json.Decoder(Any if kind is None else kind).decode_lines

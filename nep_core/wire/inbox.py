@@ -42,37 +42,30 @@ class Totals:
     def note(self, header: Header, messages: int) -> bool:
         """Count a frame with so many messages; whether they are new to the subscriber."""
         known = self._known.get((header.node, header.run))
-        self._notes += 1
-        if known is not None:
-            known[2] = self._notes
-        if header.sent is not None:
-            return self._note_notice(header, messages, known)
         last = header.sequence + messages - 1
+        self._notes += 1
         if known is None:
-            self._remember(header, header.sequence, last)
-        else:
-            if header.sequence > known[1] + 1:
-                self.lost += header.sequence - known[1] - 1
-            known[1] = last  # lower than before: a sender without a run has started again
+            if len(self._known) >= MOST_PUBLISHERS:
+                del self._known[min(self._known, key=lambda start: self._known[start][2])]
+            ends = (
+                [header.sequence, last] if header.sent is None else [header.sent + 1, header.sent]
+            )
+            self._known[header.node, header.run] = [*ends, self._notes]
+            return header.sent is None or messages > 0
+        known[2] = self._notes
+        if header.sent is not None:
+            sent = header.sent
+            was_lost = header.sequence > known[1]
+            is_new = messages > 0 and (was_lost or header.sequence < known[0])
+            self.lost += max(0, sent - known[1] - (messages if was_lost else 0))
+            known[1] = max(known[1], sent)
+            if is_new:
+                known[0] = min(known[0], header.sequence)
+            return is_new
+        if header.sequence > known[1] + 1:
+            self.lost += header.sequence - known[1] - 1
+        known[1] = last  # lower than before: a sender without a run has started again
         return True
-
-    def _note_notice(self, header: Header, messages: int, known: list[int] | None) -> bool:
-        sent = header.sent or 0
-        if known is None:
-            self._remember(header, sent + 1, sent)
-            return messages > 0
-        was_lost = header.sequence > known[1]
-        is_new = messages > 0 and (was_lost or header.sequence < known[0])
-        self.lost += max(0, sent - known[1] - (messages if was_lost else 0))
-        known[1] = max(known[1], sent)
-        if is_new:
-            known[0] = min(known[0], header.sequence)
-        return is_new
-
-    def _remember(self, header: Header, first: int, last: int) -> None:
-        if len(self._known) >= MOST_PUBLISHERS:
-            del self._known[min(self._known, key=lambda start: self._known[start][2])]
-        self._known[header.node, header.run] = [first, last, self._notes]
 
 
 # What has arrived for one subscriber and waits to be read.
@@ -114,14 +107,19 @@ class Backlog:
         """Take in a frame or a notice."""
         self.count_passed()
         header, messages = self._read(frame)
-        if header is None:
-            if self.policy == "events":
-                self._keep(frame)  # its reader tells what is wrong with it
-        elif self._totals.note(header, messages):
-            if self.policy == "events":
-                self._keep(frame)
-            else:
-                self._keep_newest(header, frame)
+        if header is not None and not self._totals.note(header, messages):
+            return
+        if self.policy == "events":  # an unreadable one too: its reader tells what is wrong
+            self._frames.append(frame)
+            self._bytes += len(frame)
+            while len(self._frames) > 1 and (len(self._frames) > FRAMES or self._bytes > BYTES):
+                dropped = self._frames.popleft()
+                self._bytes -= len(dropped)
+                self._totals.lost += self._read(dropped)[1]
+        elif header is not None:
+            sender = (header.node, header.run)
+            if header.sent is None or sender not in self._newest:  # a notice brings what is old
+                self._newest[sender] = frame
 
     def pop(self) -> bytes | None:
         """The oldest frame that is here."""
@@ -141,19 +139,6 @@ class Backlog:
             if header is not None:
                 self._totals.note(header, messages)
 
-    def _keep(self, frame: bytes) -> None:
-        self._frames.append(frame)
-        self._bytes += len(frame)
-        while len(self._frames) > 1 and (len(self._frames) > FRAMES or self._bytes > BYTES):
-            dropped = self._frames.popleft()
-            self._bytes -= len(dropped)
-            self._totals.lost += self._read(dropped)[1]
-
-    def _keep_newest(self, header: Header, frame: bytes) -> None:
-        sender = (header.node, header.run)
-        if header.sent is None or sender not in self._newest:  # a notice brings what is old
-            self._newest[sender] = frame
-
     def _read(self, frame: bytes) -> tuple[Header | None, int]:
         """The header (None: unreadable) and how many messages there are."""
         end = frame.find(NUL, self._head_at)
@@ -165,10 +150,8 @@ class Backlog:
             return header, 0  # a mark
         if header.encoding != "json":
             return header, 1
-        payloads = frame[end:]
-        return header, len(payloads) - len(
-            payloads.replace(NUL, b"")
-        )  # count() is ten times slower
+        payloads = frame[end:]  # count() is ten times slower
+        return header, len(payloads) - len(payloads.replace(NUL, b""))
 
 
 # The C back end's own: socket.EVENTS takes eight times longer, for each of 1,000 subscribers.
@@ -223,11 +206,13 @@ class Inbox:
         self._lock = threading.Lock()
         self._backlog = Backlog(topic, policy)
         self._are_events = policy == "events"
-        self._commands: deque[Callable[[], None]] = deque()
+        self._told: deque[Mapping[str, str]] = deque()
+        """Where the publishers are, as it was told since the socket was used last."""
         self._wanted: set[str] = set()
         self._leaving: dict[str, float] = {}
         self._publishers: set[str] = set()
-        self._gone: Callable[[set[str]], set[str]] = lambda _: set()
+        self._known: set[str] | None = None
+        """The publishers that are there, where somebody keeps a list: all others are gone."""
         self.closed = False
 
     def connect(self, endpoints: Mapping[str, str], instances: set[str] | None = None) -> None:
@@ -236,8 +221,15 @@ class Inbox:
         ``instances`` are those publishers, where somebody keeps a list: all others are gone.
         """
         if instances is not None:
-            self._gone = lambda some: some - instances
-        self._do(lambda: self._connect_now(endpoints))
+            self._known = instances
+        self._told.append(endpoints)
+        if self._lock.acquire(blocking=False):
+            try:
+                self._connect_told()
+            finally:
+                self._lock.release()
+        else:
+            self._wake()
 
     def bind(self, endpoint: str) -> None:
         """Let publishers connect to ``endpoint``; raises PortTaken."""
@@ -251,8 +243,8 @@ class Inbox:
             with self._lock:
                 if self.closed:
                     return None
-                if self._commands:
-                    self._run_commands()
+                if self._told:
+                    self._connect_told()
                 if self._leaving:
                     self._disconnect_left()
                 self._backlog.count_passed()  # before we wait: it must not delay the next one
@@ -284,12 +276,12 @@ class Inbox:
     def tend(self) -> None:
         """Keep the newest messages while nobody reads, or wake the reader (the I/O thread)."""
         if not self._lock.acquire(blocking=False):
-            if self._commands or self.closed:
+            if self._told or self.closed:
                 self._waker.getsockopt(zmq.EVENTS)  # lets it see subscriptions made just now
                 self._waker.send(self._private)
             return
         try:
-            self._run_commands()
+            self._connect_told()
             self._drain()
             if self._leaving and not self.closed:
                 self._disconnect_left()
@@ -303,7 +295,8 @@ class Inbox:
         """
         deadline = time.monotonic() + timeout_s
         while not (
-            instances - self._gone(instances) <= self._publishers and len(self._publishers) >= count
+            (instances if self._known is None else instances & self._known) <= self._publishers
+            and len(self._publishers) >= count
         ):
             left_s = deadline - time.monotonic()
             if left_s <= 0 or self.closed:
@@ -311,7 +304,7 @@ class Inbox:
             if not self._lock.acquire(timeout=min(0.02, left_s)):
                 continue  # a thread that waits in take() hears them for us
             try:
-                self._run_commands()
+                self._connect_told()
                 if not self.closed:
                     self._socket.poll(min(20, math.ceil(left_s * 1000)))
                     self._drain()
@@ -342,31 +335,20 @@ class Inbox:
         with self._lock:
             self._socket.close()
 
-    def _do(self, command: Callable[[], None]) -> None:
-        self._commands.append(command)
-        if self._lock.acquire(blocking=False):
-            try:
-                self._run_commands()
-            finally:
-                self._lock.release()
-        else:
-            self._wake()
-
-    def _run_commands(self) -> None:
-        while self._commands and not self._socket.closed:
-            self._commands.popleft()()
-
-    def _connect_now(self, endpoints: Mapping[str, str]) -> None:
-        now_s = time.monotonic()
-        for endpoint in self._wanted - endpoints.keys():
-            self._leaving[endpoint] = now_s + LAST_WORDS_S
-        for endpoint, key in endpoints.items():
-            if endpoint not in self._wanted and self._leaving.pop(endpoint, None) is None:
-                if self._security is not None:
-                    self._security.trust(self._socket, key)
-                self._socket.connect(endpoint)
-        self._wanted = set(endpoints)
-        self._publishers -= self._gone(self._publishers)
+    def _connect_told(self) -> None:
+        """Connect to the publishers of which it was told; the lock is held."""
+        while self._told and not self._socket.closed:
+            endpoints, now_s = self._told.popleft(), time.monotonic()
+            for endpoint in self._wanted - endpoints.keys():
+                self._leaving[endpoint] = now_s + LAST_WORDS_S
+            for endpoint, key in endpoints.items():
+                if endpoint not in self._wanted and self._leaving.pop(endpoint, None) is None:
+                    if self._security is not None:
+                        self._security.trust(self._socket, key)
+                    self._socket.connect(endpoint)
+            self._wanted = set(endpoints)
+            if self._known is not None:
+                self._publishers &= self._known
 
     def _disconnect_left(self) -> None:
         now_s = time.monotonic()
@@ -390,17 +372,13 @@ class Inbox:
                 return None
             if not frame or frame[0] != PRIVATE_BYTE:
                 return frame
-            self._hear_privately(frame)
+            if frame.startswith(self._private) and frame != self._private:
+                instance, notice = outbox.read_welcome(frame)
+                self._publishers.add(instance)
+                if notice:
+                    self._backlog.put(notice)
             if timeout_s != 0.0 or self._backlog:
                 return None  # perhaps it was a wake: the caller looks why
-
-    def _hear_privately(self, frame: bytes) -> None:
-        if not frame.startswith(self._private) or frame == self._private:
-            return
-        instance, notice = outbox.read_welcome(frame)
-        self._publishers.add(instance)
-        if notice:
-            self._backlog.put(notice)
 
     def _drain(self) -> None:
         until_s = time.monotonic() + DRAIN_S

@@ -7,6 +7,7 @@ import socket
 import threading
 import time
 from collections.abc import Callable
+from functools import partial
 
 import zmq
 
@@ -24,10 +25,8 @@ class Wake:
         self._reader, self._writer = socket.socketpair()
         self._reader.setblocking(False)
         self._writer.setblocking(False)
-
-    def fileno(self) -> int:
+        self.fileno = self._reader.fileno
         """What to poll for reading."""
-        return self._reader.fileno()
 
     def __call__(self) -> None:
         """End the poll."""
@@ -58,51 +57,44 @@ class IoThread:
     """Calls each tending function at least every TICK_MS, and when a socket has something."""
 
     def __init__(self, name: str) -> None:
-        self._wake = Wake()
+        self.wake = Wake()
+        """Lets it tend at once."""
         self._poller = zmq.Poller()
-        self._poller.register(self._wake.fileno(), zmq.POLLIN)
+        self._poller.register(self.wake.fileno(), zmq.POLLIN)
         self._lock = threading.Lock()
-        self._tending: list[Callable[[], None]] = []
+        self._tending: list[Callable[[], object]] = []
         self._hurry_until_s = 0.0
         self._stopping = threading.Event()
         self._thread = threading.Thread(target=self._run, name=f"nep-io-{name}", daemon=True)
+        self.start = self._thread.start
+        """Begins; to be called once."""
+        self.watch = partial(self._poller.register, flags=zmq.POLLIN)
+        """Wakes when this socket of ours, or file number, has something; before start()."""
 
-    def start(self) -> None:
-        """Begin; call once."""
-        self._thread.start()
-
-    def watch(self, readable: zmq.Socket[bytes] | int) -> None:
-        """Wake when this socket of ours, or file number, has something; before start()."""
-        self._poller.register(readable, zmq.POLLIN)
-
-    def tend(self, function: Callable[[], None]) -> None:
+    def tend(self, function: Callable[[], object]) -> None:
         """Call ``function`` again and again from this thread."""
         with self._lock:
             self._tending = [*self._tending, function]
 
-    def forget(self, function: Callable[[], None]) -> None:
+    def forget(self, function: Callable[[], object]) -> None:
         """Stop calling ``function``."""
         with self._lock:
             self._tending = [kept for kept in self._tending if kept != function]
-
-    def wake(self) -> None:
-        """Tend at once."""
-        self._wake()
 
     def hurry(self) -> None:
         """Tend every millisecond for a while: something waits to be sent."""
         now_s = time.monotonic()
         if now_s > self._hurry_until_s:
-            self._wake()
+            self.wake()
         self._hurry_until_s = now_s + HURRY_S
 
     def close(self) -> None:
         """End the thread; waits for it unless it is the caller."""
         self._stopping.set()
-        self._wake()
+        self.wake()
         if self._thread.is_alive() and threading.current_thread() is not self._thread:
             self._thread.join(2.0)
-        self._wake.close()
+        self.wake.close()
 
     def _run(self) -> None:
         while not self._stopping.is_set():
@@ -111,13 +103,10 @@ class IoThread:
                 self._poller.poll(HURRIED_TICK_MS if hurried else TICK_MS)
             except zmq.ZMQError:
                 return  # the context ended
-            self._wake.clear()
+            self.wake.clear()
             for function in self._tending:
-                self._call(function)
-
-    def _call(self, function: Callable[[], None]) -> None:
-        try:
-            function()
-        except Exception:
-            log.exception("the I/O thread goes on after an error")
-            time.sleep(TICK_MS / 1000)  # never spin on an error that repeats
+                try:
+                    function()
+                except Exception:
+                    log.exception("the I/O thread goes on after an error")
+                    time.sleep(TICK_MS / 1000)  # never spin on an error that repeats

@@ -75,11 +75,10 @@ class Stream:
     ) -> None:
         self.encoding = encoding
         self.sent = 0
-        self._latched = b""
+        self.latched = b""
         self._is_json = encoding in (None, "json")
         self._send_frame = send
         self._lock = lock
-        self._topic = topic
         self._node = node
         self._run = run
         self._start = subscription(topic)
@@ -100,7 +99,8 @@ class Stream:
         Written flat: each call here costs as much as encoding the message.
         """
         if latch or not self._is_json or isinstance(message, (str, bytes)):
-            self._send_alone(message, latch)
+            encoding = self.encoding or natural_encoding(message)
+            self._send_payload(encode(message, encoding), encoding, latch)
             return
         try:
             payload = to_json(message)
@@ -121,7 +121,9 @@ class Stream:
                         b"%b%d,%d%b%b" % (self._head, self.sent, now_ns, self._head_end, payload)
                     )
                     return
-                self._begin_to_wait(now_ns)
+                self._room_bytes = SHARED_FRAME_BYTES
+                self._waiting_since_ns = now_ns
+                self._hurry()  # the I/O thread sends it if no more messages come
             self._waiting.append(payload)
             self._room_bytes -= len(payload)
             if self._room_bytes <= 0:
@@ -143,18 +145,6 @@ class Stream:
         """From now on ``send`` gets the frames, and whoever held the lock is not there any more."""
         self._send_frame, self._lock = send, threading.Lock()
 
-    def welcome(self) -> bytes:
-        """The notice for a newcomer: what is latched, how many were sent; call under the lock."""
-        return frames.notice(self._latched, self.sent) if self._latched else self.mark()
-
-    def mark(self) -> bytes:
-        """The notice of how many were sent; call under the lock."""
-        return frames.mark(self._topic, self._node, self._run, self.sent)
-
-    def _send_alone(self, message: Sendable, latch: bool) -> None:
-        encoding = self.encoding or natural_encoding(message)
-        self._send_payload(encode(message, encoding), encoding, latch)
-
     def _send_payload(self, payload: bytes, encoding: Encoding, latch: bool) -> None:
         if not self._lock.acquire(True, HELD_S):
             self._send_later(payload, encoding, latch)
@@ -166,7 +156,7 @@ class Stream:
                 self._start, self._node, self.sent, _now_ns(), encoding, payload, self._run
             )
             if latch:
-                self._latched = frame
+                self.latched = frame
             self._send_frame(frame)
         finally:
             self._lock.release()
@@ -174,11 +164,6 @@ class Stream:
     def _send_later(self, payload: bytes, encoding: Encoding, latch: bool) -> None:
         self._late.append((payload, encoding, latch))
         self._hurry()  # the I/O thread sends it
-
-    def _begin_to_wait(self, now_ns: int) -> None:
-        self._room_bytes = SHARED_FRAME_BYTES
-        self._waiting_since_ns = now_ns
-        self._hurry()  # the I/O thread sends it if no more messages come
 
     def _flush(self) -> None:
         if not self._waiting:
@@ -272,7 +257,10 @@ class Outbox:
         if present:
             with self._lock:
                 stream = self._streams.get(topic)
-                welcome = stream.welcome() if stream else self.mark(topic)
+                if stream is not None and stream.latched:
+                    welcome = frames.notice(stream.latched, stream.sent)
+                else:
+                    welcome = self.mark(topic)
                 self._send_privately(topic, subscriber, welcome)
         with self._changed:
             change = set.add if present else set.discard
@@ -285,7 +273,7 @@ class Outbox:
     def mark(self, topic: str) -> bytes:
         """The notice of how many messages of ``topic`` were sent; call under the lock."""
         stream = self._streams.get(topic)
-        return stream.mark() if stream else frames.mark(topic, self._node, self._run, 0)
+        return frames.mark(topic, self._node, self._run, stream.sent if stream else 0)
 
     def note_slow(self, topic: str, subscriber: str) -> None:
         """Somebody could not take a message: from now on it hears how many there were.
@@ -416,6 +404,8 @@ class ZmqOutbox(Outbox):
         self._socket.setsockopt(zmq.XPUB_NODROP, 1)  # tells when somebody cannot take a frame
         if is_far:  # a broker that comes back brings the same subscribers: welcome them again
             self._socket.setsockopt(zmq.XPUB_VERBOSE, 1)
+        self.file_number = int(self._socket.FD)
+        """Readable when the I/O thread should tend."""
 
     def bind(self, endpoint: str) -> str:
         """Bind to ``endpoint``, say where; raises PortTaken."""
@@ -430,21 +420,22 @@ class ZmqOutbox(Outbox):
                 self._security.trust(self._socket, self._security.key_at(endpoint))
             self._socket.connect(endpoint)
 
-    @property
-    def file_number(self) -> int:
-        """Readable when the I/O thread should tend."""
-        return int(self._socket.FD)
-
     def tend(self) -> None:
         """Read who subscribed and who left, welcome the newcomers, send what waits."""
-        while (event := self._next_event()) is not None:
+        while True:
+            with self._lock:
+                if self._socket.closed:
+                    return
+                try:
+                    event = self._socket.recv(zmq.NOBLOCK)
+                except zmq.Again:
+                    break
             seen = read_subscription(event)
             if seen is not None:
                 self.note(seen.topic, seen.subscriber, seen.present)
                 if seen.present and self._is_far:
                     self.note_slow(seen.topic, seen.subscriber)
-        if not self._socket.closed:
-            super().tend()
+        super().tend()
 
     def close(self) -> None:
         """Send what waits (half a second at most) and close."""
@@ -461,40 +452,26 @@ class ZmqOutbox(Outbox):
         try:
             _send(self._socket, frame, zmq.NOBLOCK)
         except zmq.Again:
-            self._send_to_whoever_has_room(frame)
+            # Note who has none; from then on ZeroMQ leaves those out until they have read
+            for topic, subscriber in self.everyone():
+                try:
+                    told = private_frame(topic, subscriber, self._instance)
+                    _send(self._socket, told, zmq.NOBLOCK)
+                except zmq.Again:
+                    self.note_slow(topic, subscriber)
+            self._socket.setsockopt(zmq.XPUB_NODROP, 0)
+            try:
+                _send(self._socket, frame, zmq.NOBLOCK)
+            finally:
+                self._socket.setsockopt(zmq.XPUB_NODROP, 1)
         except zmq.ZMQError as error:
             raise NetworkError(
                 "The network of {node} is closed.", checklist=("Start it again.",), node=self._node
             ) from error
 
-    def _send_to_whoever_has_room(self, frame: bytes) -> None:
-        """Note who has none; from then on ZeroMQ leaves those out until they have read."""
-        for topic, subscriber in self.everyone():
-            try:
-                _send(self._socket, self._private_frame(topic, subscriber), zmq.NOBLOCK)
-            except zmq.Again:
-                self.note_slow(topic, subscriber)
-        self._socket.setsockopt(zmq.XPUB_NODROP, 0)
-        try:
-            _send(self._socket, frame, zmq.NOBLOCK)
-        finally:
-            self._socket.setsockopt(zmq.XPUB_NODROP, 1)
-
     def _send_privately(self, topic: str, subscriber: str, notice: bytes) -> None:
         if not self._socket.closed:
-            self._send(self._private_frame(topic, subscriber, notice))
-
-    def _private_frame(self, topic: str, subscriber: str, notice: bytes = b"") -> bytes:
-        return private_frame(topic, subscriber, self._instance, notice)
-
-    def _next_event(self) -> bytes | None:
-        with self._lock:
-            if self._socket.closed:
-                return None
-            try:
-                return self._socket.recv(zmq.NOBLOCK)
-            except zmq.Again:
-                return None
+            self._send(private_frame(topic, subscriber, self._instance, notice))
 
 
 def bind(socket: zmq.Socket[bytes], endpoint: str, security: Security | None = None) -> None:

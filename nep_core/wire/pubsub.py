@@ -6,7 +6,7 @@ import logging
 import threading
 from collections import deque
 from collections.abc import Callable, Iterator
-from typing import Generic, TypeVar
+from typing import Any, Generic, TypeVar
 
 import msgspec
 
@@ -25,7 +25,6 @@ from .frames import (
     Sendable,
     check_topic,
     decoders,
-    lines_decoder,
     read_header,
 )
 from .messages import LATCHED
@@ -129,7 +128,8 @@ class Subscriber(Generic[T]):
         self._keeps_newest = policy == "state"
         self._decoders = decoders(kind)
         self._from_json = self._decoders["json"]
-        self._from_lines = lines_decoder(kind)
+        wanted: Any = Any if kind is None else kind
+        self._from_lines = msgspec.json.Decoder(wanted).decode_lines
         self._waiting: deque[T] = deque()
         self._id, self._inbox = self.network.open_inbox(topic, policy or "events")
         try:
@@ -137,10 +137,11 @@ class Subscriber(Generic[T]):
         except BaseException:
             self.close()
             raise
-        if known and not self._wait_for(known, 0, HANDSHAKE_S):
+        if known and not self._inbox.wait_for(known, 0, HANDSHAKE_S):
             log.warning("a publisher of %s does not answer", topic)
         if callback is not None:
-            self._call_back(callback)
+            name, args = f"nep-hear-{topic}", (callback,)
+            threading.Thread(target=self._tell, args=args, name=name, daemon=True).start()
 
     @property
     def header(self) -> Header | None:
@@ -197,7 +198,7 @@ class Subscriber(Generic[T]):
 
     def wait_for_publishers(self, count: int, timeout_s: float) -> bool:
         """Wait until ``count`` publishers are heard; False when the time is over."""
-        return self._wait_for(set(), count, timeout_s)
+        return self._inbox.wait_for(set(), count, timeout_s)
 
     def close(self) -> None:
         """Hear no more; a thread that waits in receive() gets None."""
@@ -208,8 +209,15 @@ class Subscriber(Generic[T]):
         while (message := self.receive()) is not None:
             yield message
 
-    def _wait_for(self, instances: set[str], count: int, timeout_s: float) -> bool:
-        return self._inbox.wait_for(instances, count, timeout_s)
+    def _tell(self, callback: Callable[[T], None]) -> None:
+        for message in self:
+            try:
+                callback(message)
+            except Exception:
+                log.exception("%s: the callback failed", self.topic)
+            except SystemExit:
+                log.warning("%s: the callback ended itself, and hears no more", self.topic)
+                self.close()  # else it would look as if it heard
 
     def _decoder_of(self, parts: list[bytes]) -> Decode | None:
         """How to decode a frame that begins in an unusual way; None: it cannot be read."""
@@ -253,16 +261,3 @@ class Subscriber(Generic[T]):
 
     def _sender(self) -> str:
         return header.node if (header := self.header) else "somebody"
-
-    def _call_back(self, callback: Callable[[T], None]) -> None:
-        def run() -> None:
-            for message in self:
-                try:
-                    callback(message)
-                except Exception:
-                    log.exception("%s: the callback failed", self.topic)
-                except SystemExit:
-                    log.warning("%s: the callback ended itself, and hears no more", self.topic)
-                    self.close()  # else it would look as if it heard
-
-        threading.Thread(target=run, name=f"nep-hear-{self.topic}", daemon=True).start()

@@ -2,8 +2,9 @@
 
     idle -> checking -> generating -> starting -> running <-> paused -> stopping -> idle
 
-Read it from ``run`` downwards. Checking and generating are work, done in slices by ``work``; only
-what really waits, the session, has a thread, which posts what it has to say.
+Read it from ``run`` downwards. Checking and generating are work, done in slices by ``work``; what
+was checked or generated already, while the person looked, is not done again. Only what really
+waits, the session, has a thread, which posts what it has to say.
 """
 
 from __future__ import annotations
@@ -47,12 +48,18 @@ AT_ONCE = frozenset((triggers.KEY, surroundings.KEY))
 
 @dataclass(frozen=True)
 class Subject:
-    """What is to be run: a project, where its files are, and who plays its robots."""
+    """What is to be run: a project, where its files are, and who plays its robots.
+
+    ``is_in_order``: it was checked as it is now, and nothing is wrong; ``code``: its Python, where
+    that was made already.
+    """
 
     project: Project
     language: Language
     folder: Path
     choices: Choices = field(default_factory=Choices)
+    is_in_order: bool = False
+    code: Code | None = None
 
     def nodes(self) -> list[PlannedNode]:
         """The nodes that it needs."""
@@ -175,7 +182,15 @@ class RunController:
         elif self.state == "running":
             self.run_next()
         elif self.state == "idle" and (subject := self._subject()) is not None:
-            self._check(subject)
+            if not subject.is_in_order:
+                self._check(subject)
+            elif subject.code is None:
+                self._generate(subject, is_shown=True)
+            else:
+                try:
+                    self.start(Request(subject.code, tuple(subject.nodes())))
+                except (BlocksError, NepError) as error:
+                    self._tell(Refused(error, is_shown=True))
 
     def run_next(self) -> None:
         """Run what is open as soon as what runs now is stopped."""
@@ -194,9 +209,23 @@ class RunController:
         """Go on with the checks, or with the code, for so long."""
         try:
             if self._checks is not None and self._checks.run(slice_s):
-                self._on_checked(self._checks.result)
+                problems = self._checks.result
+                subject, self._checks = self._prepared, None
+                assert subject is not None
+                has_rules = next(rules(subject.project, subject.language), None) is not None
+                can_run = has_rules and all(problem.severity != "error" for problem in problems)
+                if can_run:
+                    self._generate(subject, is_shown=True)
+                else:
+                    self._give_up()
+                self._tell(Checked(problems, can_run))
             elif self._code is not None and self._code.run(slice_s):
-                self._on_generated(self._code.result)
+                # Which nodes does it need?
+                code = self._code.result
+                assert self._prepared is not None
+                request = Request(code, tuple(self._prepared.nodes()), self._is_shown)
+                self._prepared = self._generator = self._code = None
+                self.start(request)
         except (BlocksError, NepError) as error:
             self._give_up()
             self._tell(Refused(error, self._is_shown))
@@ -208,17 +237,6 @@ class RunController:
         self._checks = Sliced(problem_steps(project, language, subject.folder))
         self._set_state("checking")
 
-    def _on_checked(self, problems: list[Diagnostic]) -> None:
-        subject, self._checks = self._prepared, None
-        assert subject is not None
-        has_rules = next(rules(subject.project, subject.language), None) is not None
-        can_run = has_rules and all(problem.severity != "error" for problem in problems)
-        if can_run:
-            self._generate(subject, is_shown=True)
-        else:
-            self._give_up()
-        self._tell(Checked(problems, can_run))
-
     def _generate(self, subject: Subject, *, is_shown: bool) -> None:
         """What is its Python?"""
         self._prepared, self._is_shown = subject, is_shown
@@ -226,30 +244,20 @@ class RunController:
         self._code = Sliced(self._generator.steps())
         self._set_state("generating")
 
-    def _on_generated(self, code: Code) -> None:
-        """Which nodes does it need?"""
-        assert self._prepared is not None
-        request = Request(code, tuple(self._prepared.nodes()), self._is_shown)
-        self._prepared = self._generator = self._code = None
-        self.start(request)
-
     def edited(self, changes: Changes) -> None:
         """What is open has changed: what is prepared begins anew with that, what runs is old."""
         if self.state in PREPARING and self._is_shown:
-            self._prepare_again()
+            if self._checks is not None and self._prepared is not None:
+                self._checks.cancel()
+                self._check(self._prepared)
+            elif self._code is not None and self._generator is not None:
+                self._code.cancel()
+                self._code = Sliced(self._generator.steps())
         elif changes.kept and changes.kept <= AT_ONCE and not changes.stacks:
             return
         elif self.state not in PREPARING and self.state != "idle" and not self.is_stale:
             self.is_stale = True
             self._tell(BecameStale())
-
-    def _prepare_again(self) -> None:
-        if self._checks is not None and self._prepared is not None:
-            self._checks.cancel()
-            self._check(self._prepared)
-        elif self._code is not None and self._generator is not None:
-            self._code.cancel()
-            self._code = Sliced(self._generator.steps())
 
     def _give_up(self) -> None:
         """Prepare no more."""
@@ -293,7 +301,9 @@ class RunController:
             ending = Ending(_disk_problem(error))
         except Exception as error:
             log.exception("the program could not be run")
-            ending = Ending(_unknown_problem(error))
+            sentence = f"{type(error).__name__}: {error}"
+            steps = ("Try it once more.", "Save the project, and start NEP Studio again.")
+            ending = Ending(Problem("The program could not be started", sentence, steps))
         self._post(lambda: self._on_over(ending))
 
     def _on_begun(self) -> None:
@@ -389,9 +399,3 @@ def _disk_problem(error: OSError) -> Problem:
         details=str(error),
         place=error.filename or "",
     )
-
-
-def _unknown_problem(error: Exception) -> Problem:
-    sentence = f"{type(error).__name__}: {error}"
-    steps = ("Try it once more.", "Save the project, and start NEP Studio again.")
-    return Problem("The program could not be started", sentence, steps)

@@ -11,7 +11,7 @@ from typing import Any
 from faults import Text, Words, text_of
 from nep_core.errors import ManifestError, NepError
 from nep_core.places import node_folders
-from nep_core.processes.manifest import Manifest, NodeCatalog, read_manifest
+from nep_core.processes.manifest import NodeCatalog, read_manifest
 from nep_studio import paths
 from nep_studio.blocks.checks import KnownChains, check_steps
 from nep_studio.blocks.checks.diagnostic import SEVERITIES, Diagnostic
@@ -50,7 +50,9 @@ def problem_steps(
     nodes, robots = node_entries(project, language), robot_entries(project, language)
     learned = (project, project.extra_revision, language.choices.get("gestures"))
     if known.learned != learned:
-        known.learned, known.gestures = learned, _known_gestures(project, language)
+        # those that the project has learned, and those that every project has
+        gestures = [*trained_gestures(project), *language.choices.get("gestures", {})]
+        known.learned, known.gestures = learned, gestures
     found = [
         *(yield from check_steps(project, language, known.chains)),
         *known.of_nodes(nodes, known.gestures, folder),
@@ -75,17 +77,20 @@ class KnownProblems:
         self.gestures: list[str] = []
         self._in_order: list[tuple[NodeEntry, list[str]]] = []
         """Nodes of the Nodes page, each with the gestures that were known then."""
+        self.is_whole = False
+        """Whether all nodes were, and what they need is nowhere that it could be gone from."""
 
     def of_nodes(
         self, entries: Iterable[NodeEntry], gestures: list[str], folder: Path
     ) -> list[Diagnostic]:
         """What is wrong with these nodes."""
-        found, in_order = list[Diagnostic](), []
+        found, in_order, self.is_whole = list[Diagnostic](), [], True
         for entry in entries:
             if (entry, gestures) not in self._in_order:
                 wrong = list(_node(entry, NodeCatalog(node_folders()), gestures, folder))
                 found += wrong
                 if wrong or _names_file(entry, folder):
+                    self.is_whole = False
                     continue
             in_order.append((entry, gestures))
         self._in_order = in_order
@@ -110,7 +115,18 @@ def _node(
     for name, value in settings.items():
         if manifest.parameters[name].type == "file" and isinstance(value, str) and value:
             yield from _file(entry, name, value, folder)
-    yield from _gesture(entry, manifest, gestures)
+    if manifest.id != GESTURE_NODE or entry.parameters.get("model"):
+        return
+    for gesture in named_gestures(entry):
+        if gesture not in gestures:
+            yield _wrong(
+                entry,
+                text_of("Nobody has taught the gesture “{gesture}” yet.", gesture=gesture),
+                (
+                    text_of("Choose one of: {known}.", known=", ".join(gestures)),
+                    "Or name a model of your own: model=...",
+                ),
+            )
 
 
 def _file(entry: NodeEntry, name: str, value: str, folder: Path) -> Iterator[Diagnostic]:
@@ -120,26 +136,6 @@ def _file(entry: NodeEntry, name: str, value: str, folder: Path) -> Iterator[Dia
             text_of("There is no file {value} ({name}).", value=value, name=name),
             ("Put it beside the project.", "Or correct its name."),
         )
-
-
-def _known_gestures(project: Project, language: Language) -> list[str]:
-    """The gestures that the project has learned, and those that every project has."""
-    return [*trained_gestures(project), *language.choices.get("gestures", {})]
-
-
-def _gesture(entry: NodeEntry, manifest: Manifest, known: Collection[str]) -> Iterator[Diagnostic]:
-    if manifest.id != GESTURE_NODE or entry.parameters.get("model"):
-        return
-    for gesture in named_gestures(entry):
-        if gesture not in known:
-            yield _wrong(
-                entry,
-                text_of("Nobody has taught the gesture “{gesture}” yet.", gesture=gesture),
-                (
-                    text_of("Choose one of: {known}.", known=", ".join(known)),
-                    "Or name a model of your own: model=...",
-                ),
-            )
 
 
 def _wrong(entry: NodeEntry, sentence: Text, checklist: tuple[Words, ...]) -> Diagnostic:

@@ -10,6 +10,7 @@ import threading
 import time
 import uuid
 from collections.abc import Callable, Iterable
+from functools import partial
 from pathlib import Path
 from typing import Literal
 from urllib.parse import urlsplit
@@ -124,26 +125,19 @@ class Voice:
 
     def stop_robots(self) -> None:
         """Stop all that the robots do; waits for nothing."""
-        request = m.ActionRequest(id=uuid.uuid4().hex, robots=[], action="stop", priority=100)
-        self._say(self._requests, request)
-
-    def order(self, order: m.ProgramControl) -> None:
-        """Ask the program for something."""
-        self._say(self._control, order)
-
-    def stop_program(self) -> None:
-        """Ask the program to end."""
-        self._say(self._control, m.ProgramControl(command="stop"))
+        self.say(m.ActionRequest(id=uuid.uuid4().hex, robots=[], action="stop", priority=100))
 
     def fall_silent(self) -> None:
         """Say nothing any more: a session may still end when the network is closed."""
         with self._lock:
             self._is_silent = True
 
-    def _say(self, publisher: Publisher, message: msgspec.Struct) -> None:
+    def say(self, message: m.ActionRequest | m.ProgramControl) -> None:
+        """Ask the robots, or the program, for something."""
+        is_request = isinstance(message, m.ActionRequest)
         with self._lock:
             if not self._is_silent:
-                publisher.send(message)
+                (self._requests if is_request else self._control).send(message)
 
 
 STUDIO = "studio"
@@ -227,7 +221,13 @@ class LocalNetwork:
         """Start the master and join it, unless that is done; one that is gone is replaced."""
         with self._opening:
             if self.is_open:
-                self._replace_master()
+                # Start one where the last one was, if that is gone: all who were there come to it
+                if self.shared_master and ask_master(self.shared_master) is None:
+                    self.shared_master, self.has_master = "", False
+                if not self.has_master:
+                    self._start_master(self.launcher.master)
+                    self.has_master = True
+                    self.on_master("back", "")
                 return
             self._make_launchers()
             try:
@@ -239,8 +239,13 @@ class LocalNetwork:
     def _open(self) -> None:
         self._stack.callback(self._master_launcher.close)
         if transport() == "p2p":  # a broker or a router serves more than one session
-            self.launcher.master = self.joined_master or self._find_master()
-        network = self._stack.enter_context(self._join())
+            if not self.joined_master:
+                self.shared_master = "" if self.wanted_master else shared_master(self.name)
+            self.launcher.master = (
+                self.joined_master or self.shared_master or self._start_master(self.wanted_master)
+            )
+        network = self._join()
+        self._stack.callback(network.close)
         self.voice = Voice(network)
         self._stack.callback(self.voice.fall_silent)
         self._stack.callback(self._master_launcher.leave)
@@ -248,7 +253,8 @@ class LocalNetwork:
         for launcher in (self.launcher, self._master_launcher):
             launcher.hear(network)
         for topic in HEARD:
-            self._hear(topic, network)
+            on_message = partial(self._on_message, topic)
+            Subscriber(topic, m.BY_TOPIC[topic], network=network, callback=on_message)
         self.network = network
         self.has_master = True
         self.on_open()
@@ -269,10 +275,6 @@ class LocalNetwork:
             network.close()
             raise
         return network
-
-    def _find_master(self) -> str:
-        self.shared_master = "" if self.wanted_master else shared_master(self.name)
-        return self.shared_master or self._start_master(self.wanted_master)
 
     def _start_master(self, wanted: str | None) -> str:
         return start_master(self._master_launcher, wanted, self.master_options())
@@ -321,7 +323,18 @@ class LocalNetwork:
             if self.planned.get(planned.name) == planned:
                 return running
             self.launcher.stop(planned.name)
-        _write_files(planned)
+        # Write what a node will read, as the motions of the project
+        try:
+            if planned.files is not None:
+                planned.files.write()
+        except OSError as error:
+            raise NodeStartError(
+                "What {name} needs could not be written: {reason}.",
+                checklist=("Is there room on the disk?",),
+                details=str(error),
+                name=planned.name,
+                reason=reason_of(error),
+            ) from error
         self.planned[planned.name] = planned
         return self.launcher.launch(planned.node, planned.name, planned.parameters)
 
@@ -343,27 +356,15 @@ class LocalNetwork:
                 return launched.process.last_lines
         return []
 
-    def _hear(self, topic: str, network: Network) -> None:
-        def callback(message: msgspec.Struct) -> None:
-            for listener in self._listeners:
-                listener(topic, message)
-
-        Subscriber(topic, m.BY_TOPIC[topic], network=network, callback=callback)
+    def _on_message(self, topic: str, message: msgspec.Struct) -> None:
+        for listener in self._listeners:
+            listener(topic, message)
 
     def _on_end(self, launched: LaunchedNode, outcome: Outcome, again: bool) -> None:
         if launched.name == MASTER:
             self._on_master_end(launched, outcome, again)
         for listener in self._end_listeners:
             listener(launched, outcome, again)
-
-    def _replace_master(self) -> None:
-        """Start one where the last one was, if that is gone: all who were there come to it."""
-        if self.shared_master and ask_master(self.shared_master) is None:
-            self.shared_master, self.has_master = "", False
-        if not self.has_master:
-            self._start_master(self.launcher.master)
-            self.has_master = True
-            self.on_master("back", "")
 
     def _on_master_end(self, launched: LaunchedNode, outcome: Outcome, again: bool) -> None:
         if launched.stopping or not self.is_open:
@@ -383,21 +384,6 @@ class LocalNetwork:
             time.sleep(LOOK_S)
         if is_up(launched, endpoint) and not launched.stopping:
             self.on_master("back", "")
-
-
-def _write_files(planned: PlannedNode) -> None:
-    """Write what a node will read, as the motions of the project."""
-    try:
-        if planned.files is not None:
-            planned.files.write()
-    except OSError as error:
-        raise NodeStartError(
-            "What {name} needs could not be written: {reason}.",
-            checklist=("Is there room on the disk?",),
-            details=str(error),
-            name=planned.name,
-            reason=reason_of(error),
-        ) from error
 
 
 # What it takes to use keys: a key file for each other computer, and the variables that name it.

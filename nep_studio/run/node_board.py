@@ -96,12 +96,31 @@ class NodeBoard:
 
         ``heard_s``: when it was heard; another computer's clock may be wrong.
         """
-        before = self.nodes.get(state.node) or NodeStatus(state.node, state.type)
-        after = _heard(before, state)
-        if heard_s is not None:
-            after = replace(after, heard_s=heard_s)
+        known = before = self.nodes.get(state.node) or NodeStatus(state.node, state.type)
+        pid, heard_s = state.pid or before.pid, state.time if heard_s is None else heard_s
+        if state.measures or state.event == "starting":
+            before = replace(before, measures=state.measures)
+        if state.event == "alive":
+            health = before.health
+            is_another = health in ("crashed", "stopped") and state.pid != before.pid
+            if is_another or health in ("frozen", "planned"):
+                health = "ready"
+            after = replace(before, health=health, heard_s=heard_s, pid=pid)
+        else:
+            is_new = state.event == "starting" and state.pid != before.pid
+            after = replace(
+                before,
+                type=state.type,
+                event=state.event,
+                fault=state.fault,
+                pid=pid,
+                since_s=state.time,
+                heard_s=heard_s,
+                restarts=before.restarts + (is_new and before.event == "crashed"),
+                health=HEALTH[state.event],
+            )
         self.nodes[state.node] = after
-        return replace(after, heard_s=before.heard_s) != before
+        return replace(after, heard_s=known.heard_s) != known
 
     def frozen(self, now_s: float) -> list[str]:
         """Mark the nodes that have fallen silent; those that have just become so."""
@@ -119,29 +138,6 @@ class NodeBoard:
         for name, one in self.nodes.items():
             if one.is_there and one.health != "frozen":
                 self.nodes[name] = replace(one, heard_s=now_s)
-
-
-def _heard(before: NodeStatus, state: NodeState) -> NodeStatus:
-    if state.measures or state.event == "starting":
-        before = replace(before, measures=state.measures)
-    if state.event == "alive":
-        was_silent = before.health in ("frozen", "planned")
-        health: Health = "ready" if was_silent else before.health
-        if before.health in ("crashed", "stopped") and state.pid != before.pid:
-            health = "ready"
-        return replace(before, health=health, heard_s=state.time, pid=state.pid or before.pid)
-    is_new = before.event is not None and state.event == "starting" and state.pid != before.pid
-    return replace(
-        before,
-        type=state.type,
-        event=state.event,
-        fault=state.fault,
-        pid=state.pid or before.pid,
-        since_s=state.time,
-        heard_s=state.time,
-        restarts=before.restarts + (is_new and before.event == "crashed"),
-        health=HEALTH[state.event],
-    )
 
 
 # Brings what several threads hear into one thread of Qt, in batches that it can take.

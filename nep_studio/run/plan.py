@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from pathlib import Path
-from typing import Protocol
 
 from nep_studio.blocks.deployment import (
     NodeEntry,
@@ -21,6 +20,8 @@ from nep_studio.blocks.own_gestures import TRIGGER, trained_gestures
 from nep_studio.blocks.program import Project
 from nep_studio.project.kept_files import (
     AnimationFiles,
+    RecogniserFile,
+    TakeFiles,
     animation_files,
     recogniser_file,
     take_files,
@@ -35,18 +36,8 @@ FASTEST = 50.0
 Setting = str | float | int | bool
 
 
-class KeptFiles(Protocol):
-    """What a node reads of what the project keeps, in a folder of its own."""
-
-    @property
-    def folder(self) -> Path:
-        """Where it is, or will be."""
-
-    def moved(self, folder: Path) -> KeptFiles:
-        """The same in another folder."""
-
-    def write(self) -> None:
-        """Write what is not there. Raises OSError."""
+KeptFiles = AnimationFiles | RecogniserFile | TakeFiles
+"""What a node reads of what the project keeps, in a folder of its own."""
 
 
 @dataclass(frozen=True)
@@ -87,22 +78,22 @@ class Choices:
 def plan(project: Project, language: Language, choices: Choices, folder: Path) -> list[PlannedNode]:
     """The nodes to start; files in their settings are looked for in ``folder``, the project's."""
     listed = node_entries(project, language)
-    robots = _robots(project, language, choices)
-    nodes = [_listed(entry, folder) for entry in listed]
+    nodes = [_listed(entry, folder, project) for entry in listed]
     names = {node.name for node in nodes}
-    nodes += [robot for robot in robots if robot.name not in names]
+    nodes += [
+        _robot(entry, choices, language.profile.node)
+        for entry in robot_entries(project, language)
+        if entry.name not in names
+    ]
     if (files := animation_files(project)) is not None:
         nodes = [_with_animations(node, files, language.profile.node) for node in nodes]
-    nodes = [_with_recogniser(node, entry, project) for node, entry in _paired(nodes, listed)]
-    nodes += _missing_gestures(project, language, listed, {node.name for node in nodes})
-    nodes = _with_a_watch(nodes, choices, _known_gestures(project, language))
+    gestures = _known_gestures(project, language)
+    nodes += _missing_gestures(project, language, listed, gestures, {node.name for node in nodes})
+    nodes = _with_a_watch(nodes, choices, gestures)
     nodes = [with_takes(node, project) for node in nodes]
+    if choices.speed == 1.0:
+        return nodes
     return [_hurried(node, choices.speed, language.profile.node) for node in nodes]
-
-
-def _robots(project: Project, language: Language, choices: Choices) -> list[PlannedNode]:
-    node = language.profile.node
-    return [_robot(entry, choices, node) for entry in robot_entries(project, language)]
 
 
 def _robot(entry: RobotEntry, choices: Choices, node: str) -> PlannedNode:
@@ -129,23 +120,29 @@ def _hurried(planned: PlannedNode, speed: float, robot: str) -> PlannedNode:
     settings = planned.parameters
     is_virtual_robot = planned.node == robot and settings.get("driver", "virtual") == "virtual"
     own = settings.get("speed", 1.0)
-    if speed == 1.0 or not isinstance(own, int | float):
+    if not isinstance(own, int | float):
         return planned
     if planned.node != VIRTUAL_WATCH and not is_virtual_robot:
         return planned
     return replace(planned, parameters={**settings, "speed": min(own * speed, FASTEST)})
 
 
-def _listed(entry: NodeEntry, folder: Path) -> PlannedNode:
-    settings = {key: _found(value, folder) for key, value in entry.parameters.items()}
-    return PlannedNode(entry.node, entry.name, settings, "", entry.block_id)
+def _listed(entry: NodeEntry, folder: Path, project: Project) -> PlannedNode:
+    """A node of the page; a file in the project's folder is given with its path.
 
-
-def _found(value: Setting, folder: Path) -> Setting:
-    """A file name as a path, when there is such a file in the project's folder."""
-    if not isinstance(value, str) or not value or "\0" in value or len(value) > 255:
-        return value
-    return str(folder / value) if (folder / value).is_file() else value
+    One that is to recognise what the project has learned is given that.
+    """
+    settings: dict[str, Setting] = {}
+    for key, value in entry.parameters.items():
+        may_be_file = isinstance(value, str) and 0 < len(value) <= 255 and "\0" not in value
+        is_file = may_be_file and (folder / str(value)).is_file()
+        settings[key] = str(folder / str(value)) if is_file else value
+    node = PlannedNode(entry.node, entry.name, settings, "", entry.block_id)
+    if node.node != GESTURE or settings.get("model"):
+        return node
+    own, named = trained_gestures(project), named_gestures(entry)
+    is_own = all(gesture in own for gesture in named) if named else bool(own)
+    return _of_project(node, project) if is_own else node
 
 
 def _known_gestures(project: Project, language: Language) -> list[str]:
@@ -155,15 +152,15 @@ def _known_gestures(project: Project, language: Language) -> list[str]:
 
 
 def _missing_gestures(
-    project: Project, language: Language, listed: tuple[NodeEntry, ...], names: set[str]
+    project: Project,
+    language: Language,
+    listed: tuple[NodeEntry, ...],
+    gestures: list[str],
+    names: set[str],
 ) -> list[PlannedNode]:
     """Nodes for gestures that no node of the page recognises: one for all of the project's own."""
     shipped, own = language.choices.get("gestures", {}), trained_gestures(project)
-    missing = [
-        gesture
-        for gesture in _known_gestures(project, language)
-        if not is_recognised(gesture, listed, shipped, own)
-    ]
+    missing = [gesture for gesture in gestures if not is_recognised(gesture, listed, shipped, own)]
     reason = "a rule waits for this gesture"
     nodes = [
         PlannedNode(GESTURE, _free(gesture, names), {"gesture": gesture}, reason)
@@ -174,23 +171,6 @@ def _missing_gestures(
         node = PlannedNode(GESTURE, _free("gestures", names), {}, "rules wait for your gestures")
         nodes.append(_of_project(node, project))
     return nodes
-
-
-def _paired(
-    nodes: list[PlannedNode], listed: tuple[NodeEntry, ...]
-) -> list[tuple[PlannedNode, NodeEntry | None]]:
-    entries = {entry.block_id: entry for entry in listed}
-    return [(node, entries.get(node.block_id)) for node in nodes]
-
-
-def _with_recogniser(node: PlannedNode, entry: NodeEntry | None, project: Project) -> PlannedNode:
-    """A node of the page that is to recognise what the project has learned; others as they are."""
-    if entry is None or node.node != GESTURE or node.parameters.get("model"):
-        return node
-    own = trained_gestures(project)
-    named = named_gestures(entry)
-    is_own = all(gesture in own for gesture in named) if named else bool(own)
-    return _of_project(node, project) if is_own else node
 
 
 def _of_project(node: PlannedNode, project: Project) -> PlannedNode:

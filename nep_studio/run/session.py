@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import threading
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -59,7 +59,9 @@ class Session:
         program: Path = Path(),
         watching: Watching | None = None,
     ) -> None:
-        self.network, self.program = network, program
+        self.network = network
+        self.program = program
+        """The file that it runs; it may be another until the session is entered."""
         self._nodes = nodes
         self._watching = watching
         self._ending: Ending | None = None
@@ -87,14 +89,19 @@ class Session:
         voice = self.network.voice
         if voice is not None:
             voice.stop_robots()
-            voice.stop_program()
+            voice.say(m.ProgramControl(command="stop"))
 
     def stop(self) -> None:
         """Stop the robots at once, then the program, then all nodes."""
         try:
-            self._stop_program()
+            self.stop_robots()
+            program = self.network.launcher.nodes.get(PROGRAM)
+            if program is not None and program.process is not None:
+                program.stopping = True
+                program.process.wait(ASK_TO_END_S)
         finally:
-            self._stop_nodes()
+            started, self._started = self._started, []
+            self.network.launcher.stop_all(reversed(started))
             self.network.unlisten(self._on_message, self._on_end)
 
     def watch(self, watching: Watching) -> None:
@@ -137,7 +144,8 @@ class Session:
             name for name, one in self.network.launcher.nodes.items() if not one.ended.is_set()
         }
         self._started += [node.name for node in nodes if node.name not in running]
-        self._wait_ready(self.network.start(nodes))
+        for launched in self.network.start(nodes):
+            launched.wait_ready(given_up=self._is_over)
 
     def _start_program(self) -> None:
         """Let the program listen, but not act yet: no robot moves before every node is there."""
@@ -150,11 +158,7 @@ class Session:
             "cognitive/program", PROGRAM, settings, restart="on-kill"
         )
         self._started.append(PROGRAM)
-        self._wait_ready([launched])
-
-    def _wait_ready(self, nodes: Iterable[LaunchedNode]) -> None:
-        for launched in nodes:
-            launched.wait_ready(given_up=self._is_over)
+        launched.wait_ready(given_up=self._is_over)
 
     def _begin_program(self) -> None:
         if self._is_over.is_set():
@@ -174,35 +178,16 @@ class Session:
                 breakpoints=list(watching.breakpoints),
                 line_s=watching.line_s,
             )
-            voice.order(order)
-
-    def _stop_program(self) -> None:
-        self.stop_robots()
-        program = self.network.launcher.nodes.get(PROGRAM)
-        if program is not None and program.process is not None:
-            program.stopping = True
-            program.process.wait(ASK_TO_END_S)
-
-    def _stop_nodes(self) -> None:
-        started, self._started = self._started, []
-        self.network.launcher.stop_all(reversed(started))
+            voice.say(order)
 
     def _on_message(self, _topic: str, message: msgspec.Struct) -> None:
-        if isinstance(message, m.ProgramState):
-            self._note_failure(message)
-        elif isinstance(message, m.NodeState):
-            self._note_restart(message)
-
-    def _note_restart(self, state: m.NodeState) -> None:
-        """A program that was killed and started again waits to be told to begin."""
-        if self._may_begin and (state.node, state.event) == (PROGRAM, "ready"):
-            self._begin_program()
-
-    def _note_failure(self, state: m.ProgramState) -> None:
-        if state.event == "failed" and state.program == PROGRAM:
-            with self._changed:
-                self._failure = state
-                self._changed.notify_all()
+        match message:
+            case m.ProgramState(event="failed") if message.program == PROGRAM:
+                with self._changed:
+                    self._failure = message
+                    self._changed.notify_all()
+            case m.NodeState(event="ready") if message.node == PROGRAM and self._may_begin:
+                self._begin_program()  # it was killed and started again, and waits to be told
 
     def _on_end(self, launched: LaunchedNode, outcome: Outcome, again: bool) -> None:
         if launched.name == PROGRAM and again and self.network.voice is not None:
@@ -212,7 +197,9 @@ class Session:
         if launched.name == PROGRAM:
             self.end(self._program_ending(outcome))
         elif launched.manifest is not None and launched.manifest.id == REPLAY:
-            self._end_soon(_replay_ending(outcome))
+            timer = threading.Timer(LAST_RULES_S, self.end, [_replay_ending(outcome)])
+            timer.daemon = True
+            timer.start()
 
     def _program_ending(self, outcome: Outcome) -> Ending:
         if outcome.was_successful:
@@ -226,11 +213,6 @@ class Session:
         fault = failure.fault
         steps = fault.checklist or outcome.checklist
         return Ending(Problem(title, fault.sentence, steps), failure.line)
-
-    def _end_soon(self, ending: Ending) -> None:
-        timer = threading.Timer(LAST_RULES_S, self.end, [ending])
-        timer.daemon = True
-        timer.start()
 
 
 def _replay_ending(outcome: Outcome) -> Ending:

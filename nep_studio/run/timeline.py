@@ -124,7 +124,11 @@ def action_words(request: ActionRequest, language: Language, tr: Tr = plain) -> 
 
     match request.action:
         case "say":
-            return _say_words(str(args.get("text", "")), args.get("gesture"), label, tr)
+            text = str(args.get("text", ""))
+            if args.get("gesture") in (None, "no_gesture"):
+                return tr("says “{text}”", text=text)
+            manner = label("say_gestures", "gesture")
+            return tr("says “{text}” with {manner}", text=text, manner=manner)
         case "do":
             return tr("takes the posture {posture}", posture=label("postures", "posture"))
         case "imitate":
@@ -143,13 +147,6 @@ def action_words(request: ActionRequest, language: Language, tr: Tr = plain) -> 
             lights, colour = label("led_groups", "group"), args.get("colour")
             return tr("lights {lights} in {colour}", lights=lights, colour=colour)
     return body_words(request.action, args, label, tr) or request.action
-
-
-def _say_words(text: str, gesture: object, label: Label, tr: Tr) -> str:
-    if gesture in (None, "no_gesture"):
-        return tr("says “{text}”", text=text)
-    manner = label("say_gestures", "gesture")
-    return tr("says “{text}” with {manner}", text=text, manner=manner)
 
 
 def _walk_words(args: Mapping[str, Any], tr: Tr) -> str:
@@ -233,7 +230,11 @@ class Timeline:
         """Who did what; nothing for what need not be told."""
         match message:
             case m.ActionRequest():
-                return self._requested(message)
+                action = self._action(message.id)
+                if action.request is not None:
+                    return []  # it asks how the action is doing
+                action.request = message
+                return self._result_lines(message, list(action.results.values()))
             case m.ActionResult():
                 return self._answered(message)
         line = self._line(message)
@@ -266,13 +267,6 @@ class Timeline:
         has_stopped = state.node in self._stopped
         self._stopped.add(state.node)
         return has_stopped
-
-    def _requested(self, request: m.ActionRequest) -> list[Line]:
-        action = self._action(request.id)
-        if action.request is not None:
-            return []  # it asks how the action is doing
-        action.request = request
-        return self._result_lines(request, list(action.results.values()))
 
     def _answered(self, result: m.ActionResult) -> list[Line]:
         action = self._action(result.id)

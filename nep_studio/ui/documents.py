@@ -60,10 +60,10 @@ class Document(QObject):
         self._journal = _journal(editor, path, is_unsaved)
         self._flush = QTimer(self, interval=FLUSH_MS)
         self._flush.timeout.connect(self.flush)
-        self._flush.start()
         self._edits = edits_of(editor)
-        self._edits.edited.connect(self._tell)
+        self._edits.edited.connect(self._on_edited)
         self._edits.settled.connect(self._look_at_journal)
+        self._flush.start()  # until all is on the disk
         self.folder = Path.cwd()
         """Where the project's own files are."""
         self.title = ""
@@ -92,6 +92,7 @@ class Document(QObject):
         self._saved_position = self.editor.history.position
         if self._journal is not None:
             self._journal.saved(path)
+            self._flush.start()
         self._tell()
 
     def flush(self) -> None:
@@ -99,6 +100,8 @@ class Document(QObject):
         if self._journal is not None:
             self._journal.flush()
             self._look_at_journal()
+        if self.is_kept:
+            self._flush.stop()
 
     def close(self, *, keep: bool = False) -> None:
         """End; the journal goes, unless it is to be kept for the next start."""
@@ -111,6 +114,11 @@ class Document(QObject):
         if self._journal is not None:
             self._journal.close(keep=keep)
             self._journal, self.is_kept = None, False
+
+    def _on_edited(self) -> None:
+        if not self._flush.isActive():
+            self._flush.start()
+        self._tell()
 
     def _look_at_journal(self) -> None:
         is_kept = self._journal is not None and not self._journal.error

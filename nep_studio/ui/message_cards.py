@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 from PySide6.QtCore import QEvent, QObject, QPoint, Qt, QTimer, Signal
-from PySide6.QtGui import QColor, QGuiApplication, QKeyEvent
+from PySide6.QtGui import QColor, QGuiApplication, QKeyEvent, QPainter, QPaintEvent
 from PySide6.QtWidgets import (
     QApplication,
     QDialog,
     QFrame,
-    QGraphicsDropShadowEffect,
     QHBoxLayout,
     QLabel,
     QPlainTextEdit,
@@ -105,11 +104,13 @@ class MessageCard(QFrame):
         self.message = message
         self.setProperty("kind", message.kind)
         self.setAccessibleName(message.spoken)
-        self.close_button = _cross(theme)
+        button = labelled(QToolButton(), tip="Close", name="Close this message")
+        button.setIcon(icon("x", theme))
+        button.setIconSize(icon_room(button.fontMetrics().height()))
+        self.close_button = button
         self.close_button.clicked.connect(self.closed)
         self.buttons = [self._button(answer) for answer in message.answers]
         self._fill(theme)
-        self._add_shadow(theme)
 
     def _fill(self, theme: Theme) -> None:
         line = self.fontMetrics().height()
@@ -142,25 +143,11 @@ class MessageCard(QFrame):
         button.clicked.connect(lambda: answer.do())
         return button
 
-    def _add_shadow(self, theme: Theme) -> None:
-        shadow = QGraphicsDropShadowEffect(self)
-        shadow.setBlurRadius(self.fontMetrics().height() * 1.2)
-        shadow.setOffset(0, 2)
-        shadow.setColor(QColor(theme.colour("sprite_shadow")))
-        self.setGraphicsEffect(shadow)
-
     def changeEvent(self, event: QEvent) -> None:
         """Take the room that the words need in another font."""
         super().changeEvent(event)
         if event.type() == QEvent.Type.FontChange:
             self.updateGeometry()
-
-
-def _cross(theme: Theme) -> QToolButton:
-    button = labelled(QToolButton(), tip="Close", name="Close this message")
-    button.setIcon(icon("x", theme))
-    button.setIconSize(icon_room(button.fontMetrics().height()))
-    return button
 
 
 def _endless_progress() -> QProgressBar:
@@ -214,7 +201,10 @@ class MessageArea(QWidget):
         self.cards.append(card)
         self._box.addWidget(card)
         if message.passes:
-            self._pass(card)
+            timer = QTimer(card, singleShot=True)
+            timer.setInterval(max(LEAST_READ_MS, len(message.spoken) * READ_MS_PER_LETTER))
+            timer.timeout.connect(lambda: self._pass_away(card, timer))
+            timer.start()
         self._host.installEventFilter(self)
         self.show()
         self._place()
@@ -241,19 +231,27 @@ class MessageArea(QWidget):
             self._place()
         return super().event(event)
 
+    def paintEvent(self, event: QPaintEvent) -> None:
+        """Paint a soft shadow under each card; an effect of Qt's would wake every hidden panel."""
+        reach = self.fontMetrics().height() // 2
+        colour = QColor(self._look.theme.colour("sprite_shadow"))
+        colour.setAlphaF(colour.alphaF() / reach)
+        painter = QPainter(self)
+        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+        painter.setPen(Qt.PenStyle.NoPen)
+        painter.setBrush(colour)
+        for card in self.cards:
+            for out in range(0 if card.isHidden() else reach):
+                room = card.geometry().adjusted(-out, 2 - out, out, 2 + out)
+                painter.drawRoundedRect(room, reach, reach)
+        painter.end()
+
     def keyPressEvent(self, event: QKeyEvent) -> None:
         """Esc closes the newest card."""
         if event.key() == Qt.Key.Key_Escape and self.cards:
             self._remove(self.cards[-1])
             return
         super().keyPressEvent(event)
-
-    def _pass(self, card: MessageCard) -> None:
-        letters = len(card.message.spoken)
-        timer = QTimer(card, singleShot=True)
-        timer.setInterval(max(LEAST_READ_MS, letters * READ_MS_PER_LETTER))
-        timer.timeout.connect(lambda: self._pass_away(card, timer))
-        timer.start()
 
     def _pass_away(self, card: MessageCard, timer: QTimer) -> None:
         is_read = card.underMouse() or card.isAncestorOf(self.focusWidget() or self)
@@ -279,23 +277,21 @@ class MessageArea(QWidget):
             return
         widest = self.fontMetrics().averageCharWidth() * WIDEST_LETTERS
         width = min(self._host.width(), widest)
-        self._hide_what_has_no_room(width)
+        # Older cards wait until newer ones are closed: squeezed together, none could be read
+        margins = self._box.contentsMargins()
+        inside = width - margins.left() - margins.right()
+        room = self._host.height() - margins.top() - margins.bottom()
+        for card in reversed(self.cards):
+            has_room = card is self.cards[-1] or room >= card.heightForWidth(inside)
+            card.setHidden(not has_room)
+            room = room - card.heightForWidth(inside) - self._box.spacing() if has_room else 0
         height = self._box.heightForWidth(width) if self._box.hasHeightForWidth() else -1
         height = min(max(height, self._box.sizeHint().height() if height < 0 else height), 10_000)
         left = (self._host.width() - width) // 2
         self.setGeometry(left, 0, width, min(height, self._host.height()))
         self.move(QPoint(left, 0))
         self.raise_()
-
-    def _hide_what_has_no_room(self, width: int) -> None:
-        """Older cards wait until newer ones are closed: squeezed together, none could be read."""
-        margins = self._box.contentsMargins()
-        inside = width - margins.left() - margins.right()
-        left = self._host.height() - margins.top() - margins.bottom()
-        for card in reversed(self.cards):
-            has_room = card is self.cards[-1] or left >= card.heightForWidth(inside)
-            card.setHidden(not has_room)
-            left = left - card.heightForWidth(inside) - self._box.spacing() if has_room else 0
+        self.update()
 
 
 # A question that must be answered: a dialog with the answers as buttons.

@@ -271,7 +271,11 @@ class NetworkWatch:
         now_s = time.monotonic()
         if now_s - self._measured_s >= MEASURE_S:
             self._measured_s = now_s
-            self._measure()
+            # Measure the processes on this computer
+            here = socket.gethostname()
+            local = {told.pid for told in self._registered if told.host == here}
+            self._meter.keep_only_running()
+            self._uses = {pid: self._meter.measure(pid) for pid in local}
         self._forget_topics()
         self._hear_one_more(self._network)
         for topic, subscriber in self._subscribers.items():
@@ -294,13 +298,6 @@ class NetworkWatch:
         """Who is there now; while the master is away its nodes still talk."""
         self._registered = told
         self._measured_s = 0.0  # measure newcomers at once
-
-    def _measure(self) -> None:
-        """Measure the processes on this computer."""
-        here = socket.gethostname()
-        local = {told.pid for told in self._registered if told.host == here}
-        self._meter.keep_only_running()
-        self._uses = {pid: self._meter.measure(pid) for pid in local}
 
     def _forget_topics(self) -> None:
         """Hear no more what nobody publishes."""

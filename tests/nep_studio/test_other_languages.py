@@ -112,7 +112,9 @@ def test_a_failed_program_ends_at_its_line(tmp_path: Path) -> None:
     fault = fault_of("{robot} antwortet nicht.", checklist=("Ist er an?",), robot="NAO")
     told = m.described(fault)
     told["text_values"] = told.pop("values")
-    session._note_failure(m.ProgramState(program=PROGRAM, event="failed", line=7, **told))
+    session._on_message(
+        m.PROGRAM_STATE, m.ProgramState(program=PROGRAM, event="failed", line=7, **told)
+    )
 
     ending = session._program_ending(Outcome(PROGRAM, 1, refusal=fault))
 

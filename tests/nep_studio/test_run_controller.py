@@ -8,6 +8,7 @@ import subprocess
 import sys
 import time
 from collections.abc import Callable, Iterator
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -15,6 +16,8 @@ import pytest
 from nep_core.wire import messages as m
 from nep_studio.blocks.editor import Editor
 from nep_studio.blocks.edits.content import SetField
+from nep_studio.blocks.generate.program import generate_program
+from nep_studio.blocks.generate.source_map import Code
 from nep_studio.blocks.language import Language
 from nep_studio.run.controller import (
     PREPARING,
@@ -41,6 +44,8 @@ class Owner:
     def __init__(self, folder: Path, language: Language) -> None:
         self.language = language
         self.editor: Editor | None = None
+        self.is_in_order = False
+        self.code: Code | None = None
         self.network = LocalNetwork(logs=folder / "logs")
         self.events: list[Event] = []
         self.heard: list[m.ProgramState] = []
@@ -53,7 +58,8 @@ class Owner:
     def subject(self) -> Subject | None:
         if self.editor is None:
             return None
-        return Subject(self.editor.project, self.language, Path.cwd())
+        subject = Subject(self.editor.project, self.language, Path.cwd())
+        return replace(subject, is_in_order=self.is_in_order, code=self.code)
 
     def open(self, *stacks: list[B]) -> None:
         """Open a program of these stacks, with NAO."""
@@ -118,6 +124,28 @@ def test_a_program_that_nothing_starts_is_not_run(owner: Owner) -> None:
     assert not checked.can_run
     assert "no_rule" in [problem.kind for problem in checked.problems]
     assert owner.states() == ["checking", "idle"]
+
+
+def test_what_is_in_order_already_is_not_checked_again(owner: Owner) -> None:
+    owner.open([B("event.started"), LONG_WAIT])
+    owner.is_in_order = True
+
+    owner.controller.run()
+    owner.until_state("running")
+
+    assert owner.states() == ["generating", "starting", "running"]
+
+
+def test_code_that_was_made_already_is_run(owner: Owner) -> None:
+    owner.open([B("event.started"), LONG_WAIT])
+    owner.is_in_order = True
+    owner.code = generate_program(owner.editor.project, owner.language)
+
+    owner.controller.run()
+    owner.until_state("running")
+
+    assert owner.states() == ["starting", "running"]
+    assert owner.controller.request.code is owner.code
 
 
 def test_where_nothing_is_open_nothing_happens(owner: Owner) -> None:

@@ -98,7 +98,7 @@ def test_a_failure_that_comes_after_the_programs_end_still_names_its_line(tmp_pa
     class Late(threading.Condition):
         def wait_for(self, is_true: object, timeout: float | None = None) -> bool:
             assert timeout
-            waiting._note_failure(late)
+            waiting._on_message(m.PROGRAM_STATE, late)
             return True
 
     waiting._changed = Late()

@@ -70,7 +70,11 @@ def read(frame: bytes, topic: str, kind: Kind) -> Any:
             return payload.decode()
         if kind == "image":
             return base64.b64decode(payload, validate=True)
-        return _read_json(payload)
+        value = _json(payload)
+        if isinstance(value, str) and value[:1] in ("{", "["):  # 0.5.4.7 encodes twice
+            with contextlib.suppress(*CANNOT_DECODE):
+                return _json(value)
+        return value
     except CANNOT_DECODE as error:
         raise BadMessage(
             "A message on {topic} is not {kind}: {error}.", topic=topic, kind=kind, error=error
@@ -100,14 +104,6 @@ def write(value: Any, topic: str, kind: Kind, prefixed: bool) -> bytes:
         # stands in texts only, where it may be written by its number.
         payload = payload.replace(start, b"\\u002f" + start[1:])
     return start + b" " + payload
-
-
-def _read_json(payload: bytes | str) -> Any:
-    value = _json(payload)
-    if isinstance(value, str) and value[:1] in ("{", "["):  # 0.5.4.7 encodes twice
-        with contextlib.suppress(*CANNOT_DECODE):
-            return _json(value)
-    return value
 
 
 def _json(payload: bytes | str) -> Any:

@@ -206,7 +206,18 @@ class Lines:
         changed = False
         for line in list(self.all):
             if line.decides_s and now_s >= line.decides_s:
-                self._decide(line)
+                # See who binds: if the program does, it is the one side; else it is on the other
+                line.decides_s = 0.0
+                endpoint = self._endpoint(line.port)
+                ways: list[Callable[[Line], Door]] = [self._add_way_out, self._add_way_in]
+                if line.request.mode == "many2one":
+                    ways.reverse()
+                ours, theirs = ways
+                try:
+                    ours(line).bind(endpoint)
+                except PortTaken:
+                    self._close_doors(line)
+                    theirs(line).connect(endpoint)
             here = [program for program in line.programs if not _has_ended(program)]
             changed |= len(here) < len(line.programs)
             line.programs = here
@@ -267,20 +278,6 @@ class Lines:
             self._add_way_out(line).bind(self._endpoint(line.port))
         else:
             self._add_way_out(line).connect(self._endpoint(line.port))
-
-    def _decide(self, line: Line) -> None:
-        """See who binds: if the program does, it is the one side; else it is on the other."""
-        line.decides_s = 0.0
-        endpoint = self._endpoint(line.port)
-        ways: list[Callable[[Line], Door]] = [self._add_way_out, self._add_way_in]
-        if line.request.mode == "many2one":
-            ways.reverse()
-        ours, theirs = ways
-        try:
-            ours(line).bind(endpoint)
-        except PortTaken:
-            self._close_doors(line)
-            theirs(line).connect(endpoint)
 
     def _add_way_in(self, line: Line) -> WayIn:
         topic, shape = line.request.topic, line.request.shape

@@ -211,7 +211,14 @@ class Doorkeeper:
     def _run(self) -> None:
         try:
             while True:
-                self._turn(dict(self._poller.poll(LOOK_MS if self._waiting else None)))
+                ready = dict(self._poller.poll(LOOK_MS if self._waiting else None))
+                try:
+                    self._work(ready)
+                except zmq.ZMQError:
+                    raise
+                except Exception:  # a fault of ours must not keep everybody out
+                    log.exception("the doorkeeper goes on after an error")
+                    time.sleep(LOOK_MS / 1000)  # never spin on an error that repeats
         except zmq.ZMQError:
             log.debug("the context has ended")
         finally:
@@ -219,15 +226,6 @@ class Doorkeeper:
                 events.close()
             self._asked.close()
             self._wake.close()
-
-    def _turn(self, ready: dict[object, int]) -> None:
-        try:
-            self._work(ready)
-        except zmq.ZMQError:
-            raise
-        except Exception:  # a fault of ours must not keep everybody out
-            log.exception("the doorkeeper goes on after an error")
-            time.sleep(LOOK_MS / 1000)  # never spin on an error that repeats
 
     def _work(self, ready: dict[object, int]) -> None:
         self._wake.clear()
@@ -238,20 +236,16 @@ class Doorkeeper:
         for events in [events for events in self._watched if events in ready]:
             self._read_events(self._watched[events])
         if self._asked in ready:
-            self._read_question(self._asked.recv_multipart())
-        self._decide()
-
-    def _read_question(self, frames: list[bytes]) -> None:
-        """Take in one request: RFC 27 says which frames there are."""
-        peer, empty, version, request, _domain, address, _identity, mechanism, *credentials = frames
-        is_curve = mechanism == b"CURVE" and len(credentials) == 1
-        key = z85.encode(credentials[0]).decode() if is_curve else ""
-        has_time = is_curve and len(self._waiting) < MOST_WAITING
-        until_s = time.monotonic() + (GRACE_S if has_time else 0.0)
-        envelope = [peer, empty, version, request]
-        self._waiting.append(_Asked(envelope, address.decode(errors="replace"), key, until_s))
-
-    def _decide(self) -> None:
+            # Take in one request: RFC 27 says which frames there are
+            peer, empty, version, request, _domain, address, _identity, mechanism, *credentials = (
+                self._asked.recv_multipart()
+            )
+            is_curve = mechanism == b"CURVE" and len(credentials) == 1
+            key = z85.encode(credentials[0]).decode() if is_curve else ""
+            has_time = is_curve and len(self._waiting) < MOST_WAITING
+            until_s = time.monotonic() + (GRACE_S if has_time else 0.0)
+            envelope = [peer, empty, version, request]
+            self._waiting.append(_Asked(envelope, address.decode(errors="replace"), key, until_s))
         waiting, self._waiting = self._waiting, []
         for asked in waiting:
             if self._allows(asked.key):

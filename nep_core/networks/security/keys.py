@@ -210,18 +210,15 @@ def _decode(path: Path, data: bytes) -> Keys:
 def _require_private(path: Path, status: os.stat_result) -> None:
     """Refuse a file that others could have read: whoever has it can join as this computer."""
     if ON_WINDOWS:
-        _require_own_folder(path, Path.home())
+        # Refuse a file outside the user's own folder, the one that Windows keeps from others
+        home = Path.home()
+        if not path.resolve().is_relative_to(home.resolve()):
+            raise _not_private(path, "It is not in your own folder.", f'move "{path}" "{home}"')
         return
     if status.st_uid not in (os.geteuid(), 0) and os.geteuid() != 0:
         raise _not_private(path, "It belongs to another user.", f"chown $USER {path}")
     if status.st_mode & (stat.S_IRWXG | stat.S_IRWXO):
         raise _not_private(path, "Other users of this computer can open it.", f"chmod 600 {path}")
-
-
-def _require_own_folder(path: Path, home: Path) -> None:
-    """Refuse a file outside the user's own folder, the one that Windows keeps from others."""
-    if not path.resolve().is_relative_to(home.resolve()):
-        raise _not_private(path, "It is not in your own folder.", f'move "{path}" "{home}"')
 
 
 def _not_private(path: Path, why: str, command: str) -> KeyFileError:

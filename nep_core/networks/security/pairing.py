@@ -529,7 +529,9 @@ def _talk(host: str, port: int, code: str, guest: Guest) -> Host:
             ),
             host=host,
             port=port,
-            reason=_reason(error),
+            reason=reason_of(error)
+            if isinstance(error, OSError)
+            else Text("there can be no such place"),
         ) from error
     with connection:
         lines = Lines(connection, JOINING_TALK_S)
@@ -544,10 +546,6 @@ def _talk(host: str, port: int, code: str, guest: Guest) -> Host:
                 raise
             raise _strange() from error
     return told
-
-
-def _reason(error: Exception) -> Text:
-    return reason_of(error) if isinstance(error, OSError) else Text("there can be no such place")
 
 
 def _expect(kind: type[T], message: object) -> T:

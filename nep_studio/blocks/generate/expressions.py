@@ -13,7 +13,7 @@ from nep_studio.blocks.definitions import Call, Definition
 from nep_studio.blocks.errors import CodeRefused
 from nep_studio.blocks.language import Language
 from nep_studio.blocks.program import Block, Project, split_slot
-from nep_studio.blocks.slots import TEXT_RESULTS, constant
+from nep_studio.blocks.slots import TEXT_RESULTS, FieldValue, Kind, constant
 
 from .names import NameTable, ProgramNames
 
@@ -22,7 +22,8 @@ from .names import NameTable, ProgramNames
 
 def call(name: str, /, *arguments: ast.expr, **keywords: ast.expr) -> ast.Call:
     """A call of a function by its name."""
-    return ast.Call(ast.Name(name), list(arguments), _keywords(keywords))
+    named = [ast.keyword(key, value) for key, value in keywords.items()]
+    return ast.Call(ast.Name(name), list(arguments), named)
 
 
 def method_call(
@@ -32,7 +33,8 @@ def method_call(
     keywords: Mapping[str, ast.expr] | None = None,
 ) -> ast.Call:
     """A call of a method."""
-    return ast.Call(ast.Attribute(target, method), arguments or [], _keywords(keywords or {}))
+    named = [ast.keyword(key, value) for key, value in (keywords or {}).items()]
+    return ast.Call(ast.Attribute(target, method), arguments or [], named)
 
 
 def whole(node: ast.expr) -> ast.expr:
@@ -80,10 +82,6 @@ def plus(node: ast.expr, number: int) -> ast.expr:
 def compare(left: ast.expr, sign: ast.cmpop, right: ast.expr) -> ast.Compare:
     """A comparison of two values."""
     return ast.Compare(left, [sign], [right])
-
-
-def _keywords(keywords: Mapping[str, ast.expr]) -> list[ast.keyword]:
-    return [ast.keyword(name, value) for name, value in keywords.items()]
 
 
 VARIABLE_BLOCK = "variable.get"
@@ -140,24 +138,35 @@ class Expressions:
         slot = definition.slots[split_slot(key)[0]]
         plugged = self.plugged(block, key)
         if plugged is None:
-            value = definition.value(block, key)
-            kind = slot.kind
-            if kind.name == "robot":
-                self.robots.add(str(value))
-                return ast.Name(self.names.robots[str(value)])
-            if kind.name == "variable":
-                return ast.Name(self.variable(block))
-            if kind.name == "choice":
-                return ast.Constant(self.choice(block, key))
-            if kind.is_number and isinstance(value, str):
-                return self._arithmetic(block, value)
-            return kind.to_python(value)
+            return self._field(block, key, slot.kind, definition.value(block, key))
         node = self.value(plugged)
         if slot.kind.becomes_text and self.definition(plugged).result not in TEXT_RESULTS:
             return call("str", node)
         if slot.kind.name == "list" and plugged.type == VARIABLE_BLOCK:
             self.begins_as(plugged, "list")
         return node
+
+    def _field(self, block: Block, key: str, kind: Kind, value: FieldValue | None) -> ast.expr:
+        if kind.name == "robot":
+            self.robots.add(str(value))
+            return ast.Name(self.names.robots[str(value)])
+        if kind.name == "variable":
+            return ast.Name(self.variable(block))
+        if kind.name == "choice":
+            return ast.Constant(self.choice(block, key))
+        if not kind.is_number or not isinstance(value, str):
+            return kind.to_python(value)
+        try:
+            arithmetic = calculate(value)
+        except ArithmeticRefused as refused:
+            raise CodeRefused(
+                refused.sentence,
+                block=block.id,
+                checklist=("Correct what is written in this block.",),
+            ) from refused
+        if arithmetic.needs_math:
+            self.modules.add("math")
+        return arithmetic.node
 
     def plugged(self, block: Block, key: str) -> Block | None:
         """The block plugged into a slot, or None; a disabled one does not count."""
@@ -203,11 +212,11 @@ class Expressions:
     def call(self, block: Block, made: Call) -> ast.Call:
         """The call that a block stands for."""
         arguments = [self.slot(block, key) for key in made.arguments]
-        keywords = {
-            name: self.slot(block, key)
-            for name, key in made.keywords.items()
-            if key not in made.optional or not self._is_default(block, key)
-        }
+        definition, keywords = self.definition(block), dict[str, ast.expr]()
+        for name, key in made.keywords.items():
+            is_usual = key in made.optional and self.plugged(block, key) is None
+            if not is_usual or definition.value(block, key) != definition.defaults[key]:
+                keywords[name] = self.slot(block, key)
         keywords |= {name: constant(value) for name, value in made.constants.items()}
         if not made.on:
             return self.api_call(made.name, *arguments, **keywords)
@@ -251,25 +260,6 @@ class Expressions:
         if self._part_names is None:
             self._part_names = NameTable(self.names.taken())
         return self._part_names.give(f"part_{self._parts}", "part")
-
-    def _is_default(self, block: Block, key: str) -> bool:
-        definition = self.definition(block)
-        return self.plugged(block, key) is None and (
-            definition.value(block, key) == definition.defaults[key]
-        )
-
-    def _arithmetic(self, block: Block, text: str) -> ast.expr:
-        try:
-            arithmetic = calculate(text)
-        except ArithmeticRefused as refused:
-            raise CodeRefused(
-                refused.sentence,
-                block=block.id,
-                checklist=("Correct what is written in this block.",),
-            ) from refused
-        if arithmetic.needs_math:
-            self.modules.add("math")
-        return arithmetic.node
 
 
 def value_cost(block: Block) -> int:
@@ -341,10 +331,24 @@ def _constant(node: ast.Constant) -> tuple[str, int]:
     return literal(value), _ATOM if is_number else _TARGET  # a dot after a number is its point
 
 
-def _call(node: ast.Call) -> tuple[str, int]:
-    arguments = [show(argument) for argument in node.args]
-    arguments += [f"{keyword.arg}={show(keyword.value)}" for keyword in node.keywords]
-    return f"{show(node.func, _TARGET)}({', '.join(arguments)})", _TARGET
+def _target(
+    node: ast.Name | ast.Attribute | ast.Call | ast.List | ast.Subscript,
+) -> tuple[str, int]:
+    """What binds tightest: a dot, a bracket or a parenthesis may follow it."""
+    match node:
+        case ast.Name():
+            text = node.id
+        case ast.Attribute():
+            text = f"{show(node.value, _TARGET)}.{node.attr}"
+        case ast.Call():
+            arguments = [show(argument) for argument in node.args]
+            arguments += [f"{keyword.arg}={show(keyword.value)}" for keyword in node.keywords]
+            text = f"{show(node.func, _TARGET)}({', '.join(arguments)})"
+        case ast.List():
+            text = f"[{', '.join(map(show, node.elts))}]"
+        case ast.Subscript():
+            text = f"{show(node.value, _TARGET)}[{show(node.slice)}]"
+    return text, _TARGET
 
 
 def _binary(node: ast.BinOp) -> tuple[str, int]:
@@ -385,17 +389,17 @@ def _slice(node: ast.Slice) -> tuple[str, int]:
 
 _PRINTERS: dict[type[ast.expr], Callable[..., tuple[str, int]]] = {
     ast.Constant: _constant,
-    ast.Name: lambda node: (node.id, _TARGET),
-    ast.Attribute: lambda node: (f"{show(node.value, _TARGET)}.{node.attr}", _TARGET),
-    ast.Call: _call,
-    ast.List: lambda node: (f"[{', '.join(map(show, node.elts))}]", _TARGET),
+    ast.Name: _target,
+    ast.Attribute: _target,
+    ast.Call: _target,
+    ast.List: _target,
+    ast.Subscript: _target,
     ast.BinOp: _binary,
     ast.UnaryOp: _unary,
     ast.BoolOp: _junction,
     ast.Compare: _compare,
     ast.Lambda: lambda node: (f"lambda: {show(node.body)}", _LAMBDA),
     ast.IfExp: _choose,
-    ast.Subscript: lambda node: (f"{show(node.value, _TARGET)}[{show(node.slice)}]", _TARGET),
     ast.Slice: _slice,
     Verbatim: lambda node: (node.text, _TARGET if node.is_closed else _LAMBDA),
 }

@@ -16,7 +16,7 @@ from nep_studio.blocks.slots import Setting, constant
 
 from .expressions import Expressions, call, literal, method_call, show
 from .names import NameTable, ProgramNames
-from .rules import HATS, REPORTERS, Hat, RuleWriter
+from .rules import HATS, REPORTERS, RuleWriter
 from .source_map import Code
 
 
@@ -114,7 +114,17 @@ class ProgramGenerator:
         known = self._rules.get(stack)
         if known is not None and known.made_for == made_for:
             return known
-        return (yield from _write(made_for, RuleWriter(code), function, hat, chain))
+        writer = RuleWriter(code)
+        yield from writer.write(function, hat, chain)
+        return _Rule(
+            made_for,
+            writer.lines,
+            writer.blocks,
+            frozenset(code.api),
+            frozenset(code.modules),
+            frozenset(code.robots),
+            {variable: frozenset(kinds) for variable, kinds in code.variables.items()},
+        )
 
     def _names(self, written: dict[str, list[str]], headers: dict[str, str]) -> Steps[ProgramNames]:
         """Names for the robots of the Robots page, others that rules use, variables, own blocks."""
@@ -197,22 +207,6 @@ class ProgramGenerator:
 def generate_program(project: Project, language: Language) -> Code:
     """The Python of a project; raises CodeRefused, which names the block."""
     return ProgramGenerator(project, language).generate()
-
-
-def _write(
-    made_for: tuple[object, ...], writer: RuleWriter, function: str, hat: Hat, chain: list[str]
-) -> Steps[_Rule]:
-    yield from writer.write(function, hat, chain)
-    code = writer.code
-    return _Rule(
-        made_for,
-        writer.lines,
-        writer.blocks,
-        frozenset(code.api),
-        frozenset(code.modules),
-        frozenset(code.robots),
-        {variable: frozenset(kinds) for variable, kinds in code.variables.items()},
-    )
 
 
 def _first(kinds: set[str]) -> str:

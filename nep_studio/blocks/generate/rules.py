@@ -257,7 +257,11 @@ class RuleWriter:
             frame = frames[-1]
             item = next(frame.left, None)
             if item is None:
-                self._close(frames.pop())
+                scope = frames.pop().scope
+                if frame.opens and scope.assigned:  # at the end of a function
+                    line = f"{_MARGINS[scope.indent]}global {', '.join(sorted(scope.assigned))}"
+                    self.lines.insert(scope.line, line)
+                    self.blocks.insert(scope.line, scope.block)
             elif isinstance(item, Block):
                 frames.append(self._block(frame, item))
             elif (inner := self._piece(frame, item)) is not None:
@@ -267,9 +271,9 @@ class RuleWriter:
             try:
                 compile_quietly("\n".join(self.lines))
             except CodeTextRefused as refused:
-                line = min(max(refused.line, 1), len(self.blocks))
+                number = min(max(refused.line, 1), len(self.blocks))
                 raise CodeRefused(
-                    refused.sentence, block=self.blocks[line - 1], checklist=("Change the code.",)
+                    refused.sentence, block=self.blocks[number - 1], checklist=("Change the code.",)
                 ) from refused
 
     def _block(self, chain: _Frame, block: Block) -> _Frame:
@@ -358,21 +362,10 @@ class RuleWriter:
             )
         project_blocks = self._code.project.blocks
         blocks = [project_blocks[i] for i in chain if not project_blocks[i].disabled]
-        if all(self._is_silent(block) for block in blocks):
+        definitions = [self._code.language.definitions.get(block.type) for block in blocks]
+        if all(one is not None and "silent" in one.flags for one in definitions):
             return chain_of(blocks, ["pass"])
         return iter(blocks)
-
-    def _is_silent(self, block: Block) -> bool:
-        definition = self._code.language.definitions.get(block.type)
-        return definition is not None and "silent" in definition.flags
-
-    def _close(self, frame: _Frame) -> None:
-        """At the end of a function, put its ``global`` line at its beginning."""
-        scope = frame.scope
-        if frame.opens and scope.assigned:
-            line = f"{_MARGINS[scope.indent]}global {', '.join(sorted(scope.assigned))}"
-            self.lines.insert(scope.line, line)
-            self.blocks.insert(scope.line, scope.block)
 
     def _line(self, line: str, block: str) -> None:
         self.lines.append(line)

@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QObject, Signal
 
-from nep_core.errors import NepError
 from nep_studio.blocks.checks.diagnostic import Diagnostic
 from nep_studio.blocks.deployment import names_used, node_entries, robot_entries
-from nep_studio.blocks.errors import BlocksError, CodeRefused
+from nep_studio.blocks.errors import CodeRefused
 from nep_studio.blocks.generate.source_map import Code
 from nep_studio.blocks.program import Changes, Project
 from nep_studio.problems import Problem
@@ -21,7 +21,6 @@ from nep_studio.run.controller import (
     Ended,
     Event,
     Refused,
-    Request,
     StateChanged,
     Subject,
 )
@@ -160,7 +159,9 @@ class RunControl(QObject):
     def _subject(self) -> Subject | None:
         document = self._host.services.document
         if document is not None:
-            return self._subject_of(document)
+            checks, code = self._host.workbench.checks, self._host.workbench.code.live.program
+            subject = self._subject_of(document)
+            return replace(subject, is_in_order=checks.is_in_order, code=code)
         self._host.services.messages.refuse(
             "There is no project to run.", ("Open or make one first.",)
         )
@@ -205,33 +206,29 @@ class RunControl(QObject):
                 if not can_run:
                     self.show_needs()
             case Refused(error, is_shown):
-                self._tell_refused(error, is_shown=is_shown)
+                answers = []
+                if isinstance(error, CodeRefused) and is_shown:
+                    workbench, block = self._host.workbench, error.block
+                    answers.append(
+                        Answer(tr("Show the block"), lambda: workbench.show_block(block))
+                    )
+                self._host.services.messages.tell_error(error, *answers)
             case Begun(request):
-                self._show_begun(request)
+                # Nothing is known of the program yet, and nothing of the last one counts any more
+                messages = self._host.services.messages
+                self._host.workbench.show_run_problem(None)
+                messages.clear_passing()
+                if self._told_of_end is not None:
+                    messages.withdraw(self._told_of_end)
+                    self._told_of_end = None
+                # blocks that are not on the canvas may have the names of others there
+                self.stage.begin(request.code if request.is_shown else Code("", ()))
             case StateChanged("running"):
                 self._show_robots()
             case BecameStale():
                 self.became_stale.emit()
             case Ended(runs_again=False):
                 self._tell_end(event)
-
-    def _tell_refused(self, error: BlocksError | NepError, *, is_shown: bool) -> None:
-        answers = []
-        if isinstance(error, CodeRefused) and is_shown:
-            workbench, block = self._host.workbench, error.block
-            answers.append(Answer(tr("Show the block"), lambda: workbench.show_block(block)))
-        self._host.services.messages.tell_error(error, *answers)
-
-    def _show_begun(self, request: Request) -> None:
-        """Nothing is known of the program yet, and nothing of the last one counts any more."""
-        messages = self._host.services.messages
-        self._host.workbench.show_run_problem(None)
-        messages.clear_passing()
-        if self._told_of_end is not None:
-            messages.withdraw(self._told_of_end)
-            self._told_of_end = None
-        # blocks that are not on the canvas may have the names of others there
-        self.stage.begin(request.code if request.is_shown else Code("", ()))
 
     def _show_robots(self) -> None:
         """Let a person who has never shown nor hidden the robots see them at the first run."""

@@ -264,10 +264,8 @@ class NeedsDialog(QDialog):
             column.addWidget(self._row(need, line))
         column.addStretch(1)
         self._scroll.setWidget(inner)
-        self._lead_on(inner if missing else None)
-
-    def _lead_on(self, rows: QWidget | None) -> None:
-        """Let Enter do what comes next: the first thing that is missing, at last Run."""
+        # Let Enter do what comes next: the first thing that is missing, at last Run
+        rows = inner if missing else None
         fix = rows.findChild(QPushButton) if rows is not None else None
         button = self.run_button if rows is None else fix
         if button is not None:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import contextlib
 import logging
 import queue
 import threading
@@ -122,11 +121,15 @@ class _Inlet:
         self, topic: str, kind: type[Any] | None, network: Network, monitor: Monitor
     ) -> None:
         self._topic, self._kind, self._network, self._monitor = topic, kind, network, monitor
-        self.lost = 0
         self._subscriber: Subscriber[Any] | None = None
         self._lock = threading.Lock()
         self._is_closed = False
-        threading.Thread(target=self._run, name=f"nep-tap-{topic}", daemon=True).start()
+        threading.Thread(target=self._hear, name=f"nep-tap-{topic}", daemon=True).start()
+
+    @property
+    def lost(self) -> int:
+        """How many messages were sent but did not arrive."""
+        return self._subscriber.lost if self._subscriber is not None else 0
 
     def close(self) -> None:
         """Hear no more."""
@@ -135,12 +138,11 @@ class _Inlet:
             if self._subscriber is not None:
                 self._subscriber.close()
 
-    def _run(self) -> None:
-        with contextlib.suppress(NepError):  # the network was closed meanwhile
-            self._hear()
-
     def _hear(self) -> None:
-        subscriber = Subscriber[Any](self._topic, self._kind, network=self._network)
+        try:
+            subscriber = Subscriber[Any](self._topic, self._kind, network=self._network)
+        except NepError:
+            return  # the network was closed meanwhile
         with self._lock:
             self._subscriber = subscriber
             if self._is_closed:
@@ -148,7 +150,6 @@ class _Inlet:
                 return
         for message in subscriber:
             header = subscriber.header
-            self.lost = subscriber.lost
             sent_s, sender = (header.time_ns / 1e9, header.node) if header else (0.0, "")
             self._monitor.hear(Heard(sent_s, message, sender))
 
@@ -251,7 +252,7 @@ class Runner(QObject):
         """Nodes of which a dialog tells what becomes of them: no message is needed."""
         self.controller = RunController(self.local, subject, self._background.post, self._on_told)
         self._preparing = QTimer(self, interval=BETWEEN_SLICES_MS)
-        self._preparing.timeout.connect(self._on_time_left)
+        self._preparing.timeout.connect(lambda: self.controller.work(SLICE_S))
         self._shown_state: State = "idle"
         self._is_closed = False
         self._looked_s = 0.0
@@ -321,10 +322,6 @@ class Runner(QObject):
         """Stop a node and start it again as it was."""
         if name in self.local.planned:
             self._aside(name, lambda: self.local.restart(name).wait_ready())
-
-    def is_ours(self, name: str) -> bool:
-        """Whether a node was started here, and can be stopped and started here."""
-        return name in self.local.planned
 
     def log_of(self, name: str) -> list[str]:
         """The last lines that a node wrote; at most 200."""
@@ -402,9 +399,6 @@ class Runner(QObject):
         self.told.emit(event)
         if isinstance(event, Ended):
             self.ended.emit(event.ending)
-
-    def _on_time_left(self) -> None:
-        self.controller.work(SLICE_S)
 
     def _on_came_up(self) -> None:
         self._looking.start()

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterable
+from copy import deepcopy
 from dataclasses import dataclass, field
 
 from PySide6.QtCore import QObject, QPointF, QRectF, Qt, Signal
@@ -60,13 +61,21 @@ class Marks:
                 if block is not None:
                     self.paused[state.thread] = block
             case "resumed":
-                self._resumed(state.thread)
+                thread = state.thread
+                if thread:
+                    self.paused.pop(thread, None)
+                else:
+                    self.paused.clear()
             case "rule_started":
                 block = self.code.block_at(state.line)
                 if block is not None:
                     self.counts[block] += 1
             case "started":
-                self._begin()
+                # Nothing has run yet: it has just been started, perhaps again after it was killed
+                self.still()
+                self.counts.clear()
+                self.values.clear()
+                self.results.clear()
             case "finished" | "failed":
                 self.still()
 
@@ -74,13 +83,6 @@ class Marks:
         """Nothing runs any more; counts and values stay, for whoever wants to read them."""
         self.glowing = self.around = frozenset()
         self.paused.clear()
-
-    def _begin(self) -> None:
-        """Nothing has run yet: it has just been started, perhaps again after it was killed."""
-        self.still()
-        self.counts.clear()
-        self.values.clear()
-        self.results.clear()
 
     def _value(self, name: str, text: str) -> None:
         if not name.startswith(CALL):
@@ -91,12 +93,6 @@ class Marks:
         statement = self.code.block_at(line)
         if block is not None and statement is not None:
             self.results.setdefault(statement, {})[block] = text
-
-    def _resumed(self, thread: str) -> None:
-        if thread:
-            self.paused.pop(thread, None)
-        else:
-            self.paused.clear()
 
     def _lines(self, lines: dict[str, list[int]]) -> None:
         inner, outer = set[str](), set[str]()
@@ -119,6 +115,8 @@ def clipped(text: str) -> str:
 
 HALO = ((14.0, 40), (9.0, 80), (4.0, 255))
 """Width in pixels and opacity of each line of the glow, the widest first."""
+AROUND = ((2.5, 150),)
+"""The same around a block from which the one was called that runs."""
 
 REACH = 260.0
 """How far beside a block its chips may reach, in canvas units of a line of text of 18."""
@@ -135,10 +133,12 @@ class RunOverlay:
     def paint(self, painter: QPainter, view: CanvasHost) -> None:
         """Draw them."""
         marks = self.marks
-        for block in marks.around:
-            ring(painter, view, block, _faded(view.look.theme.colour("glow"), 150), _px(view, 2.5))
-        for block in marks.glowing:
-            _glow(painter, view, block)
+        for blocks, lines in ((marks.around, AROUND), (marks.glowing, HALO)):
+            for width, opacity in lines:
+                colour = QColor(view.look.theme.colour("glow"))
+                colour.setAlpha(opacity)
+                for block in blocks:
+                    ring(painter, view, block, colour, width / view.sight.camera.scale)
         known = (marks.counts, marks.values, marks.results, marks.paused)
         if not (self.breakpoints or any(known)):
             return
@@ -146,7 +146,16 @@ class RunOverlay:
         for placed in view.page_layout.boxes(view.sight.visible_page_rect()):
             block = placed.box.block
             if block in self.breakpoints:
-                _dot(painter, view, placed, is_here=block in paused)
+                # A breakpoint: a dot before the block, with a ring while the program waits there
+                is_here = block in paused
+                centre, size = _before(view, placed), 6.5 * view.look.measures.unit
+                painter.setPen(
+                    QPen(view.look.theme.colour("canvas"), 1.5 * view.look.measures.unit)
+                )
+                painter.setBrush(view.look.theme.colour("stop"))
+                painter.drawEllipse(centre, size, size)
+                if is_here:
+                    _bars(painter, view, centre, view.look.theme.colour("stop_text"))
             elif block in paused:
                 _pause_sign(painter, view, placed)
             if words := self._chip(view, block):
@@ -165,32 +174,6 @@ class RunOverlay:
             return ""
         name = self.names.get(str(made.fields.get("variable", "")), "")
         return self.marks.values.get(name, "")
-
-
-def touched(view: CanvasHost, blocks: Iterable[str], *, with_chips: bool = False) -> None:
-    """Let blocks with the glow around them be painted again, perhaps with what stands beside."""
-    reach = REACH * view.look.measures.unit if with_chips else 20.0
-    for block in blocks:
-        placed = view.page_layout.placed(block)
-        if placed is not None:
-            x, y, width, height = placed.rect
-            view.layers.update_page(Rect(x - reach, y - 16, width + 2 * reach, height + 32))
-
-
-def _glow(painter: QPainter, view: CanvasHost, block: str) -> None:
-    colour = view.look.theme.colour("glow")
-    for width, opacity in HALO:
-        ring(painter, view, block, _faded(colour, opacity), _px(view, width))
-
-
-def _dot(painter: QPainter, view: CanvasHost, placed: Placed, *, is_here: bool) -> None:
-    """A breakpoint: a dot before the block, with a ring while the program waits there."""
-    centre, size = _before(view, placed), 6.5 * view.look.measures.unit
-    painter.setPen(QPen(view.look.theme.colour("canvas"), 1.5 * view.look.measures.unit))
-    painter.setBrush(view.look.theme.colour("stop"))
-    painter.drawEllipse(centre, size, size)
-    if is_here:
-        _bars(painter, view, centre, view.look.theme.colour("stop_text"))
 
 
 def _pause_sign(painter: QPainter, view: CanvasHost, placed: Placed) -> None:
@@ -243,17 +226,6 @@ def _chip(painter: QPainter, view: CanvasHost, placed: Placed, words: str) -> No
     painter.setFont(view.look.badge_font)
     shown = metrics.elidedText(words, Qt.TextElideMode.ElideRight, wide + unit)
     painter.drawText(rect, Qt.AlignmentFlag.AlignCenter, shown)
-
-
-def _px(view: CanvasHost, width: float) -> float:
-    """A width in pixels of the screen, in canvas units."""
-    return width / view.sight.camera.scale
-
-
-def _faded(colour: QColor, opacity: int) -> QColor:
-    faded = QColor(colour)
-    faded.setAlpha(opacity)
-    return faded
 
 
 # The blocks at which a program is to pause.
@@ -325,7 +297,7 @@ class Stage(QObject):
         if not states:
             return
         before = self._shown()
-        values, results = dict(self.marks.values), _copied(self.marks.results)
+        values, results = dict(self.marks.values), deepcopy(self.marks.results)
         paused = dict(self.marks.paused)
         counts = self.marks.counts.copy()
         for state in states:
@@ -336,22 +308,27 @@ class Stage(QObject):
         else:
             self._touch(before ^ self._shown())
             self._touch(self.marks.counts - counts, with_chips=True)
-        self._follow(paused)
+        # Show the block at which the program has just paused
+        new = [block for thread, block in self.marks.paused.items() if paused.get(thread) != block]
+        canvas = self._canvas
+        if new and canvas is not None and new[0] in canvas.editor.project.blocks:
+            canvas.show_block(new[0])
 
     def _shown(self) -> frozenset[str]:
         marks = self.marks
         return marks.glowing | marks.around | frozenset(marks.paused.values())
 
-    def _follow(self, before: dict[str, str]) -> None:
-        """Show the block at which the program has just paused."""
-        new = [block for thread, block in self.marks.paused.items() if before.get(thread) != block]
-        canvas = self._canvas
-        if new and canvas is not None and new[0] in canvas.editor.project.blocks:
-            canvas.show_block(new[0])
-
     def _touch(self, blocks: Iterable[str], *, with_chips: bool = False) -> None:
-        if self._canvas is not None and self._canvas.isVisible():
-            touched(self._canvas, blocks, with_chips=with_chips)
+        """Paint blocks and the glow around them again, perhaps with what stands beside them."""
+        view = self._canvas
+        if view is None or not view.isVisible():
+            return
+        reach = REACH * view.look.measures.unit if with_chips else 20.0
+        for block in blocks:
+            placed = view.page_layout.placed(block)
+            if placed is not None:
+                x, y, width, height = placed.rect
+                view.layers.update_page(Rect(x - reach, y - 16, width + 2 * reach, height + 32))
 
     def _repaint_all(self) -> None:
         if self._canvas is not None:
@@ -381,10 +358,6 @@ class Stage(QObject):
         words = tr("Do not pause here any more") if is_on else tr("Pause here")
         toggle = self._breakpoints.toggle
         return [MenuEntry("breakpoint", words, lambda: toggle([block]), "pause", True, "F9")]
-
-
-def _copied(results: dict[str, dict[str, str]]) -> dict[str, dict[str, str]]:
-    return {statement: dict(given) for statement, given in results.items()}
 
 
 def statement_at(canvas: CanvasHost, block: str) -> str:

@@ -213,7 +213,7 @@ class MainWindow(QMainWindow):
         self.studio = studio
         self.settings, self.look = studio.settings, studio.look
         self.host = WindowHost(self)
-        self.services = Services(studio, self, self._make_running, chooser)
+        self.services = self.host.services = Services(studio, self, self._make_running, chooser)
         self.messages, self.files = self.services.messages, self.services.files
         self._opening_message: Message | None = None
         self._may_close = False

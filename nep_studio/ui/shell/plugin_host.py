@@ -24,6 +24,9 @@ if TYPE_CHECKING:
 class WindowHost:
     """What the plugins see of a window: see ``Host``."""
 
+    services: Services
+    """The files, the messages, what runs, the settings and the look."""
+
     def __init__(self, window: MainWindow) -> None:
         self._window = window
         self._shared: dict[type, object] = {}
@@ -32,11 +35,6 @@ class WindowHost:
         }
         self.with_a_project: list[str] = []
         """The actions of plugins that need an open project."""
-
-    @property
-    def services(self) -> Services:
-        """The files, the messages, what runs, the settings and the look."""
-        return self._window.services
 
     @property
     def widget(self) -> QWidget:

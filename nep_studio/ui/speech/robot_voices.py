@@ -45,7 +45,13 @@ class RobotVoices(QObject):
     def hear(self, message: msgspec.Struct) -> None:
         """Be silent when a robot was stopped, or what it says was."""
         if isinstance(message, m.ActionRequest):
-            self._hear_request(message)
+            if message.action == "stop" and not message.args:
+                for robot in [name for name in message.robots if name != "all"] or [""]:
+                    self.stop_speaking(robot)
+            elif message.action in SPEECHES:
+                self._speeches[message.id] = message
+                if len(self._speeches) > MOST_SPEECHES:
+                    del self._speeches[next(iter(self._speeches))]
         elif isinstance(message, m.ActionResult) and message.id in self._speeches:
             if message.state == "cancelled":
                 self.stop_speaking(message.robot)
@@ -69,15 +75,6 @@ class RobotVoices(QObject):
     def speaking(self) -> list[str]:
         """The robots that are heard now."""
         return [name for name, mouth in self._mouths.items() if mouth.is_speaking]
-
-    def _hear_request(self, request: m.ActionRequest) -> None:
-        if request.action == "stop" and not request.args:
-            for robot in [name for name in request.robots if name != "all"] or [""]:
-                self.stop_speaking(robot)
-        elif request.action in SPEECHES:
-            self._speeches[request.id] = request
-            if len(self._speeches) > MOST_SPEECHES:
-                del self._speeches[next(iter(self._speeches))]
 
     def _mouth(self, robot: str) -> _Mouth:
         if robot not in self._mouths:

@@ -64,6 +64,12 @@ class LiveCode(QObject):
         self._next_slice = QTimer(self, singleShot=True, interval=BETWEEN_SLICES_MS)
         self._next_slice.timeout.connect(self._on_next_slice)
 
+    @property
+    def program(self) -> Code | None:
+        """The program as it is now, where it was made already."""
+        is_made = self._is_awake and not self._is_old and self._work is None
+        return self.code if is_made and self._page == "behaviour" else None
+
     def set_editor(self, editor: Editor) -> None:
         """Follow another project."""
         if self._is_awake:

@@ -30,6 +30,13 @@ class LiveChecks(QObject):
         self._next = QTimer(self, singleShot=True, interval=BETWEEN_SLICES_MS)
         self._next.timeout.connect(self._on_next_slice)
         self.problems: list[Diagnostic] = []
+        self._are_true = False
+
+    @property
+    def is_in_order(self) -> bool:
+        """Whether the program was checked as it is now, files and all, and nothing is wrong."""
+        errors = (problem for problem in self.problems if problem.severity == "error")
+        return self._are_true and self._known.is_whole and not any(errors)
 
     def follow(self, document: Document | None) -> None:
         """Check another project; None checks nothing."""
@@ -69,8 +76,9 @@ class LiveChecks(QObject):
         self.found.emit(problems)
 
     def cancel(self) -> None:
-        """Give up the check that is under way."""
+        """Give up the check that is under way; what was found may be true no more."""
         self._next.stop()
+        self._are_true = False
         if self._check is not None:
             self._check.cancel()
             self._check = None
@@ -80,7 +88,7 @@ class LiveChecks(QObject):
         if check is None:
             self.start()  # of what was just opened
         elif check.run(SLICE_S):
-            self._check, self.problems = None, check.result
+            self._check, self.problems, self._are_true = None, check.result, True
             self.found.emit(self.problems)
         else:
             self._next.start()

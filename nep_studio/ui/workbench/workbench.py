@@ -208,8 +208,9 @@ class Workbench(QWidget):
 
     def show_run_problem(self, problem: Diagnostic | None) -> None:
         """Show at its block why the program stopped, until it is run again or changed there."""
-        self._run_problem = problem
-        self._show_problems()
+        if problem is not self._run_problem:
+            self._run_problem = problem
+            self._show_problems()
 
     def open_bubble(self, block: str) -> None:
         """Show what is not right at a block, beside its badge."""

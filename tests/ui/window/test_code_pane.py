@@ -51,6 +51,19 @@ def test_an_edit_changes_the_code_before_long(karate: MainWindow, qtbot: QtBot) 
     assert karate.workbench.code.text.toPlainText() + "\n" == text
 
 
+def test_the_code_that_is_seen_is_the_program_until_that_is_changed(
+    karate: MainWindow, qtbot: QtBot
+) -> None:
+    editor, live = karate.files.document.editor, karate.workbench.code.live
+    assert live.program == generate_program(editor.project, editor.language)
+
+    editor.apply(SetField(say_block(karate), "text", "Wow"))
+
+    assert live.program is None
+    qtbot.waitUntil(lambda: live.program is not None)
+    assert 'nao.say("Wow")' in live.program.text
+
+
 def test_a_click_on_a_line_selects_its_block(karate: MainWindow, qtbot: QtBot) -> None:
     click_line(karate, line_of(karate, "Impressive!"), qtbot)
 

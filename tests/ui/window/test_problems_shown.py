@@ -87,6 +87,16 @@ def test_a_program_without_problems_says_so(karate: MainWindow, qtbot: QtBot) ->
     assert karate.actions_by_name["check"].iconText() == "Check"
 
 
+def test_what_was_checked_is_in_order_until_it_is_changed(karate: MainWindow, qtbot: QtBot) -> None:
+    checks = karate.workbench.checks
+    qtbot.waitUntil(lambda: checks.is_in_order)
+
+    karate.files.document.editor.apply(RenameProject("Typed"))
+
+    assert not checks.is_in_order
+    qtbot.waitUntil(lambda: checks.is_in_order)
+
+
 def test_typing_does_not_wait_for_a_check(karate: MainWindow, qtbot: QtBot) -> None:
     checks = karate.workbench.checks
     edits = edits_of(karate.files.document.editor)

@@ -279,6 +279,8 @@ class CuePanel(QWidget):
             self.words.clear()
 
     def _on_running_changed(self) -> None:
+        if not self.isVisible():
+            return
         reason = self.sending.why_not
         self.board.set_heard(not reason)
         self.why_not.setText(reason or tr("The program hears you."))

@@ -90,8 +90,20 @@ class LinesModel(QAbstractListModel):
             self._all.append(line)
             if self._fits(line):
                 new.append(line)
-        self._tell_counted()
-        self._append(new[-self._most :])
+        if self._shown:  # it may say now that it came again
+            last_shown = self.index(len(self._shown) - 1)
+            self.dataChanged.emit(last_shown, last_shown)
+        new = new[-self._most :]
+        surplus = len(self._shown) + len(new) - self._most
+        if surplus > 0:
+            self.beginRemoveRows(QModelIndex(), 0, surplus - 1)
+            del self._shown[:surplus]
+            self.endRemoveRows()
+        if new:
+            first = len(self._shown)
+            self.beginInsertRows(QModelIndex(), first, first + len(new) - 1)
+            self._shown += new
+            self.endInsertRows()
 
     def show_part(self, part: str) -> None:
         """Show the lines of a type of node only; "" shows all."""
@@ -134,23 +146,6 @@ class LinesModel(QAbstractListModel):
         if self._part and line.part not in (self._part, RUN):
             return False
         return not self._words or self._words in f"{line.source} {line.what}".casefold()
-
-    def _tell_counted(self) -> None:
-        if self._shown:
-            last = self.index(len(self._shown) - 1)
-            self.dataChanged.emit(last, last)
-
-    def _append(self, new: list[Line]) -> None:
-        surplus = len(self._shown) + len(new) - self._most
-        if surplus > 0:
-            self.beginRemoveRows(QModelIndex(), 0, surplus - 1)
-            del self._shown[:surplus]
-            self.endRemoveRows()
-        if new:
-            first = len(self._shown)
-            self.beginInsertRows(QModelIndex(), first, first + len(new) - 1)
-            self._shown += new
-            self.endInsertRows()
 
     def _refilter(self) -> None:
         self.beginResetModel()

@@ -92,7 +92,8 @@ class WhatHappens(QWidget):
         super().__init__()
         self._messages, self._look = messages, look
         self._language, self._timeline = language, Timeline(language(), tr)
-        self._waiting: deque[tuple[float, msgspec.Struct]] = deque(maxlen=MOST_WAITING)
+        self._waiting: deque[tuple[float, msgspec.Struct | str]] = deque(maxlen=MOST_WAITING)
+        """How long after the start what was heard; or words that stand between two runs."""
         self._started_s = time.time()
         self.model = LinesModel(self)
         self.list = QListView()
@@ -100,16 +101,6 @@ class WhatHappens(QWidget):
         self.search = QLineEdit()
         self.hint = QLabel()
         self.buttons = LogButtons(look)
-        self._set_up_list()
-        self._set_up_filters()
-        self._lay_out()
-        runner.arrived.connect(self._on_arrived)
-        runner.state_changed.connect(self._on_state_changed)
-        look.theme_changed.connect(self._dress)
-        self._dress()
-        follow_words(self, self._speak)
-
-    def _set_up_list(self) -> None:
         self._painter = LinePainter(self._look)
         self.list.setModel(self.model)
         self.list.setItemDelegate(self._painter)
@@ -120,6 +111,13 @@ class WhatHappens(QWidget):
         copy = QShortcut(QKeySequence(QKeySequence.StandardKey.Copy), self.list)
         copy.setContext(Qt.ShortcutContext.WidgetShortcut)
         copy.activated.connect(self.copy)
+        self._set_up_filters()
+        self._lay_out()
+        runner.arrived.connect(self._on_arrived)
+        runner.state_changed.connect(self._on_state_changed)
+        look.theme_changed.connect(self._dress)
+        self._dress()
+        follow_words(self, self._speak)
 
     def _set_up_filters(self) -> None:
         labelled(self.part, name="Whose lines are shown")
@@ -170,29 +168,31 @@ class WhatHappens(QWidget):
     # What happens
 
     def _on_arrived(self, batch: list[tuple[str, msgspec.Struct]]) -> None:
-        now_s = time.time()
-        self._waiting.extend((now_s, message) for _, message in batch if _is_told(message))
+        elapsed_s = max(0.0, time.time() - self._started_s)
+        self._waiting.extend((elapsed_s, message) for _, message in batch if _is_told(message))
         if self.isVisible():
             self._take_waiting()
 
     def _on_state_changed(self, state: str) -> None:
         if state == "starting":
-            self._take_waiting()
             self._started_s = time.time()
-            clock = time.strftime("%H:%M:%S")
-            self._add([Line(0.0, RUN, "", tr("Run at {time}", time=clock))])
+            self._waiting.append((0.0, tr("Run at {time}", time=time.strftime("%H:%M:%S"))))
+            if self.isVisible():
+                self._take_waiting()
 
     def _take_waiting(self) -> None:
         surplus = len(self._waiting) - MOST_AT_ONCE
         lines: list[Line] = []
         if surplus > 0:
             for _ in range(surplus):
-                time_s, _message = self._waiting.popleft()
+                elapsed_s, _message = self._waiting.popleft()
             words = tr("{count} messages came too fast to be told one by one", count=surplus)
-            lines.append(Line(max(0.0, time_s - self._started_s), RUN, "", words))
-        for time_s, message in self._waiting:
-            elapsed_s, part = max(0.0, time_s - self._started_s), part_of(message)
-            told = self._timeline.lines(message)
+            lines.append(Line(elapsed_s, RUN, "", words))
+        for elapsed_s, message in self._waiting:
+            if isinstance(message, str):
+                lines.append(Line(elapsed_s, RUN, "", message))
+                continue
+            part, told = part_of(message), self._timeline.lines(message)
             lines += [Line(elapsed_s, part, source, what) for source, what in told]
         self._waiting.clear()
         self._add(lines)

@@ -70,8 +70,10 @@ class Notice:
 
 def notice_of(before: NodeStatus | None, after: NodeStatus, at: Circumstances) -> Notice | None:
     """What has to be told; None when nothing has."""
-    if before is not None and _same(before, after):
-        return None
+    if before is not None:
+        was = (before.health, before.event, before.fault)
+        if was == (after.health, after.event, after.fault):
+            return None
     if after.health == "frozen":
         return _frozen(after, at)
     if after.event == "connection_failed":
@@ -93,9 +95,18 @@ def is_recovered(before: NodeStatus | None, after: NodeStatus) -> bool:
     return is_back or (after.health == "stopped" and before is not None and before.is_there)
 
 
-def _same(before: NodeStatus, after: NodeStatus) -> bool:
-    mine = (before.health, before.event, before.fault)
-    return mine == (after.health, after.event, after.fault)
+def _no_connection(status: NodeStatus, at: Circumstances) -> Notice:
+    """The node's own words are a sentence and a checklist."""
+    fault = status.fault
+    where = tr(
+        "The program could not reach {name} at {address}.", name=status.name, address=at.address
+    )
+    title = tr("{name} does not answer", name=status.name)
+    problem = Problem(title, fault.sentence or where, fault.checklist)
+    fixes: tuple[Fix, ...] = (
+        ("use_virtual", "test_connection", "change_address") if at.has_block else ()
+    )
+    return Notice(status.name, f"connection {at.address}", "error", problem, fixes)
 
 
 def _frozen(status: NodeStatus, at: Circumstances) -> Notice:
@@ -117,20 +128,6 @@ def _frozen(status: NodeStatus, at: Circumstances) -> Notice:
 
 def _silent(name: str) -> str:
     return tr("“{name}” has said nothing for three seconds.", name=name)
-
-
-def _no_connection(status: NodeStatus, at: Circumstances) -> Notice:
-    """The node's own words are a sentence and a checklist."""
-    fault = status.fault
-    where = tr(
-        "The program could not reach {name} at {address}.", name=status.name, address=at.address
-    )
-    title = tr("{name} does not answer", name=status.name)
-    problem = Problem(title, fault.sentence or where, fault.checklist)
-    fixes: tuple[Fix, ...] = (
-        ("use_virtual", "test_connection", "change_address") if at.has_block else ()
-    )
-    return Notice(status.name, f"connection {at.address}", "error", problem, fixes)
 
 
 def _warning(status: NodeStatus, at: Circumstances) -> Notice:
@@ -187,7 +184,7 @@ def _program_ended(status: NodeStatus) -> Notice | None:
 
 def _how_it_ended(status: NodeStatus) -> Text:
     """That alone; what becomes of the node then is in the title."""
-    outcome = status.fault.values.get("outcome")
+    outcome = status.fault.sentence.values.get("outcome")
     return outcome if isinstance(outcome, Text) else status.fault.sentence
 
 
@@ -287,7 +284,11 @@ class NodeFixes:
             case "test_connection":
                 self._host.ask("connecting.open", name)
             case "change_address":
-                self._change_address(name)
+                # Show the robot's block with its address open to be written
+                block, workbench = self._robot_block(name), self._host.workbench
+                if block:
+                    workbench.show_block(block)
+                    workbench.canvas.fields.open(block, "address")
             case "run":
                 self._host.services.runner.run()
             case "stop":
@@ -315,13 +316,6 @@ class NodeFixes:
             self._host.services.messages.refuse(refusal.sentence, refusal.checklist)
             return
         self.start(name)  # the running one is as it was before, so it is started anew
-
-    def _change_address(self, name: str) -> None:
-        """Show the robot's block with its address open to be written."""
-        block, workbench = self._robot_block(name), self._host.workbench
-        if block:
-            workbench.show_block(block)
-            workbench.canvas.fields.open(block, "address")
 
     def _robot_block(self, name: str) -> str:
         block = self.block_of(name)

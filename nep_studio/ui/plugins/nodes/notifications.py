@@ -90,40 +90,36 @@ class NodeNotifier(QObject):
             notice = notice_of(before, after, self._circumstances(after))
             if notice is not None:
                 self.tell(notice)
-            self._note(after)
-
-    def _note(self, after: NodeStatus) -> None:
-        """Remember what the next change is judged by."""
-        if after.health in WELL:
-            if after.name in self._by_hand:
-                self._by_hand.discard(after.name)
-                self._ready.append(after.name)
-                self._gathering.start()
-            self._was_ready.add(after.name)
-            self._restarted.discard(after.name)
-        if not is_running(after):
-            self._asked.discard(after.name)
+            # The next change is judged by this
+            if after.health in WELL:
+                if name in self._by_hand:
+                    self._by_hand.discard(name)
+                    self._ready.append(name)
+                    self._gathering.start()
+                self._was_ready.add(name)
+                self._restarted.discard(name)
+            if not is_running(after):
+                self._asked.discard(name)
 
     def _circumstances(self, status: NodeStatus) -> Circumstances:
         runner, name = self._runner, status.name
+        # Did the studio stop it, with a run that is over, or to start it anew?
+        launched = runner.local.launcher.nodes.get(name)
+        is_over = False
+        if status.health == "stopped" and name not in self._asked and launched is not None:
+            ran_s = time.monotonic() - launched.started_s
+            is_over = launched.stopping or status.since_s < time.time() - ran_s
         plan = self.fixes.plan_of(name)
+        blocks = self._host.workbench.canvas.editor.project.blocks
         return Circumstances(
-            is_ours=runner.is_ours(name),
+            is_ours=name in runner.local.planned,
             is_program=name == PROGRAM,
             was_asked=name in self._asked,
-            is_ending=self._is_ending or name in self._restarted or self._is_news_of_a_stop(status),
+            is_ending=self._is_ending or name in self._restarted or is_over,
             was_ready=name in self._was_ready,
-            has_block=bool(self.fixes.block_of(name)),
+            has_block=plan is not None and plan.block_id in blocks,
             address=str(plan.parameters.get("address", "")) if plan is not None else "",
         )
-
-    def _is_news_of_a_stop(self, status: NodeStatus) -> bool:
-        """Whether the studio stopped it, with a run that is over, or to start it anew."""
-        launched = self._runner.local.launcher.nodes.get(status.name)
-        if status.health != "stopped" or status.name in self._asked or launched is None:
-            return False
-        ran_s = time.monotonic() - launched.started_s
-        return launched.stopping or status.since_s < time.time() - ran_s
 
     @property
     def _is_ending(self) -> bool:
@@ -183,27 +179,19 @@ class NodeNotifier(QObject):
             self._gathering.start()  # the last node's "ready" may still be on its way
         self._has_begun = state in ("running", "paused")
 
-    def _tell_start(self) -> None:
-        """One message for all nodes of a run."""
-        names = [one.name for one in self._runner.board.nodes.values() if one.health in WELL]
-        count = len([name for name in names if name != PROGRAM])
-        words = count_words(count, "It runs: 1 node is ready", "It runs: {n} nodes are ready")
-        self._host.services.messages.confirm(words)
-        self._ready.clear()
-
     def _on_gathered(self) -> None:
-        if self._is_begin_untold:
-            self._is_begin_untold = False
-            if self._runner.state in ("running", "paused"):
-                self._tell_start()
-                return
-        ready, self._ready = self._ready, []
-        if len(ready) == 1:
-            self._host.services.messages.confirm(tr("“{name}” is ready", name=ready[0]))
+        """One message for all nodes that became ready, of a run or by hand."""
+        confirm = self._host.services.messages.confirm
+        has_begun = self._is_begin_untold and self._runner.state in ("running", "paused")
+        ready, self._ready, self._is_begin_untold = self._ready, [], False
+        if has_begun:
+            well = [one.name for one in self._runner.board.nodes.values() if one.health in WELL]
+            count = len(well) - (PROGRAM in well)
+            confirm(count_words(count, "It runs: 1 node is ready", "It runs: {n} nodes are ready"))
+        elif len(ready) == 1:
+            confirm(tr("“{name}” is ready", name=ready[0]))
         elif ready:
-            self._host.services.messages.confirm(
-                count_words(len(ready), "1 node is ready", "{n} nodes are ready")
-            )
+            confirm(count_words(len(ready), "1 node is ready", "{n} nodes are ready"))
 
     def _on_node_failed(self, name: str, error: NepError) -> None:
         """The plain message of the runner gets the buttons that help with a node."""

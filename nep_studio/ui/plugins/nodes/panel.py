@@ -124,11 +124,6 @@ class NodesPanel(QWidget):
         self.empty = _Empty()
         self._soon = QTimer(self, singleShot=True, interval=50)
         self._soon.timeout.connect(self.refresh)
-        self._lay_out()
-        self._connect()
-        follow_words(self, self.refresh)
-
-    def _lay_out(self) -> None:
         self.views = QStackedWidget()
         self.views.addWidget(self.empty)
         self.views.addWidget(self.grid)
@@ -139,6 +134,8 @@ class NodesPanel(QWidget):
         box = QVBoxLayout(self)
         box.setContentsMargins(0, 0, 0, 0)
         box.addWidget(split)
+        self._connect()
+        follow_words(self, self.refresh)
 
     def _connect(self) -> None:
         runner = self._runner

@@ -227,8 +227,8 @@ class Stimuli(QObject):
         self.certainty = 1.0
         runner.connected.connect(self.changed)
         runner.disconnected.connect(self.changed)
-        runner.state_changed.connect(self._on_changed)
-        runner.nodes_changed.connect(self._on_changed)
+        runner.state_changed.connect(self.changed)
+        runner.nodes_changed.connect(self.changed)
 
     @property
     def robots(self) -> list[str]:
@@ -328,9 +328,6 @@ class Stimuli(QObject):
         return self._ask(robot, "do", {"posture": posture})
 
     # How things happen
-
-    def _on_changed(self, _what: object) -> None:
-        self.changed.emit()
 
     def _let(self, robot: str, occurrence: Occurrence) -> None:
         value, amount = occurrence.value, occurrence.amount

@@ -47,7 +47,8 @@ class Facts(QWidget):
     def __init__(self, look: Look) -> None:
         super().__init__()
         self._look = look
-        self._parts: dict[str, _Fact] = {}
+        self._parts: dict[str, tuple[QWidget, QLabel, QLabel]] = {}
+        """Of each fact its place, its sign and its words."""
         self._shown: dict[str, tuple[str, str, str]] = {}
         line = self.fontMetrics().height()
         self._short = QWidget()
@@ -63,9 +64,9 @@ class Facts(QWidget):
         if self._shown.get(name) == (icon_name, words, colour):
             return
         self._shown[name] = (icon_name, words, colour)
-        part = self._parts.get(name) or self._add(name)
+        part, _sign, label = self._parts.get(name) or self._add(name)
         part.setVisible(bool(words))
-        part.label.setText(words)
+        label.setText(words)
         self._short.setVisible(any(self.words(one) for one in self._shown if one not in LONG))
         self._dress_part(name)
 
@@ -77,13 +78,22 @@ class Facts(QWidget):
         """All facts as sentences, for screen readers."""
         return " ".join(f"{words}." for _, words, _ in self._shown.values() if words)
 
-    def _add(self, name: str) -> _Fact:
-        part = self._parts[name] = _Fact(is_long=name in LONG)
+    def _add(self, name: str) -> tuple[QWidget, QLabel, QLabel]:
+        """A place for a sign and words."""
+        part, sign, label = self._parts[name] = QWidget(), QLabel(), QLabel()
+        label.setTextFormat(Qt.TextFormat.PlainText)
+        row = QHBoxLayout(part)
+        row.setContentsMargins(0, 0, 0, 0)
+        row.setSpacing(self.fontMetrics().height() // 4)
+        row.addWidget(sign, 0, Qt.AlignmentFlag.AlignTop)
+        row.addWidget(label, 1)
         if name in LONG:
+            label.setWordWrap(True)
+            label.setSizePolicy(wrapped())
             self._box.addWidget(part)
         else:
             self._flow.addWidget(part)
-        return part
+        return part, sign, label
 
     def _dress(self) -> None:
         for name in self._parts:
@@ -93,24 +103,7 @@ class Facts(QWidget):
         icon_name, _, colour = self._shown[name]
         side, ratio = self.fontMetrics().height(), self.devicePixelRatioF()
         pixmap = icon_pixmap(icon_name, self._look.theme.colour(colour), side, ratio)
-        self._parts[name].sign.setPixmap(pixmap)
-
-
-class _Fact(QWidget):
-    """A sign and words."""
-
-    def __init__(self, *, is_long: bool) -> None:
-        super().__init__()
-        self.sign, self.label = QLabel(), QLabel()
-        self.label.setTextFormat(Qt.TextFormat.PlainText)
-        self.label.setWordWrap(is_long)
-        if is_long:
-            self.label.setSizePolicy(wrapped())
-        row = QHBoxLayout(self)
-        row.setContentsMargins(0, 0, 0, 0)
-        row.setSpacing(self.fontMetrics().height() // 4)
-        row.addWidget(self.sign, 0, Qt.AlignmentFlag.AlignTop)
-        row.addWidget(self.label, 1)
+        self._parts[name][1].setPixmap(pixmap)
 
 
 def wrapped() -> QSizePolicy:
@@ -120,28 +113,11 @@ def wrapped() -> QSizePolicy:
     return policy
 
 
-def show_state(facts: Facts, state: RobotState, language: Language) -> None:
-    """Show posture, movement, battery, and what it says and listens for."""
-    facts.show_fact("posture", "person-standing", posture_words(state.posture, language))
-    moves = tr("Moves") if state.moving else tr("At rest")
-    facts.show_fact("moving", "footprints" if state.moving else "pause", moves)
-    is_low = state.battery < LOW_BATTERY
-    percent = f"{state.battery:.0%}"
-    battery = tr("Battery {percent}", percent=percent)
-    if is_low:
-        battery = tr("Battery {percent}: charge it soon", percent=percent)
-    facts.show_fact("battery", "battery-medium", battery, "warning" if is_low else "muted")
-    says = tr("Says “{text}”", text=state.saying) if state.saying else ""
-    facts.show_fact("saying", "message-square", says)
-    heard = tr(" or ").join(f"“{word}”" for word in state.listening)
-    facts.show_fact("listening", "ear", tr("Listens for {words}", words=heard) if heard else "")
-
-
 def posture_words(posture: str, language: Language) -> str:
     """A posture, as the robot names it, in words: "LyingBack" is “lying on the back”."""
     if not posture:
         return ""
-    key = "posture" + re.sub("[A-Z]", lambda found: f"_{found.group().lower()}", posture)
+    key = "posture" + re.sub("([A-Z])", r"_\1", posture).lower()
     words = language.choices.get("postures", {}).get(key, posture)
     return tr("Posture: {posture}", posture=words)
 
@@ -205,7 +181,17 @@ class RobotCard(QFrame):
         self.facts = Facts(look)
         self.fallen = FallenBar(look)
         self.touch, self.back = QToolButton(), QToolButton()
-        self._add_touch_menu()
+        menu = QMenu(self.touch)
+        for sensor in TOUCH_SENSORS:
+            action = menu.addAction("")
+            action.setData(sensor)
+            action.triggered.connect(partial(self._touch_for_a_moment, sensor))
+        self.touch.setMenu(menu)
+        self.touch.setPopupMode(QToolButton.ToolButtonPopupMode.InstantPopup)
+        labelled(
+            self.touch, text="Touch", tip="Touch it here, or click its head, hands, feet or chest"
+        )
+        labelled(self.back, text="Back to start", tip="Put the robot back to where it began")
         self._lay_out()
         self.fallen.help_button.clicked.connect(self.help_asked)
         self.back.clicked.connect(self.start_asked)
@@ -242,19 +228,6 @@ class RobotCard(QFrame):
         box.addWidget(self.facts)
         box.addWidget(self._buttons)
 
-    def _add_touch_menu(self) -> None:
-        menu = QMenu(self.touch)
-        for sensor in TOUCH_SENSORS:
-            action = menu.addAction("")
-            action.setData(sensor)
-            action.triggered.connect(partial(self._touch_for_a_moment, sensor))
-        self.touch.setMenu(menu)
-        self.touch.setPopupMode(QToolButton.ToolButtonPopupMode.InstantPopup)
-        labelled(
-            self.touch, text="Touch", tip="Touch it here, or click its head, hands, feet or chest"
-        )
-        labelled(self.back, text="Back to start", tip="Put the robot back to where it began")
-
     def show_plan(self, plan: RobotPlan) -> None:
         """Say which kind of robot it is."""
         if plan != self.plan:
@@ -282,8 +255,22 @@ class RobotCard(QFrame):
             self._dress()
 
     def show_state(self, state: RobotState) -> None:
-        """Show the robot as it is now."""
-        show_state(self.facts, state, self._language())
+        """Show posture, movement, battery, and what it says and listens for."""
+        facts, percent = self.facts, f"{state.battery:.0%}"
+        facts.show_fact(
+            "posture", "person-standing", posture_words(state.posture, self._language())
+        )
+        moves = tr("Moves") if state.moving else tr("At rest")
+        facts.show_fact("moving", "footprints" if state.moving else "pause", moves)
+        is_low = state.battery < LOW_BATTERY
+        battery = tr("Battery {percent}", percent=percent)
+        if is_low:
+            battery = tr("Battery {percent}: charge it soon", percent=percent)
+        facts.show_fact("battery", "battery-medium", battery, "warning" if is_low else "muted")
+        says = tr("Says “{text}”", text=state.saying) if state.saying else ""
+        facts.show_fact("saying", "message-square", says)
+        heard = tr(" or ").join(f"“{word}”" for word in state.listening)
+        facts.show_fact("listening", "ear", tr("Listens for {words}", words=heard) if heard else "")
         self.fallen.setVisible(state.fallen)
         self._describe()
 

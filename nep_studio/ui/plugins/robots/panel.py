@@ -211,14 +211,21 @@ class RobotsPanel(QWidget):
         planned = self._runner.planned()
         plans = {plan.name: plan for plan in robots_of(planned)}
         self._begin_at = start_places(planned)
-        for name in [*self._heard, *self._nodes_there()]:
+        nodes = self._runner.board.nodes.values()
+        there = [node.name for node in nodes if node.type == "action" and node.is_there]
+        for name in [*self._heard, *there]:
             plans.setdefault(name, RobotPlan(name))
         for name in self.cards.keys() - plans.keys():
-            card = self.cards.pop(name)
-            card.hide()
-            card.deleteLater()
+            gone = self.cards.pop(name)
+            gone.hide()
+            gone.deleteLater()
         for place, plan in enumerate(plans.values()):
-            card = self.cards.get(plan.name) or self._add_card(plan)
+            card = self.cards.get(plan.name)
+            if card is None:
+                card = self.cards[plan.name] = RobotCard(plan, self._language, self._look)
+                card.touched.connect(partial(self._asking.touch, plan.name))
+                card.help_asked.connect(partial(self._asking.help_up, plan.name))
+                card.start_asked.connect(partial(self._on_start_asked, plan.name))
             card.show_plan(plan)
             self._cards_box.insertWidget(place, card)
             self._show_robot(plan.name)
@@ -252,17 +259,6 @@ class RobotsPanel(QWidget):
             self.large.close()
         self.elsewhere.setVisible(self.large is not None)
         self.stage.tools.show_large(self.large is not None)
-
-    def _nodes_there(self) -> list[str]:
-        nodes = self._runner.board.nodes.values()
-        return [node.name for node in nodes if node.type == "action" and node.is_there]
-
-    def _add_card(self, plan: RobotPlan) -> RobotCard:
-        card = self.cards[plan.name] = RobotCard(plan, self._language, self._look)
-        card.touched.connect(partial(self._asking.touch, plan.name))
-        card.help_asked.connect(partial(self._asking.help_up, plan.name))
-        card.start_asked.connect(partial(self._on_start_asked, plan.name))
-        return card
 
     def _show_robot(self, name: str) -> None:
         card, status = self.cards[name], self._runner.board.nodes.get(name)

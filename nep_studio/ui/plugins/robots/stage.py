@@ -179,12 +179,6 @@ class RobotStage(QWidget):
         self.tools = StageTools(look)
         self.thing_bar = ThingBar(look)
         self.invitation = labelled(QPushButton(), text="Place a person before the robots")
-        self._lay_out()
-        self._connect()
-        self._on_floor_changed()
-        follow_words(self, self._tell_names)
-
-    def _lay_out(self) -> None:
         line = self.fontMetrics().height()
         self.invitation.setProperty("kind", "quiet")
         self.invitation.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Fixed)
@@ -194,6 +188,9 @@ class RobotStage(QWidget):
         self._box.addWidget(self.tools)
         self._box.addWidget(self.invitation)
         self._box.addWidget(self.thing_bar)
+        self._connect()
+        self._on_floor_changed()
+        follow_words(self, self._tell_names)
 
     def _connect(self) -> None:
         tools, bar = self.tools, self.thing_bar
@@ -277,14 +274,6 @@ class RobotStage(QWidget):
         self.choose(thing.id)
         self.view.setFocus()
 
-    def _look_past(self, view: RobotView) -> None:
-        """Look from aside, where what stands before a robot does not hide it."""
-        bases = self._bases()
-        heading = bases[0][2] if bases else 0.0
-        if abs(math.remainder(view.camera.yaw - heading, math.tau)) < ASIDE_RAD:
-            view.look_through(replace(view.camera, yaw=heading + ASIDE_RAD))
-            view.fit()
-
     def _bases(self) -> list[Base]:
         """Where the robots are, or will begin."""
         return [state.base if state else start for state, start in self._shown.values()]
@@ -339,7 +328,13 @@ class RobotStage(QWidget):
             is_first = bool(things) and not self._view.room.things
             self._view.show_things(things)
             if is_first:
-                self._look_past(self._view)
+                # Look from aside, where what stands before a robot does not hide it
+                view = self._view
+                bases = self._bases()
+                heading = bases[0][2] if bases else 0.0
+                if abs(math.remainder(view.camera.yaw - heading, math.tau)) < ASIDE_RAD:
+                    view.look_through(replace(view.camera, yaw=heading + ASIDE_RAD))
+                    view.fit()
 
     def _on_camera_changed(self) -> None:
         self.tools.show_follow(self.view.follows)

@@ -168,7 +168,13 @@ class StageTools(QWidget):
         self._things: list[Thing] = []
         self._things_menu = labelled(QMenu(self), title="Choose")
         self._lay_out()
-        self._fill_view_menu()
+        menu = QMenu(self.view)
+        for preset, words in VIEWS.items():
+            action = labelled(menu.addAction(""), text=words)
+            action.triggered.connect(partial(self._ask_view, preset))
+        menu.addSeparator()
+        menu.addActions([self.fit, self.follow, self.clear])
+        self.view.setMenu(menu)
         self._fill_place_menu()
         self._connect()
         self.show_things([])
@@ -192,15 +198,6 @@ class StageTools(QWidget):
             button.setPopupMode(QToolButton.ToolButtonPopupMode.InstantPopup)
         self.sound.setCheckable(True)
         self.large.setCheckable(True)
-
-    def _fill_view_menu(self) -> None:
-        menu = QMenu(self.view)
-        for preset, words in VIEWS.items():
-            action = labelled(menu.addAction(""), text=words)
-            action.triggered.connect(partial(self._ask_view, preset))
-        menu.addSeparator()
-        menu.addActions([self.fit, self.follow, self.clear])
-        self.view.setMenu(menu)
 
     def _ask_view(self, preset: str) -> None:
         self.view_asked.emit(preset)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import logging
 import time
 from contextlib import suppress
+from functools import partial
 from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QCoreApplication, QObject, QRegularExpression, Qt, Signal
@@ -217,7 +218,7 @@ class StudyRecorder(QObject):
         self._run_started_s = 0.0
         host.services.files.document_changed.connect(self._on_document_changed)
         host.services.messages.told.connect(self._on_told)
-        host.services.runner.run_asked.connect(lambda: self.note("run_asked"))
+        host.services.runner.run_asked.connect(partial(self.note, "run_asked"))
         host.services.runner.state_changed.connect(self._on_state_changed)
         host.services.runner.ended.connect(self._on_ended)
         app = QCoreApplication.instance()
@@ -312,14 +313,16 @@ class StudyRecorder(QObject):
             self.note("error_told", told.message.title)
 
     def _on_state_changed(self, state: str) -> None:
+        has_begun = state == "running" and not self._run_started_s
+        if has_begun or state == "starting":
+            self._run_started_s = time.time() if has_begun else 0.0
+        if self.sitting is None:
+            return
         if state == "starting":
             self._note_edits()
-            self._run_started_s = 0.0
-        elif state == "running" and not self._run_started_s:
-            self._run_started_s = time.time()
+        elif has_begun:
             self.note("run_started")
-            # How long it took until the program ran for the first time
-            if self.sitting is not None and not self._has_run:
+            if not self._has_run:  # how long it took until the program ran for the first time
                 self._has_run = True
                 self.note("first_run", number=round(time.time() - self.sitting.started_s, 3))
         elif state == "stopping":
