@@ -101,7 +101,7 @@ def told(text: Words, tr: Tr = plain) -> str:
     """Return the words of a text, and of the texts in its places, in the language of ``tr``."""
     if isinstance(text, str):
         return tr(text)
-    return tr(text.text, **text.values)
+    return tr(text.text, **{name: _told(value, tr) for name, value in text.values.items()})
 
 
 def filled(template: str, values: Mapping[str, object], tr: Tr) -> str:

@@ -200,12 +200,6 @@ class Project:
         """What belongs on a page: behaviour, robots or nodes; added pages are for behaviour."""
         return page if page in PAGES else "behaviour"
 
-    def stacks_of_kind(self, kind: str) -> Iterator[tuple[str, Stack]]:
-        """The stacks of all pages of a kind, each with its page, in the order of the pages."""
-        for page, stacks in self.pages.items():
-            if self.kind_of_page(page) == kind:
-                yield from ((page, stack) for stack in stacks)
-
     def page_of(self, some_id: str) -> str:
         """The name of the page on which a block or a stack is."""
         stack = self.stack_of(some_id)

@@ -82,8 +82,7 @@ def test_a_rule_that_hears_one_robot_only_is_sent_in_the_name_of_that_robot() ->
 def test_words_of_questions_are_cues_and_disabled_rules_are_not() -> None:
     question = B("robot_speech.ask", {"word.1": "yes"}, groups={"answer": 1})
     editor = build(LANGUAGE, [B("event.started"), question], [B("event.gesture")])
-    hat = editor.project.stacks_of_kind("behaviour")
-    last = [stack.body[0] for _, stack in hat][-1]
+    last = editor.project.pages["behaviour"][-1].body[0]
     editor.project.blocks[last].disabled = True
 
     cues = cues_of(editor.project, LANGUAGE)

@@ -135,7 +135,7 @@ JAPANESE = {
 def in_words_of(table: dict[str, str], text: Text) -> str:
     def look_up(words: Text | str, /, **values: object) -> str:
         assert isinstance(words, str)
-        return filled(table.get(words, words), values)
+        return filled(table.get(words, words), values, look_up)
 
     return told(text, look_up)
 

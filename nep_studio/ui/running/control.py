@@ -92,8 +92,7 @@ class RunControl(QObject):
             edits.settled.connect(self._on_settled)
         self._document = document
         self._virtual = frozenset()
-        self._wanted = self._needs()
-        self.plan_changed.emit()
+        self._on_settled(Changes(whole=True))
         self.stop()
         self.stage.clear()
         self.breakpoints.clear()
@@ -177,22 +176,18 @@ class RunControl(QObject):
 
     def _on_settled(self, changes: Changes) -> None:
         """Look whether the nodes can be others now; what is kept may belong to any of them."""
-        wanted = self._needs()
+        wanted: object = None
+        if (document := self._document) is not None:
+            project, language = document.project, document.editor.language
+            wanted = (
+                document.folder,
+                node_entries(project, language),
+                robot_entries(project, language),
+                list(names_used(project, language, "gesture")),
+            )
         if changes.whole or changes.kept or wanted != self._wanted:
             self._wanted = wanted
             self.plan_changed.emit()
-
-    def _needs(self) -> object:
-        """What the nodes of the open project follow from, but for what it keeps."""
-        if (document := self._document) is None:
-            return None
-        project, language = document.project, document.editor.language
-        return (
-            document.folder,
-            node_entries(project, language),
-            robot_entries(project, language),
-            list(names_used(project, language, "gesture")),
-        )
 
     def _on_watching_changed(self) -> None:
         self.runner.controller.watch(self.breakpoints.ids, self.line_s)

@@ -509,13 +509,6 @@ def _add_choices(
 # What the action that checks says on the toolbar.
 
 
-def summary(problems: Sequence[Diagnostic]) -> str:
-    """How many problems there are, in a few words."""
-    if not problems:
-        return tr("Nothing to correct")
-    return count_words(len(problems), "1 problem", "{n} problems")
-
-
 def style_check(
     check: QAction, problems: Sequence[Diagnostic], theme: Theme, *, is_open: bool
 ) -> None:
@@ -524,5 +517,6 @@ def style_check(
     colour = "success" if worst is None else worst.severity
     sign = "circle-check" if worst is None else "triangle-alert"
     check.setIcon(icon(sign, theme.colour(colour)) if is_open else icon(sign, theme))
-    check.setIconText(summary(problems) if problems else tr("Check"))
-    check.setToolTip(summary(problems))
+    words = count_words(len(problems), "1 problem", "{n} problems")
+    check.setIconText(words if problems else tr("Check"))
+    check.setToolTip(words if problems else tr("Nothing to correct"))

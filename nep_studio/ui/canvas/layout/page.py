@@ -249,12 +249,14 @@ class PageLayout:
         self.index = self.chains.index
         """Where the stacks are; of those that are not laid out yet, roughly."""
         self._order: dict[str, int] = {}
+        """The stacks of the page, each with its number: later ones lie over earlier ones."""
         self.show(self.page)
 
     def show(self, page: str) -> None:
         """Lay out the stacks of a page."""
         self.page = page
-        self._order = self._new_order()
+        stacks = self.project.pages.get(page, [])
+        self._order = {stack.id: number for number, stack in enumerate(stacks)}
         with paused_garbage_collection():
             self.chains.begin(self._order)
 
@@ -269,6 +271,8 @@ class PageLayout:
             old = self.bounds()
             self.refresh_all()
             return [rect for rect in (old, self.bounds()) if rect is not None]
+        stacks = self.project.pages.get(self.page, [])
+        self._order = {stack.id: number for number, stack in enumerate(stacks)}
         self.layout.forget(changes.owners)
         if len(changes.stacks) > MOST_STACKS_AT_ONCE:
             return self._postpone(changes.stacks)
@@ -276,12 +280,11 @@ class PageLayout:
 
     def update(self, stacks: set[str]) -> list[Rect]:
         """Lay these stacks out anew; gives the places to paint again."""
-        here = self._order = self._new_order()
         rects: list[Rect] = []
         for stack_id in stacks:
             rect = self.index.rects.get(stack_id)
             old = self.chains.drop(stack_id)
-            if stack_id in here:
+            if stack_id in self._order:
                 self.chains.lay_out(stack_id)
             new = self.chains.get(stack_id)
             if old is not None and new is not None:
@@ -294,11 +297,10 @@ class PageLayout:
 
     def _postpone(self, stacks: set[str]) -> list[Rect]:
         """Lay many changed stacks out when they are looked at; gives the place around them."""
-        here = self._order = self._new_order()
         around: Rect | None = None
         for stack_id in stacks:
             rects = [self.index.rects[stack_id]] if stack_id in self.index.rects else []
-            if stack_id in here:
+            if stack_id in self._order:
                 self.chains.postpone(stack_id)
                 rects.append(self.index.rects[stack_id])
             else:
@@ -306,11 +308,6 @@ class PageLayout:
             for rect in rects:
                 around = rect.united(around) if around is not None else rect
         return [around] if around is not None else []
-
-    def _new_order(self) -> dict[str, int]:
-        """The stacks of the page, each with its number: later ones lie over earlier ones."""
-        stacks = self.project.pages.get(self.page, [])
-        return {stack.id: number for number, stack in enumerate(stacks)}
 
     def corners(self, ids: Iterable[str]) -> dict[str, tuple[float, float]]:
         """Where chains that begin with these blocks lie on the page."""

@@ -134,12 +134,13 @@ class Notes:
         notes = self._view.editor.project.notes
         for note_id, place in self._rects.items():
             if note_id != carried and place.grown(CORNER).touches(rect):
-                self._paint(painter, notes[note_id], scale)
+                self._paint(painter, notes[note_id], place, scale)
 
     def paint(self, painter: QPainter, view: CanvasHost) -> None:
         """Draw what changes often: the note that is carried, and the line of the selected one."""
         if self.carried is not None:
-            self._paint(painter, self.carried, view.sight.camera.scale)
+            place = self.rect_of(self.carried)
+            self._paint(painter, self.carried, place, view.sight.camera.scale)
         note = self.carried or view.editor.project.notes.get(self.selected)
         if note is None or not self.selected:
             return
@@ -148,6 +149,10 @@ class Notes:
         painter.setPen(QPen(view.look.theme.colour("focus"), 2.5 * pixel))
         painter.setBrush(Qt.BrushStyle.NoBrush)
         painter.drawRoundedRect(QRectF(*rect), 4, 4)
+        self._paint_corner(painter, rect)
+
+    def _paint_corner(self, painter: QPainter, rect: Rect) -> None:
+        """The lines at which the note is made larger."""
         is_mirrored = self._view.look.measures.is_mirrored
         painter.setPen(QPen(self._view.look.theme.colour("note_text"), 1.5))
         for inset in (5.0, 10.0):
@@ -162,9 +167,9 @@ class Notes:
                 start, end = QPointF(right - inset, bottom), QPointF(right, bottom - inset)
             painter.drawLine(start, end)
 
-    def _paint(self, painter: QPainter, note: Note, scale: float) -> None:
+    def _paint(self, painter: QPainter, note: Note, place: Rect, scale: float) -> None:
         theme, unit = self._view.look.theme, self._view.look.measures.unit
-        rect = QRectF(*self.rect_of(note))
+        rect = QRectF(*place)
         painter.setRenderHint(QPainter.RenderHint.Antialiasing)
         painter.setPen(Qt.PenStyle.NoPen)
         painter.setBrush(theme.colour("shadow"))
