@@ -1,4 +1,4 @@
-"""The tour as it goes: one step after the other, back again, and out at any time."""
+"""The tour: its steps as data, and how it goes from one to the next, back again, and out."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What do you have? The ways as cards, in the order of ease."""
+"""What do you have? The ways as cards, in the order of ease, and what each of them asks."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What came of a training: in words first, then what was taken for what, then the points."""
+"""What trains, and what came of it: in words, what was taken for what, and the points."""
 
 from __future__ import annotations
 
