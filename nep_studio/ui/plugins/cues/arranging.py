@@ -23,6 +23,7 @@ from PySide6.QtWidgets import (
     QDialog,
     QFormLayout,
     QGridLayout,
+    QLabel,
     QLineEdit,
     QListWidget,
     QListWidgetItem,
@@ -37,7 +38,6 @@ from nep_studio.ui.labels import follow_words, labelled
 from nep_studio.ui.theme.colours import Theme
 from nep_studio.ui.theme.icons import icon, paint_icon
 from nep_studio.ui.theme.look import Look
-from nep_studio.ui.widgets.forms import hint
 from nep_studio.ui.widgets.layouts import in_column, in_row
 from nep_studio.ui.words import tr
 
@@ -310,7 +310,8 @@ class ArrangeDialog(QDialog):
         self.own = QLineEdit()
         self.add_state_button = _button(tr("Add a state"), "flag", theme)
         self.add_word_button = _button(tr("Add words"), "ear", theme)
-        self.why_not = hint("")
+        self.why_not = QLabel(wordWrap=True)
+        self.why_not.setProperty("role", "hint")
         self.done_button = QPushButton(tr("Done"))
         self.cancel_button = QPushButton(tr("Cancel"))
         side = self.fontMetrics().height()

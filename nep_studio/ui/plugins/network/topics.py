@@ -25,6 +25,7 @@ from PySide6.QtGui import QGuiApplication, QHideEvent, QShowEvent
 from PySide6.QtWidgets import (
     QAbstractItemView,
     QHBoxLayout,
+    QLabel,
     QLineEdit,
     QListView,
     QMenu,
@@ -42,7 +43,7 @@ from nep_studio.ui.node_style import as_json, names, one_line, pretty, rate_word
 from nep_studio.ui.running.runner import Heard, Runner, Tap
 from nep_studio.ui.theme.icons import icon
 from nep_studio.ui.theme.look import Look
-from nep_studio.ui.widgets.forms import ElidedLabel, hint
+from nep_studio.ui.widgets.forms import ElidedLabel
 from nep_studio.ui.widgets.layouts import in_column
 from nep_studio.ui.widgets.questions import ask_for_path
 from nep_studio.ui.words import count_words, tr
@@ -273,7 +274,8 @@ class TopicPane(QWidget):
         self.folder = Path.home()
         self.heard = HeardList(self)
         self.bar = TopicBar(look)
-        self.about = hint("")
+        self.about = QLabel(wordWrap=True)
+        self.about.setProperty("role", "hint")
         self.list = QListView()
         self.list.setModel(self.heard)
         self.list.setUniformItemSizes(True)

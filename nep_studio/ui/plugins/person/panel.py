@@ -31,7 +31,6 @@ from nep_studio.ui.messages import announce
 from nep_studio.ui.running.runner import Heard, Tap
 from nep_studio.ui.theme.icons import icon
 from nep_studio.ui.theme.look import Look
-from nep_studio.ui.widgets.forms import hint
 from nep_studio.ui.widgets.layouts import Columns, FlowLayout, in_column, in_row
 from nep_studio.ui.words import language_code, tr
 
@@ -64,7 +63,8 @@ class WaitingBoard(QWidget):
         self.buttons: list[OccurrenceButton] = []
         self._rows = QWidget()
         self._flow = FlowLayout(self._rows, self.fontMetrics().height() // 3)
-        self.words = hint("")
+        self.words = QLabel(wordWrap=True)
+        self.words.setProperty("role", "hint")
         in_column(self._rows, self.words, of=self, margins=0)
 
     def show_occurrences(self, occurrences: list[Occurrence], here: dict[str, str]) -> None:

@@ -35,7 +35,7 @@ from nep_studio.study.records import (
 )
 from nep_studio.ui.documents import Document
 from nep_studio.ui.messages import Message, Told
-from nep_studio.ui.widgets.forms import hint, room_around
+from nep_studio.ui.widgets.forms import room_around
 from nep_studio.ui.widgets.layouts import in_column, in_row, scrolled
 from nep_studio.ui.words import tr
 
@@ -66,7 +66,8 @@ class ParticipantFields(QWidget):
         self._form = QFormLayout(self)
         self._form.setContentsMargins(0, 0, 0, 0)
         self._form.addRow(tr("Participant"), self.code)
-        label = hint(tr("A code, not a name. Its number decides the order."))
+        label = QLabel(tr("A code, not a name. Its number decides the order."), wordWrap=True)
+        label.setProperty("role", "hint")
         self._form.addRow("", label)
         if may_change_conditions:
             self._form.addRow(tr("Conditions"), self.conditions)
