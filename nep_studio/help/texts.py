@@ -38,13 +38,17 @@ from nep_studio.blocks.slots import FieldValue
 
 # Small programs written down line by line, as the examples of the help are.
 #
-#     event.started     robot.say text="Hello"     control.if condition=(sensing.human_state_is
-# state=touched_head)       robot.say text="That tickles"      otherwise_do.1:       robot.play
-# animation=nod
+#     event.started
+#     robot.say text="Hello"
+#     control.if condition=(sensing.human_state_is state=touched_head)
+#       robot.say text="That tickles"
+#      otherwise_do.1:
+#       robot.play animation=nod
+#
 # A line is a block with the values of its slots; what is indented more is inside it, in its first
-# mouth or in the one that a line ``mouth:`` names. A value in brackets is a block. Quoted texts
-# are for people and can be translated, bare words cannot. ``own p1 value "double" a1:x:number``
-# defines an own block, which the lines below use as ``my.define.p1``, ``my.call.p1``,
+# mouth or in the one that a line ``mouth:`` names. A value in brackets is a block. Quoted texts are
+# for people and can be translated, bare words cannot. ``own p1 value "double" a1:x:number`` defines
+# an own block, which the lines below use as ``my.define.p1``, ``my.call.p1``,
 # ``my.parameter.p1.a1``.
 
 _TOKEN = re.compile(r'\s*("(?:[^"\\]|\\.)*"|[()=]|[^\s()="]+)')

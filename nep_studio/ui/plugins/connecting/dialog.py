@@ -369,9 +369,8 @@ class ConnectDialog(QDialog):
     def _connect(self) -> None:
         self.found.chosen.connect(self._on_chosen)
         self.address.textEdited.connect(self._on_changed)
-        self.user.textEdited.connect(self._on_changed)
-        self.password.textEdited.connect(self._on_changed)
-        self.asks_password.toggled.connect(self._on_changed)
+        for signal in (self.user.textEdited, self.password.textEdited, self.asks_password.toggled):
+            signal.connect(self._on_changed)
         self.test_button.clicked.connect(self._on_test)
         self.test.checked.connect(self._on_checked)
         self.test.ended.connect(self._on_ended)

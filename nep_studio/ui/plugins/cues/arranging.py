@@ -1,4 +1,4 @@
-"""The dialog in which an operator arranges the cues: order, words, colours, keys, own ones."""
+"""The buttons of the cues, and the dialog in which an operator arranges them."""
 
 from __future__ import annotations
 
@@ -40,8 +40,6 @@ from nep_studio.ui.theme.icons import icon, paint_icon
 from nep_studio.ui.theme.look import Look
 from nep_studio.ui.widgets.layouts import in_column, in_row
 from nep_studio.ui.words import tr
-
-# The buttons of the cues: as large as a hand finds without looking, as many in a row as fit.
 
 # How cues look: their words, their icons, their colours.
 

@@ -103,9 +103,8 @@ class CueSender(QObject):
         super().__init__(parent)
         self._runner, self._now = runner, now
         self.log: deque[SentCue] = deque(maxlen=MOST_SENT)
-        runner.state_changed.connect(self.changed)
-        runner.connected.connect(self.changed)
-        runner.disconnected.connect(self.changed)
+        for signal in (runner.state_changed, runner.connected, runner.disconnected):
+            signal.connect(self.changed)
 
     @property
     def why_not(self) -> str:

@@ -1,4 +1,4 @@
-"""Write pictures of programs: PNG, SVG and PDF files, and the clipboard."""
+"""Pictures of programs: PNG, SVG and PDF files, the clipboard, and the dialog that asks which."""
 
 from __future__ import annotations
 

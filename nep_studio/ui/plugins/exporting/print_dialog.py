@@ -1,4 +1,4 @@
-"""The dialog that prints a program, with a preview that is always what will come out."""
+"""Prints programs: sheets of blocks and Python, and the dialog with a preview of them."""
 
 from __future__ import annotations
 
@@ -33,8 +33,6 @@ from nep_studio.ui.words import is_right_to_left, tr
 from nep_studio.ui.workbench.pages_bar import page_title
 
 from .picture import Part, What, scene_of
-
-# What is printed, laid out on sheets: pages of blocks, and the Python if it is asked for.
 
 # Where a long drawing is cut into pages: between its pieces, never through one that fits.
 

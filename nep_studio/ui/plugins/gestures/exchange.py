@@ -1,4 +1,4 @@
-"""Takes as CSV files: the same that "nep-studio train" reads, one file for each recording."""
+"""Takes as files: CSV, the same that "nep-studio train" reads, and MCAP."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What one watch or phone measured in the last half minute, on a clock that always rises."""
+"""What one watch or phone measured in the last half minute, and samples as a project keeps them."""
 
 from __future__ import annotations
 

@@ -165,9 +165,8 @@ class HintLine(QWidget):
         row.addWidget(self.button, 0, Qt.AlignmentFlag.AlignVCenter)
         self.button.clicked.connect(lambda: self.asked.emit(*next_step(controller)))
         self._looking = QTimer(self, interval=LOOK_MS)
-        self._looking.timeout.connect(self.refresh)
-        controller.changed.connect(self.refresh)
-        controller.sources_changed.connect(self.refresh)
+        for signal in (self._looking.timeout, controller.changed, controller.sources_changed):
+            signal.connect(self.refresh)
         controller.look.theme_changed.connect(self._dress)
         self._dress()
         follow_words(self, self.refresh)

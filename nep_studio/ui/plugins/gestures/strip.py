@@ -1,4 +1,4 @@
-"""The graph at the top: what is measured now, or one take large, with ends that can be dragged."""
+"""The graph at the top: what is measured now, or the take that is looked at, large."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What a person wants a robot to do at this moment, and what keys mean."""
+"""What a person wants a robot to do at this moment, said by keys, a watch or a gamepad."""
 
 from __future__ import annotations
 

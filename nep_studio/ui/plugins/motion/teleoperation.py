@@ -1,4 +1,4 @@
-"""The window from which a robot is driven by hand."""
+"""The window from which a robot is driven by hand, and the keys that drive it."""
 
 from __future__ import annotations
 

@@ -283,9 +283,8 @@ class MotionWindow(QDialog):
         box.addWidget(self._toolbar())
         box.addWidget(self.header)
         box.addWidget(body, 1)
-        box.addWidget(self.notes)
-        box.addWidget(self.transport)
-        box.addWidget(self.time_pages)
+        for widget in (self.notes, self.transport, self.time_pages):
+            box.addWidget(widget)
         fit_icons(self)
         room = room_around(self).size()
         self.resize(min(line * 62, room.width()), min(line * 50, room.height()))

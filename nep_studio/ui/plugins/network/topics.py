@@ -1,4 +1,4 @@
-"""The messages of one topic: the last ones, one of them in full, and one to send by hand."""
+"""The messages of one topic: the last ones, one in full, as files, and one to send by hand."""
 
 from __future__ import annotations
 

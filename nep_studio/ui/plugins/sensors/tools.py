@@ -1,4 +1,4 @@
-"""The actions of the panel, on a tool bar that folds away what has no room."""
+"""What is done with the plots: by mouse and keys, and by a tool bar that folds what has no room."""
 
 from __future__ import annotations
 

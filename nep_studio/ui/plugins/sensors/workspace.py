@@ -1,4 +1,4 @@
-"""The panel once it is open: tools, plots, the list of curves, and what is recorded or played."""
+"""The panel once it is open: tools, plots, the list of curves, and the files of both ways."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The questionnaire: ten items, who answers them, and a note on those that are open."""
+"""The questionnaire, item by item, and the results of a study."""
 
 from __future__ import annotations
 

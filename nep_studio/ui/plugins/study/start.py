@@ -138,12 +138,6 @@ class StartDialog(QDialog):
         self.participant_fields = ParticipantFields(folder, may_change_conditions=True)
         self.start_button = QPushButton(tr("Start the study"))
         self.cancel_button = QPushButton(tr("Cancel"))
-        self._lay_out()
-        self.participant_fields.changed.connect(self._show_whether_it_may_start)
-        self.start_button.clicked.connect(self._on_start_clicked)
-        self.cancel_button.clicked.connect(self.reject)
-
-    def _lay_out(self) -> None:
         line = self.fontMetrics().height()
         card = QFrame()
         card.setProperty("kind", "info")
@@ -163,6 +157,9 @@ class StartDialog(QDialog):
         in_column((scrolled(page), 1), foot, of=self, margins=line, spacing=line)
         room = room_around(self).size()
         self.resize(min(line * 34, room.width()), min(line * 26, room.height()))
+        self.participant_fields.changed.connect(self._show_whether_it_may_start)
+        self.start_button.clicked.connect(self._on_start_clicked)
+        self.cancel_button.clicked.connect(self.reject)
 
     def _show_whether_it_may_start(self) -> None:
         self.start_button.setEnabled(bool(self.participant_fields.participant))

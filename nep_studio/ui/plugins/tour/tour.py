@@ -1,4 +1,4 @@
-"""The tour as it goes: one step after the other, back again, and out at any time."""
+"""The tour: its steps as data, and how it goes from one to the next, back again, and out."""
 
 from __future__ import annotations
 
@@ -252,9 +252,8 @@ class Bubble(QFrame):
         self._box = QVBoxLayout(self)
         self._box.setSpacing(line // 2)
         self._box.setContentsMargins(line, line * 3 // 4, line, line * 3 // 4)
-        self._box.addWidget(self._title)
-        self._box.addWidget(self._text)
-        self._box.addWidget(self._dots)
+        for widget in (self._title, self._text, self._dots):
+            self._box.addWidget(widget)
         self._box.addLayout(row)
         self.next_button.clicked.connect(self.forth)
         self.back_button.clicked.connect(self.back)

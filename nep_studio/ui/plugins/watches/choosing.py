@@ -1,4 +1,4 @@
-"""What do you have? The ways as cards, in the order of ease."""
+"""What do you have? The ways as cards, in the order of ease, and what each of them asks."""
 
 from __future__ import annotations
 
@@ -166,9 +166,8 @@ class MoreSettings(QWidget):
         self.fields = QWidget()
         self._lay_out()
         self.toggle.toggled.connect(self.fields.setVisible)
-        self.port.valueChanged.connect(self.changed)
-        self.columns.written.connect(self.changed)
-        self.units.activated.connect(self.changed)
+        for signal in (self.port.valueChanged, self.columns.written, self.units.activated):
+            signal.connect(self.changed)
 
     def _lay_out(self) -> None:
         form = QFormLayout(self.fields)

@@ -338,9 +338,8 @@ class WayPage(QWidget):
 
     def redraw(self) -> None:
         """Draw icons and pictures in another theme."""
-        self.live.redraw()
-        self.recording.redraw()
-        self.warning.redraw()
+        for one in (self.live, self.recording, self.warning):
+            one.redraw()
         for line in self.steps.copy_lines:
             if line is not None:
                 line.redraw()
@@ -371,9 +370,8 @@ class WayPage(QWidget):
         left.addWidget(self.steps)
         where = QLabel(tr("Where is it?"))
         where.setProperty("role", "heading")
-        left.addWidget(where)
-        left.addWidget(self.worn)
-        left.addWidget(self.more)
+        for one in (where, self.worn, self.more):
+            left.addWidget(one)
         left.addStretch(1)
         right.addWidget(self.qr_code)
         right.addWidget(self.qr_hint)

@@ -1,4 +1,4 @@
-"""What a training found out, as data that its views can trust."""
+"""What a training found out, as data that its views can trust, and the recognition points."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What came of a training: in words first, then what was taken for what, then the points."""
+"""What trains, and what came of it: in words, what was taken for what, and the points."""
 
 from __future__ import annotations
 
@@ -211,9 +211,8 @@ class ResultsView(QWidget):
         self.advice.asked.connect(self._on_asked)
         self.advice.takes_asked.connect(self.takes_asked)
         self.table.cell_chosen.connect(self._on_cell_chosen)
-        self.training.changed.connect(self.refresh)
-        self.controller.changed.connect(self.refresh)
-        self.tuning.method_changed.connect(self.refresh)
+        for signal in (self.training.changed, self.controller.changed, self.tuning.method_changed):
+            signal.connect(self.refresh)
         self.tuning.point_changed.connect(self._show_advice)
 
     def refresh(self) -> None:
