@@ -19,6 +19,7 @@ from PySide6.QtWidgets import (
 )
 
 from faults import Words
+from nep_studio.ui.widgets.layouts import in_column, in_row
 
 from .labels import labelled
 from .messages import KIND_ICONS, Answer, Message
@@ -34,11 +35,8 @@ class MessageText(QWidget):
 
     def __init__(self, message: Message, parent: QWidget | None = None) -> None:
         super().__init__(parent)
-        box = QVBoxLayout(self)
-        box.setContentsMargins(0, 0, 0, 0)
-        box.setSpacing(self.fontMetrics().height() // 3)
         self.title = _label(message.title, "heading")
-        box.addWidget(self.title)
+        box = in_column(self.title, of=self, margins=0, spacing=self.fontMetrics().height() // 3)
         if message.sentence:
             box.addWidget(_label(message.sentence))
         for step in message.checklist:
@@ -52,12 +50,8 @@ class ChecklistStep(QWidget):
 
     def __init__(self, words: Words, parent: QWidget | None = None) -> None:
         super().__init__(parent)
-        row = QHBoxLayout(self)
-        row.setContentsMargins(0, 0, 0, 0)
-        mark = labelled(QLabel("\N{WHITE SQUARE}"), name="Try")
-        mark.setAlignment(Qt.AlignmentFlag.AlignTop)
-        row.addWidget(mark)
-        row.addWidget(_label(words), 1)
+        mark = labelled(QLabel("\N{WHITE SQUARE}", alignment=Qt.AlignmentFlag.AlignTop), name="Try")
+        in_row(mark, (_label(words), 1), of=self, margins=0)
 
 
 class Details(QWidget):
@@ -65,8 +59,7 @@ class Details(QWidget):
 
     def __init__(self, details: str, parent: QWidget | None = None) -> None:
         super().__init__(parent)
-        self.text = QPlainTextEdit(details)
-        self.text.setReadOnly(True)
+        self.text = QPlainTextEdit(details, readOnly=True)
         self.text.setVisible(False)
         self.text.setFixedHeight(self.fontMetrics().height() * 7)
         self.show_button = _quiet_button("Show details")
@@ -74,14 +67,7 @@ class Details(QWidget):
         self.copy_button.setVisible(False)
         self.show_button.clicked.connect(self._on_show_clicked)
         self.copy_button.clicked.connect(self._on_copy_clicked)
-        buttons = QHBoxLayout()
-        buttons.addWidget(self.show_button)
-        buttons.addWidget(self.copy_button)
-        buttons.addStretch(1)
-        box = QVBoxLayout(self)
-        box.setContentsMargins(0, 0, 0, 0)
-        box.addLayout(buttons)
-        box.addWidget(self.text)
+        in_column(in_row(self.show_button, self.copy_button, 1), self.text, of=self, margins=0)
 
     def _on_show_clicked(self) -> None:
         is_shown = self.text.isHidden()
@@ -114,22 +100,16 @@ class MessageCard(QFrame):
 
     def _fill(self, theme: Theme) -> None:
         line = self.fontMetrics().height()
-        row = QHBoxLayout(self)
-        row.setSpacing(line // 2)
         sign, size = QLabel(), round(line * 1.3)
         kind = self.message.kind
         ratio = self.devicePixelRatioF()
         sign.setPixmap(icon_pixmap(KIND_ICONS[kind], theme.colour(kind), size, ratio))
-        row.addWidget(sign, 0, Qt.AlignmentFlag.AlignTop)
-        words = QVBoxLayout()
-        words.addWidget(MessageText(self.message))
+        row = in_row((sign, 0, Qt.AlignmentFlag.AlignTop), of=self, spacing=line // 2)
+        words = in_column(MessageText(self.message))
         if self.message.is_busy:
             words.addWidget(_endless_progress())
         if self.buttons:
-            answers = QHBoxLayout()
-            for button in self.buttons:
-                answers.addWidget(button)
-            answers.addStretch(1)
+            answers = in_row(*self.buttons, 1)
             words.addLayout(answers)
         row.addLayout(words, 1)
         row.addWidget(self.close_button, 0, Qt.AlignmentFlag.AlignTop)
@@ -151,16 +131,13 @@ class MessageCard(QFrame):
 
 
 def _endless_progress() -> QProgressBar:
-    bar = QProgressBar()
+    bar = QProgressBar(textVisible=False)
     bar.setRange(0, 0)
-    bar.setTextVisible(False)
     return bar
 
 
 def _label(words: Words, role: str = "") -> QLabel:
-    label = labelled(QLabel(), text=words)
-    label.setWordWrap(True)
-    label.setTextFormat(Qt.TextFormat.PlainText)
+    label = labelled(QLabel(wordWrap=True, textFormat=Qt.TextFormat.PlainText), text=words)
     label.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
     if role:
         label.setProperty("role", role)
@@ -308,14 +285,8 @@ class QuestionDialog(QDialog):
         self.buttons = [self._button(answer) for answer in message.answers]
         self._answered: Answer | None = None
         line = self.fontMetrics().height()
-        box = QVBoxLayout(self)
-        box.setContentsMargins(line, line, line, line)
-        box.setSpacing(line)
-        box.addLayout(self._words(line))
-        row = QHBoxLayout()
-        row.addStretch(1)
-        for button in reversed(self.buttons):
-            row.addWidget(button)
+        box = in_column(self._words(line), of=self, margins=line, spacing=line)
+        row = in_row(1, *reversed(self.buttons))
         box.addLayout(row)
         self.setMinimumWidth(line * 24)
         for button in self.buttons:
@@ -324,13 +295,12 @@ class QuestionDialog(QDialog):
         self.finished.connect(self._on_finished)
 
     def _words(self, line: int) -> QHBoxLayout:
-        row = QHBoxLayout()
-        row.setSpacing(line)
         sign, kind = QLabel(), self.message.kind
         colour = self.palette().color(self.foregroundRole())
         sign.setPixmap(icon_pixmap(KIND_ICONS[kind], colour, line * 2, self.devicePixelRatioF()))
-        row.addWidget(sign, 0, Qt.AlignmentFlag.AlignTop)
-        row.addWidget(MessageText(self.message), 1)
+        row = in_row(
+            (sign, 0, Qt.AlignmentFlag.AlignTop), (MessageText(self.message), 1), spacing=line
+        )
         return row
 
     def _button(self, answer: Answer) -> QPushButton:

@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING
 from PySide6.QtCore import QObject, QSize, Qt
 from PySide6.QtGui import QActionGroup
 from PySide6.QtWidgets import (
-    QHBoxLayout,
     QLabel,
     QMenu,
     QSizePolicy,
@@ -21,6 +20,7 @@ from nep_studio.ui.labels import follow_words, labelled
 from nep_studio.ui.theme.icons import icon
 from nep_studio.ui.theme.look import Look
 from nep_studio.ui.widgets.forms import ElidedLabel
+from nep_studio.ui.widgets.layouts import in_row
 from nep_studio.ui.words import tr
 
 if TYPE_CHECKING:
@@ -164,10 +164,7 @@ class RunState(QWidget):
         self._sign, self.words = QLabel(), ElidedLabel()
         self._is_tight = False
         line = self.fontMetrics().height()
-        row = QHBoxLayout(self)
-        row.setContentsMargins(line // 2, 0, line // 2, 0)
-        row.addWidget(self._sign)
-        row.addWidget(self.words, 1)
+        in_row(self._sign, (self.words, 1), of=self, margins=(line // 2, 0, line // 2, 0))
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Preferred)
         look.theme_changed.connect(self.refresh)
         follow_words(self, self.refresh)

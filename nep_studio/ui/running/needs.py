@@ -29,6 +29,7 @@ from nep_studio.run.node_board import NodeStatus
 from nep_studio.run.plan import PlannedNode
 from nep_studio.ui.background import Background
 from nep_studio.ui.theme.icons import icon, icon_room
+from nep_studio.ui.widgets.layouts import in_column, in_row
 from nep_studio.ui.words import tr
 
 if TYPE_CHECKING:
@@ -185,11 +186,9 @@ class NeedsDialog(QDialog):
         self._background = Background(self)
         self.needs: list[Need] = []
         line = self.fontMetrics().height()
-        self._headline = QLabel()
+        self._headline = QLabel(wordWrap=True)
         self._headline.setProperty("role", "title")
-        self._headline.setWordWrap(True)
-        self._scroll = QScrollArea()
-        self._scroll.setWidgetResizable(True)
+        self._scroll = QScrollArea(widgetResizable=True)
         self._scroll.setFrameShape(QFrame.Shape.NoFrame)
         self._scroll.setAccessibleName(self.windowTitle())
         buttons = QDialogButtonBox()
@@ -200,12 +199,9 @@ class NeedsDialog(QDialog):
         close = buttons.addButton(tr("Close"), QDialogButtonBox.ButtonRole.RejectRole)
         close.clicked.connect(self.reject)
         self.run_button.clicked.connect(self._on_run)
-        box = QVBoxLayout(self)
-        box.setContentsMargins(line, line, line, line)
-        box.setSpacing(line // 2)
-        box.addWidget(self._headline)
-        box.addWidget(self._scroll, 1)
-        box.addWidget(buttons)
+        in_column(
+            self._headline, (self._scroll, 1), buttons, of=self, margins=line, spacing=line // 2
+        )
         self.resize(line * 34, line * 26)
         host.workbench.checks.found.connect(self.refresh)
         control.runner.nodes_changed.connect(self.refresh)
@@ -280,10 +276,8 @@ class NeedsDialog(QDialog):
         side = round(line * 1.2)
         picture = icon(sign_name, self._host.services.look.theme.colour(colour))
         sign.setPixmap(picture.pixmap(QSize(side, side), self.devicePixelRatioF()))
-        title, sentence = QLabel(need.title), QLabel(need.sentence)
-        title.setWordWrap(True)
+        title, sentence = QLabel(need.title, wordWrap=True), QLabel(need.sentence, wordWrap=True)
         title.setProperty("role", "heading")
-        sentence.setWordWrap(True)
         sentence.setProperty("role", "hint")
         words.setSpacing(line // 6)
         words.addWidget(title)
@@ -295,9 +289,7 @@ class NeedsDialog(QDialog):
         buttons.addStretch(1)
         if need.fixes:
             words.addLayout(buttons)
-        box = QHBoxLayout(row)
-        box.setContentsMargins(line // 2, line // 2, line // 2, line // 2)
-        box.addWidget(sign, 0, Qt.AlignmentFlag.AlignTop)
+        box = in_row((sign, 0, Qt.AlignmentFlag.AlignTop), of=row, margins=line // 2)
         box.addSpacing(line // 3)
         box.addLayout(words, 1)
         row.setAccessibleName(f"{need.title} {need.sentence}")

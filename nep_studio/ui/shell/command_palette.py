@@ -36,7 +36,6 @@ from PySide6.QtWidgets import (
     QStyle,
     QStyledItemDelegate,
     QStyleOptionViewItem,
-    QVBoxLayout,
     QWidget,
 )
 
@@ -44,6 +43,7 @@ from nep_studio.ui.labels import labelled
 from nep_studio.ui.messages import announce
 from nep_studio.ui.theme.icons import icon
 from nep_studio.ui.theme.look import Look
+from nep_studio.ui.widgets.layouts import in_column
 from nep_studio.ui.words import count_words, tr
 
 from .commands import NOT_IN_ITSELF, Command, Ranked, Source, ranked, sources_of
@@ -228,12 +228,9 @@ class CommandPalette(QFrame):
         self.list.setItemDelegate(RowPainter(window.look, self.list))
         self.model = CommandModel(self)
         self.list.setModel(self.model)
-        self.hint = QLabel()
+        self.hint = QLabel(wordWrap=True)
         self.hint.setProperty("role", "hint")
-        self.hint.setWordWrap(True)
-        column = QVBoxLayout(self)
-        for widget in (self.line, self.list, self.hint):
-            column.addWidget(widget)
+        in_column(self.line, self.list, self.hint, of=self)
         self.line.textChanged.connect(self._on_typed)
         self.line.installEventFilter(self)
         self.list.clicked.connect(lambda index: self.run(index.row()))

@@ -39,7 +39,7 @@ from nep_studio.ui.messages import announce
 from nep_studio.ui.services import Studio
 from nep_studio.ui.theme.icons import icon, icon_room, paint_icon
 from nep_studio.ui.theme.look import Look
-from nep_studio.ui.widgets.layouts import Flow, ReadingLabel
+from nep_studio.ui.widgets.layouts import Flow, ReadingLabel, in_column, in_row
 from nep_studio.ui.words import count_words, is_right_to_left, tr
 
 # How the gallery says what an example needs, how hard and how long it is, and what it is about.
@@ -222,8 +222,7 @@ class Card(QFrame):
 
     def _fill(self, example: Example) -> None:
         line = self.fontMetrics().height()
-        self.picture = QLabel()
-        self.picture.setAlignment(Qt.AlignmentFlag.AlignLeading | Qt.AlignmentFlag.AlignTop)
+        self.picture = QLabel(alignment=Qt.AlignmentFlag.AlignLeading | Qt.AlignmentFlag.AlignTop)
         self.picture.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Fixed)
         self.picture.setFixedHeight(round(line * PICTURE_LINES))
         self.signs = Signs(example, self._look)
@@ -235,11 +234,7 @@ class Card(QFrame):
         inside.addWidget(self.signs)
         inside.addStretch(1)
         inside.addLayout(self._buttons(example.title, line))
-        box = QVBoxLayout(self)
-        box.setContentsMargins(2, 2, 2, line // 2)
-        box.setSpacing(0)
-        box.addWidget(self.picture)
-        box.addLayout(inside, 1)
+        in_column(self.picture, (inside, 1), of=self, margins=(2, 2, 2, line // 2), spacing=0)
         self.set_width(round(line * CARD_LINES) + 4)
 
     def _buttons(self, title: str, line: int) -> Flow:
@@ -399,11 +394,9 @@ class Gallery(QWidget):
 
     def _fill(self) -> None:
         line = self.fontMetrics().height()
-        box = QVBoxLayout(self)
-        box.setContentsMargins(0, 0, 0, 0)
-        box.setSpacing(line // 2)
-        box.addLayout(self._search_row(line))
-        box.addWidget(self._tag_row(line))
+        box = in_column(
+            self._search_row(line), self._tag_row(line), of=self, margins=0, spacing=line // 2
+        )
         self.nothing = labelled(QLabel(), text="No example is about this. Try fewer words.")
         self.nothing.setProperty("role", "hint")
         self.nothing.setWordWrap(True)
@@ -432,7 +425,6 @@ class Gallery(QWidget):
         return self._shown if self.cards else []
 
     def _search_row(self, line: int) -> QHBoxLayout:
-        row = QHBoxLayout()
         self.search = labelled(SearchLine(), placeholder="Find an example", name="Find an example")
         self.search.setClearButtonEnabled(True)
         self.search.addAction(
@@ -441,8 +433,7 @@ class Gallery(QWidget):
         self.search.setMaximumWidth(line * 18)
         self.search.textChanged.connect(self._on_filter_changed)
         self.search.left_downwards.connect(self._on_left_search)
-        row.addWidget(self.search)
-        row.addStretch(1)
+        row = in_row(self.search, 1)
         return row
 
     def _tag_row(self, line: int) -> QWidget:

@@ -27,6 +27,7 @@ from nep_studio.blocks.operations.finding import Difference, compare
 from nep_studio.blocks.program import Project
 from nep_studio.ui.documents import Document
 from nep_studio.ui.theme.icons import application_icon
+from nep_studio.ui.widgets.layouts import in_column
 from nep_studio.ui.words import tr
 
 if TYPE_CHECKING:
@@ -54,9 +55,7 @@ class ShortcutsDialog(QDialog):
         self.table.resizeColumnsToContents()
         self.table.horizontalHeader().setStretchLastSection(True)
         line = self.fontMetrics().height()
-        box = QVBoxLayout(self)
-        box.addWidget(self.table)
-        box.addWidget(_closer(self), 0, Qt.AlignmentFlag.AlignTrailing)
+        in_column(self.table, (_closer(self), 0, Qt.AlignmentFlag.AlignTrailing), of=self)
         self.resize(line * 28, line * 30)
 
 
@@ -73,8 +72,7 @@ class AboutDialog(QDialog):
         sign.setPixmap(application_icon().pixmap(side, self.devicePixelRatioF()))
         title = QLabel(f"NEP Studio {__version__}")
         title.setProperty("role", "title")
-        words = QLabel("\n\n".join(self.words()))
-        words.setWordWrap(True)
+        words = QLabel("\n\n".join(self.words()), wordWrap=True)
         words.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
         box = QVBoxLayout(self)
         box.setContentsMargins(line, line, line, line)
@@ -96,9 +94,8 @@ class AboutDialog(QDialog):
 
 
 def _closer(dialog: QDialog) -> QPushButton:
-    button = QPushButton(tr("Close"))
+    button = QPushButton(tr("Close"), default=True)
     button.clicked.connect(dialog.accept)
-    button.setDefault(True)
     return button
 
 
@@ -134,12 +131,8 @@ class ComparingDialog(QDialog):
 
     def _lay_out(self) -> None:
         line = self.fontMetrics().height()
-        box = QVBoxLayout(self)
-        box.setContentsMargins(line, line, line, line)
-        box.setSpacing(line // 2)
-        self.words = QLabel(self._told())
-        self.words.setWordWrap(True)
-        box.addWidget(self.words)
+        self.words = QLabel(self._told(), wordWrap=True)
+        box = in_column(self.words, of=self, margins=line, spacing=line // 2)
         self.list.setVisible(bool(self.differences))
         box.addWidget(self.list, 1)
         close = QPushButton(tr("Close"))

@@ -46,6 +46,7 @@ from nep_studio.ui.services import Studio
 from nep_studio.ui.theme.colours import load_theme, themes
 from nep_studio.ui.widgets.choices import Choices
 from nep_studio.ui.widgets.forms import ElidedLabel, hint, label_of
+from nep_studio.ui.widgets.layouts import in_column, in_row
 from nep_studio.ui.words import available_languages, tr
 
 if TYPE_CHECKING:
@@ -97,9 +98,7 @@ class LookPage(QWidget):
         self._show_percent(slider.value())
 
     def _size_row(self) -> QHBoxLayout:
-        row = QHBoxLayout()
-        row.addWidget(self.text_size, 1)
-        row.addWidget(self.text_percent)
+        row = in_row((self.text_size, 1), self.text_percent)
         self.text_percent.setMinimumWidth(self.fontMetrics().horizontalAdvance("0000 %"))
         return row
 
@@ -192,13 +191,9 @@ class ShowPage(QWidget):
         self.restarts = QSpinBox()
         self.restarts.setRange(0, MOST_RESTARTS)
         self.restarts.setValue(chosen.restarts)
-        self.pin = QLineEdit()
-        self.pin.setEchoMode(QLineEdit.EchoMode.Password)
-        self.pin_button = QPushButton()
-        self.pin_button.setAutoDefault(False)
-        pin = QHBoxLayout()
-        pin.addWidget(self.pin, 1)
-        pin.addWidget(self.pin_button)
+        self.pin = QLineEdit(echoMode=QLineEdit.EchoMode.Password)
+        self.pin_button = QPushButton(autoDefault=False)
+        pin = in_row((self.pin, 1), self.pin_button)
         form = _form(self)
         for box in (self.at_once, self.again, self.cues):
             form.addRow(box)
@@ -347,8 +342,7 @@ class PrivacyPage(QWidget):
         )
         self.address = QLineEdit(self._choice.address)
         self.address.setPlaceholderText("https://")
-        self.ask_button = labelled(QPushButton(), text="Ask now")
-        self.ask_button.setAutoDefault(False)
+        self.ask_button = labelled(QPushButton(autoDefault=False), text="Ask now")
         self.state = QLabel(wordWrap=True)
         self.hint = hint(
             "NEP Studio tells its own version there, and nothing else. It never changes itself."
@@ -385,10 +379,7 @@ class PrivacyPage(QWidget):
         box.addSpacing(line // 2)
         box.addWidget(self.check)
         box.addWidget(self.unknown)
-        row = QHBoxLayout()
-        row.addWidget(label_of("Address", self.address))
-        row.addWidget(self.address, 1)
-        row.addWidget(self.ask_button)
+        row = in_row(label_of("Address", self.address), (self.address, 1), self.ask_button)
         box.addLayout(row)
         box.addWidget(self.hint)
         box.addWidget(self.state)
@@ -501,19 +492,11 @@ class SettingsDialog(QDialog):
 
     def _lay_out(self) -> None:
         line = self.fontMetrics().height()
-        buttons = QHBoxLayout()
-        buttons.addWidget(self.reset_button)
-        buttons.addStretch(1)
-        buttons.addWidget(self.cancel_button)
-        buttons.addWidget(self.close_button)
+        buttons = in_row(self.reset_button, 1, self.cancel_button, self.close_button)
         self.close_button.setDefault(True)
         self.cancel_button.setAutoDefault(False)
         self.reset_button.setAutoDefault(False)
-        box = QVBoxLayout(self)
-        box.setContentsMargins(line, line, line, line)
-        box.setSpacing(line)
-        box.addWidget(self.pages, 1)
-        box.addLayout(buttons)
+        in_column((self.pages, 1), buttons, of=self, margins=line, spacing=line)
         self.setMinimumWidth(line * 34)
 
     def _fill(self) -> None:

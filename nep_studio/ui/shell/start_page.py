@@ -21,7 +21,7 @@ from nep_studio.ui.document_files import Files
 from nep_studio.ui.labels import labelled
 from nep_studio.ui.services import Studio
 from nep_studio.ui.theme.icons import application_icon, icon, icon_pixmap
-from nep_studio.ui.widgets.layouts import Flow, ReadingLabel
+from nep_studio.ui.widgets.layouts import Flow, ReadingLabel, in_column
 
 from .gallery import Card, Gallery
 
@@ -46,13 +46,11 @@ class TourOffer(QFrame):
             icon_pixmap("map", theme.colour("text"), line * 1.4, self.devicePixelRatioF())
         )
         box.addWidget(sign, 0, Qt.AlignmentFlag.AlignTop)
-        words = QVBoxLayout()
         self.words = labelled(
             ReadingLabel(), text="New here? Five short steps show how a robot gets its behaviour."
         )
         self.words.setWordWrap(True)
-        words.addWidget(self.words)
-        words.addLayout(self._answers(line))
+        words = in_column(self.words, self._answers(line))
         box.addLayout(words, 1)
         self.setVisible(not studio.settings.tour_done)
 
@@ -149,20 +147,15 @@ class StartPage(QScrollArea):
         side = line * 4
         sign.setPixmap(application_icon().pixmap(QSize(side, side), self.devicePixelRatioF()))
         row.addWidget(sign)
-        words = QVBoxLayout()
-        words.setSpacing(line // 4)
         title = ReadingLabel("NEP Studio")
         title.setStyleSheet(f"font-size: {round(line * 1.7)}px; font-weight: 600;")
-        words.addStretch(1)
-        words.addWidget(title)
         about = labelled(
             ReadingLabel(),
             text="Give a social robot its behaviour with blocks, without programming.",
         )
         about.setProperty("role", "hint")
         about.setWordWrap(True)
-        words.addWidget(about)
-        words.addStretch(1)
+        words = in_column(1, title, about, 1, spacing=line // 4)
         row.addSpacing(line)
         row.addLayout(words, 1)
         return row

@@ -12,14 +12,12 @@ from PySide6.QtGui import QGuiApplication
 from PySide6.QtWidgets import (
     QDialog,
     QFileDialog,
-    QHBoxLayout,
     QLabel,
     QListWidget,
     QListWidgetItem,
     QMessageBox,
     QPlainTextEdit,
     QPushButton,
-    QVBoxLayout,
     QWidget,
 )
 
@@ -38,6 +36,7 @@ from nep_studio.ui.services import Studio
 from nep_studio.ui.theme.icons import icon
 from nep_studio.ui.theme.look import code_font, load_fonts
 from nep_studio.ui.widgets.forms import room_around
+from nep_studio.ui.widgets.layouts import in_column, in_row
 from nep_studio.ui.words import count_words, is_right_to_left, tr
 from nep_studio.ui.workbench.workbench import block_font
 
@@ -60,10 +59,8 @@ class SupportDialog(QDialog):
         self.report: Report | None = None
         self.setWindowTitle(tr("Report for support"))
         self.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose, parent is not None)
-        self.state = QLabel()
-        self.state.setWordWrap(True)
-        self.preview = QPlainTextEdit()
-        self.preview.setReadOnly(True)
+        self.state = QLabel(wordWrap=True)
+        self.preview = QPlainTextEdit(readOnly=True)
         self.preview.setAccessibleName(tr("All that is in the report"))
         self.preview.setLineWrapMode(QPlainTextEdit.LineWrapMode.NoWrap)
         self.preview.setFont(code_font(self.font().pointSizeF()))
@@ -112,18 +109,12 @@ class SupportDialog(QDialog):
             )
         )
         about.setWordWrap(True)
-        buttons = QHBoxLayout()
-        buttons.addWidget(self.state, 1)
+        buttons = in_row((self.state, 1))
         for button in (self.copy_button, self.save_button, self.close_button):
             button.setAutoDefault(False)
             buttons.addWidget(button)
         self.save_button.setProperty("kind", "primary")
-        box = QVBoxLayout(self)
-        box.setContentsMargins(line, line, line, line)
-        box.setSpacing(line // 2)
-        box.addWidget(about)
-        box.addWidget(self.preview, 1)
-        box.addLayout(buttons)
+        in_column(about, (self.preview, 1), buttons, of=self, margins=line, spacing=line // 2)
         letter = self.preview.fontMetrics()
         room = room_around(self.parentWidget())
         width = min(letter.averageCharWidth() * COLUMNS, room.width())
@@ -316,22 +307,18 @@ class RecoveryDialog(QDialog):
 
     def _lay_out(self) -> None:
         line = self.fontMetrics().height()
-        box = QVBoxLayout(self)
-        box.setContentsMargins(line, line, line, line)
-        box.setSpacing(line // 2)
-        box.addWidget(_label(tr("Some work was not saved"), "title"))
+        box = in_column(
+            _label(tr("Some work was not saved"), "title"), of=self, margins=line, spacing=line // 2
+        )
         sentence = tr("NEP Studio ended without warning. This is what you had done until then.")
         box.addWidget(_label(sentence, "hint"))
         box.addWidget(self.list, 1)
         box.addWidget(self.picture)
         self.picture.hide()
         self.picture.setAccessibleName(tr("The blocks of this project"))
-        row = QHBoxLayout()
-        for button in (self.discard_button, self.look_button):
-            row.addWidget(button)
-        row.addStretch(1)
-        for button in (self.later_button, self.restore_button):
-            row.addWidget(button)
+        row = in_row(
+            self.discard_button, self.look_button, 1, self.later_button, self.restore_button
+        )
         box.addLayout(row)
         self.restore_button.setProperty("kind", "primary")
         self.restore_button.setDefault(True)
@@ -400,8 +387,7 @@ class RecoveryDialog(QDialog):
 
 
 def _label(words: str, role: str) -> QLabel:
-    label = QLabel(words)
-    label.setWordWrap(True)
+    label = QLabel(words, wordWrap=True)
     label.setProperty("role", role)
     return label
 

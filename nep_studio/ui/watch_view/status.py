@@ -89,12 +89,11 @@ class WatchStatus(QWidget):
         self._look = look
         self.sign, self.words = QLabel(), ElidedLabel()
         self.button = labelled(
-            QPushButton(),
+            QPushButton(autoDefault=False),
             text="Connect…",
             tip="Connect a watch or phone, and see how well it sends",
             name="Connect a watch or phone…",
         )
-        self.button.setAutoDefault(False)
         self.setSizePolicy(QSizePolicy.Policy.Preferred, QSizePolicy.Policy.Fixed)
         row = QHBoxLayout(self)
         row.setContentsMargins(0, 0, 0, 0)

@@ -7,7 +7,7 @@ from collections.abc import Iterable
 
 from PySide6.QtCore import QObject, QTimer, Signal
 from PySide6.QtGui import QGuiApplication, QHideEvent, QResizeEvent, QShowEvent
-from PySide6.QtWidgets import QFrame, QHBoxLayout, QPushButton, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QFrame, QPushButton, QVBoxLayout, QWidget
 
 from nep_studio.blocks.editor import Editor
 from nep_studio.blocks.errors import BlocksError, CodeRefused, EditRefused
@@ -25,6 +25,7 @@ from nep_studio.ui.messages import Answer, Message
 from nep_studio.ui.theme.icons import icon
 from nep_studio.ui.theme.look import Look
 from nep_studio.ui.widgets.forms import ElidedLabel
+from nep_studio.ui.widgets.layouts import in_column, in_row
 from nep_studio.ui.words import tr
 
 from .code_text import CodeText
@@ -207,22 +208,14 @@ class CodePane(QWidget):
         labelled(self, name="Code")
         self.apply_button.setProperty("kind", "primary")
         gap = self.fontMetrics().height() // 3
-        self.buttons = QHBoxLayout()
-        self.buttons.setContentsMargins(2 * gap, gap, gap, gap)
-        self.buttons.setSpacing(gap)
         self.title = ElidedLabel()
         self.title.setProperty("role", "hint")
-        self.buttons.addWidget(self.title, 1)
+        self.buttons = in_row((self.title, 1), margins=(2 * gap, gap, gap, gap), spacing=gap)
         self.setMinimumWidth(9 * self.fontMetrics().height())  # its buttons can do without words
         for button in (self.copy_button, self.edit_button, self.discard_button, self.apply_button):
             self.buttons.addWidget(button)
         QVBoxLayout(self.note)
-        box = QVBoxLayout(self)
-        box.setContentsMargins(0, 0, 0, 0)
-        box.setSpacing(0)
-        box.addLayout(self.buttons)
-        box.addWidget(self.note)
-        box.addWidget(self.text, 1)
+        in_column(self.buttons, self.note, (self.text, 1), of=self, margins=0, spacing=0)
         self.text.setStyleSheet("QPlainTextEdit { border: none; border-radius: 0; }")
 
     def _connect(self) -> None:

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 from PySide6.QtCore import QEvent, QObject, QSize, Qt, QTimer
 from PySide6.QtGui import QHideEvent, QKeyEvent, QPainter, QShowEvent
-from PySide6.QtWidgets import QFrame, QHBoxLayout, QLabel, QLineEdit, QToolButton, QWidget
+from PySide6.QtWidgets import QFrame, QLabel, QLineEdit, QToolButton, QWidget
 
 from nep_studio.blocks.editor import History
 from nep_studio.blocks.edits.content import SetFlag
@@ -17,6 +17,7 @@ from nep_studio.ui.canvas.host import CanvasHost
 from nep_studio.ui.canvas.painting.overlay import ring
 from nep_studio.ui.labels import follow_words, labelled
 from nep_studio.ui.theme.icons import icon
+from nep_studio.ui.widgets.layouts import in_row
 from nep_studio.ui.words import count_words, tr
 
 # The overlay that marks what was found.
@@ -277,11 +278,7 @@ class FindBar(QFrame):
     # Put together
 
     def _arrange(self) -> None:
-        row = QHBoxLayout(self)
-        row.setContentsMargins(8, 4, 8, 4)
-        row.addWidget(self.title)
-        row.addWidget(self.line, 1)
-        row.addWidget(self.count)
+        row = in_row(self.title, (self.line, 1), self.count, of=self, margins=(8, 4, 8, 4))
         for button in (self.previous, self.next, self.away):
             row.addWidget(button)
         for button, pressed in (

@@ -13,7 +13,6 @@ from PySide6.QtWidgets import (
     QLabel,
     QLineEdit,
     QScrollArea,
-    QVBoxLayout,
     QWidget,
 )
 
@@ -29,6 +28,7 @@ from nep_studio.ui.canvas.layout.layout import Layout
 from nep_studio.ui.canvas.layout.page import boxes_of
 from nep_studio.ui.canvas.painting.painter import BlockPainter
 from nep_studio.ui.labels import follow_words, labelled
+from nep_studio.ui.widgets.layouts import in_column
 from nep_studio.ui.words import tr
 
 from .palette.accessible_list import make_list_accessible, tell_current
@@ -201,18 +201,13 @@ class InsertBar(QFrame):
         self.line.installEventFilter(self)
         self.list = SuggestionList(canvas, self)
         self.list.chosen.connect(self._on_chosen)
-        self.area = QScrollArea(self)
+        self.area = QScrollArea(self, widgetResizable=True)
         self.area.setWidget(self.list)
-        self.area.setWidgetResizable(True)
         self.area.setFrameShape(QFrame.Shape.NoFrame)
         self.area.setFocusPolicy(Qt.FocusPolicy.NoFocus)
-        self.hint = QLabel(self)
+        self.hint = QLabel(self, wordWrap=True)
         self.hint.setProperty("role", "hint")
-        self.hint.setWordWrap(True)
-        column = QVBoxLayout(self)
-        column.setContentsMargins(8, 8, 8, 8)
-        for widget in (self.line, self.area, self.hint):
-            column.addWidget(widget)
+        in_column(self.line, self.area, self.hint, of=self, margins=8)
         canvas.keyboard.type_letter = self._on_letter
         canvas.news.page_double_clicked.connect(self.open)
         canvas.news.page_changed.connect(self.hide)

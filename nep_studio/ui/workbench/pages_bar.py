@@ -6,7 +6,7 @@ from collections.abc import Callable
 
 from PySide6.QtCore import QEvent, QPoint, Qt, Signal
 from PySide6.QtGui import QKeyEvent, QMouseEvent
-from PySide6.QtWidgets import QHBoxLayout, QLineEdit, QMenu, QTabBar, QToolButton, QWidget
+from PySide6.QtWidgets import QLineEdit, QMenu, QTabBar, QToolButton, QWidget
 
 from nep_studio.blocks.editor import Editor
 from nep_studio.blocks.edits.project import AddPage, MovePage, RenamePage
@@ -14,6 +14,7 @@ from nep_studio.blocks.program import PAGES, Changes, Project
 from nep_studio.ui.labels import follow_words, labelled
 from nep_studio.ui.theme.icons import icon
 from nep_studio.ui.theme.look import Look
+from nep_studio.ui.widgets.layouts import in_row
 from nep_studio.ui.words import tr
 
 KIND_ICONS = {"behaviour": "blocks", "robots": "bot", "nodes": "network"}
@@ -37,12 +38,7 @@ class PagesBar(QWidget):
         self.tabs = PageTabs(self)
         self.add_button = labelled(QToolButton(), tip="Add a page", name="Add a page")
         self.add_button.clicked.connect(self.add_page)
-        row = QHBoxLayout(self)
-        row.setContentsMargins(0, 0, 0, 0)
-        row.setSpacing(0)
-        row.addWidget(self.tabs)
-        row.addWidget(self.add_button)
-        row.addStretch(1)
+        in_row(self.tabs, self.add_button, 1, of=self, margins=0, spacing=0)
         self._connect()
         editor.history.listen(self._on_whole_changed, is_of_whole=True)
         follow_words(self, self._fill)

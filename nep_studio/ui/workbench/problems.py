@@ -28,6 +28,7 @@ from nep_studio.ui.messages import KIND_ICONS, Message
 from nep_studio.ui.theme.icons import icon_pixmap
 from nep_studio.ui.theme.look import Look
 from nep_studio.ui.widgets.forms import hint, room_around
+from nep_studio.ui.widgets.layouts import in_column, in_row
 from nep_studio.ui.words import tr
 
 if TYPE_CHECKING:
@@ -97,11 +98,9 @@ class ProblemsPanel(QScrollArea):
     def _fill(self) -> None:
         self._is_old = False
         inner = QWidget()
-        box = QVBoxLayout(inner)
         shown = self.shown[:MOST_ROWS]
         self.rows = [ProblemRow(problem, self._look, self) for problem in shown]
-        for row in self.rows:
-            box.addWidget(row)
+        box = in_column(*self.rows, of=inner)
         hidden = len(self.shown) - len(shown)
         if hidden:
             box.addWidget(hint("and 1 more" if hidden == 1 else text_of("and {n} more", n=hidden)))
@@ -123,10 +122,8 @@ class ProblemRow(QFrame):
         self.setSizePolicy(QSizePolicy.Policy.Preferred, QSizePolicy.Policy.Maximum)
         kind, sentence = text_of(SEVERITIES[problem.severity]), text_of(problem.sentence)
         labelled(self, name=text_of("{name}: {kind}", name=kind, kind=sentence))
-        row = QHBoxLayout(self)
-        row.addWidget(_sign(problem, look, self), 0, Qt.AlignmentFlag.AlignTop)
-        words = QVBoxLayout()
-        words.addWidget(_words(sentence))
+        row = in_row((_sign(problem, look, self), 0, Qt.AlignmentFlag.AlignTop), of=self)
+        words = in_column(_words(sentence))
         for step in problem.checklist:
             words.addWidget(ChecklistStep(step))
         row.addLayout(words, 1)
@@ -156,9 +153,7 @@ def _sign(problem: Diagnostic, look: Look, widget: QWidget) -> QLabel:
 
 
 def _words(text: Words) -> QLabel:
-    label = labelled(QLabel(), text=text)
-    label.setTextFormat(Qt.TextFormat.PlainText)
-    label.setWordWrap(True)
+    label = labelled(QLabel(textFormat=Qt.TextFormat.PlainText, wordWrap=True), text=text)
     label.setProperty("role", "heading")
     return label
 
@@ -233,7 +228,5 @@ class ProblemBubble(QFrame):
         button.clicked.connect(self.close)
         button.clicked.connect(lambda: self.fix_asked.emit(problem))
         self.buttons.append(button)
-        row = QHBoxLayout()
-        row.addWidget(button)
-        row.addStretch(1)
+        row = in_row(button, 1)
         box.addLayout(row)

@@ -11,10 +11,8 @@ from PySide6.QtGui import QKeyEvent, QPainter, QPaintEvent, QPen
 from PySide6.QtWidgets import (
     QAbstractButton,
     QFrame,
-    QHBoxLayout,
     QLabel,
     QPushButton,
-    QVBoxLayout,
     QWidget,
 )
 
@@ -24,6 +22,7 @@ from nep_studio.blocks.text import sentence
 from nep_studio.ui.canvas.canvas import Canvas
 from nep_studio.ui.labels import follow_words, labelled
 from nep_studio.ui.theme.icons import paint_icon
+from nep_studio.ui.widgets.layouts import in_column, in_row
 from nep_studio.ui.words import count_words, tr
 
 from .palette.categories import add_delete_area, is_taking
@@ -121,14 +120,7 @@ class TrashPanel(QFrame):
         self.restore.clicked.connect(self._on_restore)
         self.empty.clicked.connect(trash.empty)
         self.shelf.chosen.connect(self._on_chosen)
-        buttons = QHBoxLayout()
-        buttons.addWidget(self.restore)
-        buttons.addStretch(1)
-        buttons.addWidget(self.empty)
-        column = QVBoxLayout(self)
-        column.addWidget(self.title)
-        column.addWidget(self.shelf, 1)
-        column.addLayout(buttons)
+        in_column(self.title, (self.shelf, 1), in_row(self.restore, 1, self.empty), of=self)
         trash.changed.connect(self._fill)
         self.refresh()
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from PySide6.QtCore import QObject, QRect, QSignalBlocker
 from PySide6.QtGui import QFont, QFontInfo
-from PySide6.QtWidgets import QFrame, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QFrame, QWidget
 
 from faults import Words
 from nep_studio.blocks.checks.diagnostic import Diagnostic
@@ -20,6 +20,7 @@ from nep_studio.ui.documents import Document
 from nep_studio.ui.messages import Messages, announce
 from nep_studio.ui.services import Studio
 from nep_studio.ui.theme.look import text_font
+from nep_studio.ui.widgets.layouts import in_column
 from nep_studio.ui.words import is_right_to_left
 
 from .code import CodePane
@@ -103,12 +104,9 @@ class Workbench(QWidget):
         self._run_problem: Diagnostic | None = None
         self._usual_scale = usual_scale(studio)
         middle = QFrame()
-        box = QVBoxLayout(middle)
-        box.setContentsMargins(0, 0, 0, 0)
-        box.setSpacing(0)
-        box.addWidget(self.pages_bar)
-        box.addWidget(self.helpers.find_bar)
-        box.addWidget(self.canvas, 1)
+        in_column(
+            self.pages_bar, self.helpers.find_bar, (self.canvas, 1), of=middle, margins=0, spacing=0
+        )
         self.panels = Panels(middle, studio.look, studio.settings, self)
         self.add_side_panel(self.helpers.palette, "Blocks", "blocks", "left")
         self.add_side_panel(self.code, "Code", "code", "right")

@@ -16,9 +16,10 @@ from PySide6.QtGui import (
     QPen,
     qGray,
 )
-from PySide6.QtWidgets import QHBoxLayout, QLabel, QLineEdit, QToolTip, QWidget
+from PySide6.QtWidgets import QLabel, QLineEdit, QToolTip, QWidget
 
 from nep_studio.ui.theme.colours import Theme
+from nep_studio.ui.widgets.layouts import in_row
 from nep_studio.ui.words import tr
 
 from .field_edit import Editing
@@ -171,9 +172,7 @@ class ColourPopup(FieldPopup):
         self.code.setMaximumWidth(6 * self.line)
         self.code.textEdited.connect(self._on_typed)
         self.name = QLabel(self)
-        row = QHBoxLayout()
-        row.addWidget(self.code)
-        row.addWidget(self.name, 1)
+        row = in_row(self.code, (self.name, 1))
         self.column.addLayout(row)
         self._show()
 

@@ -7,11 +7,12 @@ from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QObject, QPoint, QPointF, QSize, Qt
 from PySide6.QtGui import QKeyEvent, QMouseEvent, QPainter, QPaintEvent, QPen
-from PySide6.QtWidgets import QFrame, QPlainTextEdit, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QFrame, QPlainTextEdit, QWidget
 
 from nep_studio.blocks.edits.content import SetComment, SetCommentSize
 from nep_studio.blocks.text import sentence
 from nep_studio.ui.labels import follow_words, labelled
+from nep_studio.ui.widgets.layouts import in_column
 from nep_studio.ui.words import tr
 
 from .field_edit import editor_font, editor_scale
@@ -106,9 +107,7 @@ class CommentBubble(QFrame):
         self.text.setPlainText(canvas.editor.project.blocks[block].comment)
         self.text.textChanged.connect(self._on_written)
         self.corner = Corner(self, self._on_pulled, self._on_sized)
-        column = QVBoxLayout(self)
-        column.setContentsMargins(4, 4, 4, 4)
-        column.addWidget(self.text)
+        in_column(self.text, of=self, margins=4)
         there = canvas.editor.project.blocks[block]
         self._size = (there.comment_width or WIDTH, there.comment_height or HEIGHT)
         canvas.editor.history.seal()

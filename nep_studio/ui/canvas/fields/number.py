@@ -15,6 +15,7 @@ from nep_studio.blocks.arithmetic import (
     number_text,
     typed_number,
 )
+from nep_studio.ui.widgets.layouts import in_row
 from nep_studio.ui.words import tr
 
 from .field_edit import Editing
@@ -41,10 +42,7 @@ class NumberPopup(FieldPopup):
         self.number.textEdited.connect(self._on_typed)
         self.number.installEventFilter(self)
         self.result = QLabel(result_text(self.number.text()), self)
-        row = QHBoxLayout()
-        row.addWidget(self.number, 1)
-        row.addWidget(QLabel(self.unit, self))
-        row.addWidget(self.result)
+        row = in_row((self.number, 1), QLabel(self.unit, self), self.result)
         self.column.addLayout(row)
 
     def first(self) -> Widget:

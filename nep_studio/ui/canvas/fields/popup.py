@@ -10,7 +10,6 @@ from PySide6.QtGui import QHideEvent, QKeyEvent, QPainter, QPen
 from PySide6.QtWidgets import (
     QApplication,
     QFrame,
-    QHBoxLayout,
     QLabel,
     QLineEdit,
     QPushButton,
@@ -21,6 +20,7 @@ from PySide6.QtWidgets import (
 from nep_studio.blocks.slots import FieldValue
 from nep_studio.ui.canvas.painting.shapes import slot_path
 from nep_studio.ui.widgets.forms import room_around
+from nep_studio.ui.widgets.layouts import in_column, in_row
 from nep_studio.ui.words import tr
 
 from .field_edit import Editing, ReasonBubble, beside, piece_of, view_rect_of
@@ -139,8 +139,7 @@ class Question(QWidget):
         super().__init__()
         self._answered, self._refused = answered, refused
         self.words = words
-        label = QLabel(words, self)
-        label.setWordWrap(True)
+        label = QLabel(words, self, wordWrap=True)
         width = 15 * self.fontMetrics().height()
         label.setFixedWidth(width)
         label.setFixedHeight(label.heightForWidth(width))
@@ -152,15 +151,7 @@ class Question(QWidget):
         self.yes.setProperty("kind", "primary" if name is not None else "stop")
         self.yes.clicked.connect(self._on_yes)
         self.no.clicked.connect(refused)
-        buttons = QHBoxLayout()
-        buttons.addStretch(1)
-        buttons.addWidget(self.no)
-        buttons.addWidget(self.yes)
-        column = QVBoxLayout(self)
-        column.setContentsMargins(0, 0, 0, 0)
-        column.addWidget(label)
-        column.addWidget(self.name)
-        column.addLayout(buttons)
+        in_column(label, self.name, in_row(1, self.no, self.yes), of=self, margins=0)
 
     def first(self) -> QWidget:
         """The widget that has the keyboard at the start."""

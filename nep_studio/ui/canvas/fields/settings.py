@@ -11,7 +11,6 @@ from PySide6.QtWidgets import (
     QCheckBox,
     QComboBox,
     QGridLayout,
-    QHBoxLayout,
     QLabel,
     QLineEdit,
     QPushButton,
@@ -23,6 +22,7 @@ from nep_core.places import node_folders
 from nep_core.processes.manifest import NodeCatalog, Parameter
 from nep_studio.blocks.slots import Setting, kind_of
 from nep_studio.ui.theme.icons import icon
+from nep_studio.ui.widgets.layouts import in_row
 from nep_studio.ui.words import tr
 
 from .field_edit import Editing
@@ -59,9 +59,7 @@ class SettingsPopup(FieldPopup):
         self.new_name.setAccessibleName(tr("Name of another setting"))
         self.add = QPushButton(icon("plus", editors.canvas.look.theme), tr("Add"), self)
         self.add.clicked.connect(self._on_add)
-        row = QHBoxLayout()
-        row.addWidget(self.new_name, 1)
-        row.addWidget(self.add)
+        row = in_row((self.new_name, 1), self.add)
         self.column.addLayout(row)
 
     def first(self) -> QWidget:

@@ -6,12 +6,13 @@ from collections.abc import Callable, Sequence
 
 from PySide6.QtCore import QPoint, QRectF, QSize, Qt, Signal
 from PySide6.QtGui import QIcon, QPainter, QPixmap, QResizeEvent
-from PySide6.QtWidgets import QButtonGroup, QScrollArea, QToolButton, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QButtonGroup, QScrollArea, QToolButton, QWidget
 
 from nep_studio.ui.canvas.editing.drag_blocks import DragBlocks
 from nep_studio.ui.canvas.host import CanvasHost
 from nep_studio.ui.labels import labelled
 from nep_studio.ui.theme.colours import Theme
+from nep_studio.ui.widgets.layouts import in_column
 
 from .entries import RECENT, Drawer, recent_drawer
 from .shelf_layout import paint_badge
@@ -64,13 +65,8 @@ class CategoryColumn(QScrollArea):
 
     def _make(self, drawers: Sequence[Drawer], theme: Theme) -> None:
         inner = QWidget()
-        column = QVBoxLayout(inner)
-        column.setContentsMargins(2, 2, 2, 2)
-        column.setSpacing(0)
         self.buttons = {drawer.id: self._button(drawer, theme, inner) for drawer in drawers}
-        for button in self.buttons.values():
-            column.addWidget(button)
-        column.addStretch(1)
+        in_column(*self.buttons.values(), 1, of=inner, margins=2, spacing=0)
         self._to_come = None
         if RECENT not in self.buttons:
             self._to_come = self._button(recent_drawer(), theme, inner)
@@ -95,9 +91,8 @@ class CategoryColumn(QScrollArea):
             self.ensureWidgetVisible(button, 0, 4)
 
     def _button(self, drawer: Drawer, theme: Theme, parent: QWidget) -> QToolButton:
-        button = QToolButton(parent)
+        button = QToolButton(parent, autoRaise=True)
         button.setCheckable(True)
-        button.setAutoRaise(True)
         font = button.font()
         font.setPointSizeF(font.pointSizeF() * WORDS_SCALE)
         button.setFont(font)

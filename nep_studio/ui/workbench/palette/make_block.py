@@ -11,7 +11,6 @@ from PySide6.QtWidgets import (
     QComboBox,
     QDialog,
     QDialogButtonBox,
-    QHBoxLayout,
     QLabel,
     QLayout,
     QLineEdit,
@@ -32,6 +31,7 @@ from nep_studio.ui.canvas.editing.menu import MenuEntry, MenuPlace
 from nep_studio.ui.canvas.fields.field_edit import ReasonBubble
 from nep_studio.ui.canvas.host import CanvasHost
 from nep_studio.ui.theme.icons import icon
+from nep_studio.ui.widgets.layouts import in_row
 from nep_studio.ui.widgets.questions import Asking
 from nep_studio.ui.words import tr
 from nep_studio.ui.workbench.placing import free_place
@@ -81,11 +81,7 @@ class PartRow(QWidget):
         away.setToolTip(tr("Take this part away"))
         away.setAccessibleName(tr("Take this part away"))
         away.clicked.connect(lambda: dialog.take_away(self))
-        row = QHBoxLayout(self)
-        row.setContentsMargins(0, 0, 0, 0)
-        row.addWidget(self.name, 1)
-        row.addWidget(self.kind)
-        row.addWidget(away)
+        in_row((self.name, 1), self.kind, away, of=self, margins=0)
         for widget in (self.name, self.kind):
             widget.ensurePolished()  # before that the style sheet's sizes do not count
         self.setMinimumHeight(self.sizeHint().height())
@@ -189,10 +185,7 @@ class MakeBlockDialog(QDialog):
         value.clicked.connect(lambda: self.add_value())
         for button in (words, value):
             button.setAutoDefault(False)
-        adding = QHBoxLayout()
-        adding.addWidget(words)
-        adding.addWidget(value)
-        adding.addStretch(1)
+        adding = in_row(words, value, 1)
         standard = QDialogButtonBox.StandardButton
         buttons = QDialogButtonBox(standard.Ok | standard.Cancel)
         buttons.button(standard.Ok).setText(tr("Make") if self._is_new else tr("Change"))

@@ -10,11 +10,9 @@ from PySide6.QtCore import QEvent, QObject, QPoint, QSize, Qt, QTimer, Signal
 from PySide6.QtGui import QAction, QKeyEvent, QResizeEvent
 from PySide6.QtWidgets import (
     QFileDialog,
-    QHBoxLayout,
     QLineEdit,
     QMenu,
     QToolButton,
-    QVBoxLayout,
     QWidget,
 )
 
@@ -32,6 +30,7 @@ from nep_studio.ui.canvas.editing.menu import MenuEntry, MenuPlace
 from nep_studio.ui.canvas.host import CanvasHost
 from nep_studio.ui.labels import follow_words, labelled
 from nep_studio.ui.theme.icons import icon
+from nep_studio.ui.widgets.layouts import in_column, in_row
 from nep_studio.ui.widgets.questions import Asking
 from nep_studio.ui.words import tr
 from nep_studio.ui.workbench.placing import insert_clip
@@ -364,19 +363,9 @@ class Palette(QWidget):
         self.fold.setAutoRaise(True)
         self.search.setClearButtonEnabled(True)
         self.search.addAction(self._sign, QLineEdit.ActionPosition.LeadingPosition)
-        top = QHBoxLayout()
-        top.setContentsMargins(4, 4, 4, 2)
-        top.addWidget(self.fold)
-        top.addWidget(self.search, 1)
-        below = QHBoxLayout()
-        below.setSpacing(0)
-        below.addWidget(self.categories)
-        below.addWidget(self.shelf, 1)
-        column = QVBoxLayout(self)
-        column.setContentsMargins(0, 0, 0, 0)
-        column.setSpacing(0)
-        column.addLayout(top)
-        column.addLayout(below, 1)
+        top = in_row(self.fold, (self.search, 1), margins=(4, 4, 4, 2))
+        below = in_row(self.categories, (self.shelf, 1), spacing=0)
+        in_column(top, (below, 1), of=self, margins=0, spacing=0)
 
     def _connect(self) -> None:
         canvas = self.canvas
