@@ -156,7 +156,13 @@ class Misfit:
 
 def misfits(procedure: Procedure, project: Project, language: Language) -> Iterator[Misfit]:
     """What would not fit any more if an own block became like this."""
-    after = _after(procedure, language)
+    # The language as it will be once the own block is like this
+    kept = {
+        block_type: definition
+        for block_type, definition in language.definitions.items()
+        if procedure_of(block_type) != procedure.id
+    }
+    after = replace(language, definitions={**kept, **definitions_of([procedure])})
     for block in project.blocks.values():
         if procedure_of(block.type) != procedure.id:
             continue
@@ -208,16 +214,6 @@ def why_not_delete_procedure(project: Project, procedure_id: str) -> Text | None
     )
 
 
-def _after(procedure: Procedure, language: Language) -> Language:
-    """The language as it will be once the own block is like this."""
-    kept = {
-        block_type: definition
-        for block_type, definition in language.definitions.items()
-        if procedure_of(block_type) != procedure.id
-    }
-    return replace(language, definitions={**kept, **definitions_of([procedure])})
-
-
 def _is_misplaced(block: Block, project: Project, after: Language) -> bool:
     """Whether a block must leave its place because of what it will be."""
     definition = after.definitions.get(block.type)
@@ -243,7 +239,18 @@ def why_not(edit: Edit, project: Project, language: Language) -> Text | None:
         case CreateBlocks():
             return why_not_create(edit, project, language)
         case SetField():
-            return _why_not_field(edit, project, language)
+            block = project.blocks.get(edit.block)
+            if block is None:
+                return Text("This block is not there any more.")
+            if edit.value is None:
+                return None
+            reason = why_no_field(block, edit.slot, edit.value, language)
+            if reason is not None:
+                return reason
+            slot = language.definitions[block.type].slot(edit.slot, block.groups)
+            if slot is None:
+                return None
+            return language.why_not_choice(slot, edit.value, block, edit.slot)
         case AddGroup() | RemoveGroup():
             return _why_not_group(edit, project, language)
         case SetComment():
@@ -286,21 +293,6 @@ def _why_not_more(edit: Edit, project: Project, language: Language) -> Text | No
         case SetExtra():
             return why_not_extra(edit.key, edit.value)
     return None
-
-
-def _why_not_field(edit: SetField, project: Project, language: Language) -> Text | None:
-    block = project.blocks.get(edit.block)
-    if block is None:
-        return Text("This block is not there any more.")
-    if edit.value is None:
-        return None
-    reason = why_no_field(block, edit.slot, edit.value, language)
-    if reason is not None:
-        return reason
-    slot = language.definitions[block.type].slot(edit.slot, block.groups)
-    if slot is None:
-        return None
-    return language.why_not_choice(slot, edit.value, block, edit.slot)
 
 
 def _why_not_group(

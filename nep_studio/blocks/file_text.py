@@ -112,17 +112,13 @@ def _why_not_json(data: bytes, error: Exception) -> tuple[Text, Text]:
         return Text("groups are nested too deep in it."), Text("")
     if isinstance(error, msgspec.ValidationError):
         return Text("there is a number in it that is too large."), _place_of_number(data)
-    if _is_cut_off(data):
+    # Whether data that is no JSON only lacks its end: then what follows it changes the fault
+    longer = data + bytes(8)  # more than any letter that is cut in two
+    if _json_fault(data) != _json_fault(longer):
         return Text("it ends too early, as if a part of it were missing."), Text("")
     byte = re.search(r"\(byte (\d+)\)", str(error))
     line = _line_at(data, int(byte[1]) if byte else 0)
     return Text("this is not how a project is written."), text_of(" at line {number}", number=line)
-
-
-def _is_cut_off(data: bytes) -> bool:
-    """Whether data that is no JSON only lacks its end: then what follows it changes the fault."""
-    longer = data + bytes(8)  # more than any letter that is cut in two
-    return _json_fault(data) != _json_fault(longer)
 
 
 def _json_fault(data: bytes) -> str:

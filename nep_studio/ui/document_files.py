@@ -170,7 +170,15 @@ class Files(QObject):
         if document.path is None:
             self.save_as(then)
         elif document.is_changed_by_others():
-            self._ask_about_others(document.path, then)
+            path = document.path
+            title = tr("“{name}” has been changed by another program.", name=path.name)
+            sentence = tr("If you save here, what the other program has written is lost.")
+            answers = (
+                Answer(tr("Save as…"), lambda: self.save_as(then), "primary"),
+                Answer(tr("Save here"), lambda: self._write(path, then)),
+                Answer(tr("Cancel"), lambda: None),
+            )
+            self._messages.ask(Message("warning", title, sentence, answers=answers))
         else:
             self._write(document.path, then)
 
@@ -198,16 +206,6 @@ class Files(QObject):
         self._remember(path)
         self._messages.confirm(tr("“{name}” is saved.", name=document.title))
         then()
-
-    def _ask_about_others(self, path: Path, then: Then) -> None:
-        title = tr("“{name}” has been changed by another program.", name=path.name)
-        sentence = tr("If you save here, what the other program has written is lost.")
-        answers = (
-            Answer(tr("Save as…"), lambda: self.save_as(then), "primary"),
-            Answer(tr("Save here"), lambda: self._write(path, then)),
-            Answer(tr("Cancel"), lambda: None),
-        )
-        self._messages.ask(Message("warning", title, sentence, answers=answers))
 
     # Reading
 

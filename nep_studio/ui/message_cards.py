@@ -96,9 +96,6 @@ class MessageCard(QFrame):
         self.close_button = button
         self.close_button.clicked.connect(self.closed)
         self.buttons = [self._button(answer) for answer in message.answers]
-        self._fill(theme)
-
-    def _fill(self, theme: Theme) -> None:
         line = self.fontMetrics().height()
         sign, size = QLabel(), round(line * 1.3)
         kind = self.message.kind
@@ -107,7 +104,9 @@ class MessageCard(QFrame):
         row = in_row((sign, 0, Qt.AlignmentFlag.AlignTop), of=self, spacing=line // 2)
         words = in_column(MessageText(self.message))
         if self.message.is_busy:
-            words.addWidget(_endless_progress())
+            bar = QProgressBar(textVisible=False)
+            bar.setRange(0, 0)
+            words.addWidget(bar)
         if self.buttons:
             answers = in_row(*self.buttons, 1)
             words.addLayout(answers)
@@ -128,12 +127,6 @@ class MessageCard(QFrame):
         super().changeEvent(event)
         if event.type() == QEvent.Type.FontChange:
             self.updateGeometry()
-
-
-def _endless_progress() -> QProgressBar:
-    bar = QProgressBar(textVisible=False)
-    bar.setRange(0, 0)
-    return bar
 
 
 def _label(words: Words, role: str = "") -> QLabel:

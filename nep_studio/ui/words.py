@@ -10,7 +10,6 @@ from dataclasses import dataclass, field
 from functools import lru_cache
 from itertools import takewhile
 from pathlib import Path
-from typing import Any
 
 from faults import Text, Words, filled, told
 from nep_studio import paths
@@ -100,10 +99,6 @@ def _name(code: str) -> str:
     return name
 
 
-def _table(code: str) -> dict[str, Any]:
-    return tomllib.loads(_path(code).read_text(encoding="utf-8"))
-
-
 def _path(code: str) -> Path:
     return paths.resources() / "translations" / f"{code}.toml"
 
@@ -113,7 +108,7 @@ def _catalogue(code: str, _resources: Path) -> _Catalogue:
     """The words of a language, which take long to read, from the resources in use."""
     if code in (ENGLISH, PSEUDO):
         return _Catalogue(code)
-    table = _table(code)
+    table = tomllib.loads(_path(code).read_text(encoding="utf-8"))
     return _Catalogue(code, {**table.get("messages", {}), **table.get("window", {})})
 
 

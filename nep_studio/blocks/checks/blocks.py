@@ -240,7 +240,19 @@ def check_own_blocks(project: Project, language: Language, running: Iterable[lis
         if not owner:
             continue
         if headers.setdefault(owner, header.id) != header.id:
-            yield _twice(project, header)
+            yield (
+                Diagnostic(
+                    "error",
+                    "defined_twice",
+                    project.page_of(header.id),
+                    header.id,
+                    text_of(
+                        "The block “{own_block}” is defined twice.",
+                        own_block=_name(project, procedure_of(header.type)),
+                    ),
+                    ("Take one of the two definitions out.",),
+                )
+            )
         if project.procedures[owner].gives_value and not _gives_back(blocks):
             yield _gives_nothing(project, header)
     yield from _undefined(project, headers, calls)
@@ -249,20 +261,6 @@ def check_own_blocks(project: Project, language: Language, running: Iterable[lis
 
 def _gives_back(blocks: list[Block]) -> bool:
     return any(block.type == RETURN for block in blocks)
-
-
-def _twice(project: Project, header: Block) -> Diagnostic:
-    return Diagnostic(
-        "error",
-        "defined_twice",
-        project.page_of(header.id),
-        header.id,
-        text_of(
-            "The block “{own_block}” is defined twice.",
-            own_block=_name(project, procedure_of(header.type)),
-        ),
-        ("Take one of the two definitions out.",),
-    )
 
 
 def _gives_nothing(project: Project, header: Block) -> Diagnostic:

@@ -516,14 +516,11 @@ def reporter_of(project: Project, language: Language, block_id: str, slot: str) 
         clip.project.variables.append(variable)
         return clip
     if there.kind.name == "parameter":
-        return _parameter(project, language, there.table)
+        block_type = there.table
+        if block_type not in language.definitions:
+            return None
+        clip = clip_of(language, block_type)
+        procedure = project.procedures[procedure_of(block_type)]
+        AddProcedure(procedure, 0).apply(clip.project)
+        return clip
     return None
-
-
-def _parameter(project: Project, language: Language, block_type: str) -> Clip | None:
-    if block_type not in language.definitions:
-        return None
-    clip = clip_of(language, block_type)
-    procedure = project.procedures[procedure_of(block_type)]
-    AddProcedure(procedure, 0).apply(clip.project)
-    return clip

@@ -169,7 +169,12 @@ def is_near(typed: str, word: str) -> bool:
 def _made(language: Language) -> Vocabulary:
     found = Vocabulary()
     for number, definition in enumerate(language.definitions.values()):
-        entry = Entry(definition, number, tuple(_words(definition)), _choices(definition, language))
+        # The words of a sentence that are there when the block is new, with the part of each
+        words: list[tuple[str, int]] = []
+        for place, part in enumerate(definition.parts):
+            for text in _texts(part, definition):
+                words += [(word, place) for word in split_words(text)]
+        entry = Entry(definition, number, tuple(words), _choices(definition, language))
         found.entries.append(entry)
         for word, _ in entry.words:
             found.by_word[word].add(number)
@@ -180,15 +185,6 @@ def _made(language: Language) -> Vocabulary:
                 for word in label.split():
                     found.by_choice[word].add(number)
     return found
-
-
-def _words(definition: Definition) -> list[tuple[str, int]]:
-    """The words of a sentence that are there when the block is new, with the part of each."""
-    words: list[tuple[str, int]] = []
-    for place, part in enumerate(definition.parts):
-        for text in _texts(part, definition):
-            words += [(word, place) for word in split_words(text)]
-    return words
 
 
 def split_words(text: str) -> list[str]:

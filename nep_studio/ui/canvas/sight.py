@@ -6,7 +6,6 @@ from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QPoint, QPointF, QRectF
 
-from .layout.boxes import Measures
 from .layout.index import Camera, Rect
 from .layout.page import Hit, Placed
 
@@ -87,7 +86,10 @@ class Sight:
 
     def show_head(self, placed: Placed) -> None:
         """Scroll just so far that the first row of a block can be seen."""
-        self.show_rect(_head(placed, self._host.look.measures))
+        # The first row of a block, which is what a person looks for
+        measures = self._host.look.measures
+        rect = placed.rect
+        self.show_rect(Rect(rect.x, rect.y, rect.width, min(rect.height, 2 * measures.row_height)))
 
     def show_rect(self, rect: Rect) -> None:
         """Scroll just so far that a part of the page can be seen."""
@@ -160,9 +162,3 @@ def _shift(low: float, high: float, start: float, end: float) -> float:
     if start < low or end - start > high - low:
         return start - low
     return end - high if end > high else 0.0
-
-
-def _head(placed: Placed, measures: Measures) -> Rect:
-    """The first row of a block, which is what a person looks for."""
-    rect = placed.rect
-    return Rect(rect.x, rect.y, rect.width, min(rect.height, 2 * measures.row_height))

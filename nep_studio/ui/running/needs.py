@@ -87,7 +87,10 @@ def needs_of(
     errors = [problem for problem in problems if problem.severity == "error"]
     needs = [_problem(problem) for problem in errors if problem.kind != "no_rule"]
     if not has_rules:
-        needs.append(_rules())
+        fix = NeedFix("add_start", tr("Add “when the program starts”"))
+        title = tr("Something to do")
+        sentence = tr("Nothing happens yet: every program begins with a block that says when.")
+        needs.append(Need("missing", title, sentence, (fix,)))
     needs.append(_master(is_connected))
     for node in nodes:
         status = board.get(node.name)
@@ -109,13 +112,6 @@ def answers_at(address: str) -> bool:
             return True
     except (OSError, ValueError, OverflowError):
         return False
-
-
-def _rules() -> Need:
-    fix = NeedFix("add_start", tr("Add “when the program starts”"))
-    title = tr("Something to do")
-    sentence = tr("Nothing happens yet: every program begins with a block that says when.")
-    return Need("missing", title, sentence, (fix,))
 
 
 def _problem(problem: Diagnostic) -> Need:

@@ -286,7 +286,9 @@ class CommandPalette(QFrame):
             announce(self.line, command.why_not)
             return False
         self.leave()
-        self._remember(command)
+        settings = self._window.settings
+        others = [one for one in settings.recent_commands if one != command.id]
+        settings.recent_commands = [command.id, *others][:MOST_RECENT]
         command.do()
         return True
 
@@ -351,11 +353,6 @@ class CommandPalette(QFrame):
             return command.why_not
         found = count_words(len(self.rows), "1 command", "{n} commands")
         return f"{found} · {tr('Enter does it, Esc closes.')}"
-
-    def _remember(self, command: Command) -> None:
-        settings = self._window.settings
-        others = [one for one in settings.recent_commands if one != command.id]
-        settings.recent_commands = [command.id, *others][:MOST_RECENT]
 
     def _place(self) -> None:
         """Be as wide as a line of text can be, below the toolbar, in the middle."""

@@ -67,20 +67,18 @@ def why_not(window: MainWindow, action: QAction) -> str:
         return tr("Open a project first.")
     if name in NEEDS_SELECTION:
         return tr("Select a block first.")
-    return _reasons().get(name) or tr("There is nothing to do for it now.")
-
-
-def _reasons() -> dict[str, str]:
-    return {
-        "undo": tr("Nothing has been changed yet."),
-        "redo": tr("Nothing has been taken back."),
-        "paste": tr("Copy something first."),
-        "compare": tr("The project is saved as it is now."),
-        "stop": tr("Nothing runs now."),
-        "pause": tr("Nothing runs now."),
-        "step": tr("Pause the program first."),
-        "run": tr("The program runs already."),
-    }
+    return (
+        {
+            "undo": tr("Nothing has been changed yet."),
+            "redo": tr("Nothing has been taken back."),
+            "paste": tr("Copy something first."),
+            "compare": tr("The project is saved as it is now."),
+            "stop": tr("Nothing runs now."),
+            "pause": tr("Nothing runs now."),
+            "step": tr("Pause the program first."),
+            "run": tr("The program runs already."),
+        }
+    ).get(name) or tr("There is nothing to do for it now.")
 
 
 NOT_IN_ITSELF = "palette"
@@ -114,7 +112,7 @@ def _command(command_id: str, action: QAction, kind: str, reason: str) -> Comman
         _plain(action.text()),
         action.trigger,
         kind,
-        _native(action.shortcut()),
+        action.shortcut().toString(QKeySequence.SequenceFormat.NativeText),
         action.icon(),
         _plain(f"{action.iconText()} {action.toolTip()}"),
         reason,
@@ -189,10 +187,6 @@ def _choices_of(menu: QMenu) -> Iterator[Command]:
 def _plain(words: str) -> str:
     """Words without the mark of the key that chooses them in a menu."""
     return words.replace("&&", "\0").replace("&", "").replace("\0", "&")
-
-
-def _native(key: QKeySequence) -> str:
-    return key.toString(QKeySequence.SequenceFormat.NativeText)
 
 
 # Find what a person means by a few letters: fuzzy, whatever the case, the accents, the order.

@@ -49,7 +49,16 @@ class LastResort(QObject):
         self._happened.connect(self._on_happened)
 
     def __enter__(self) -> LastResort:
-        self._write_a_log()
+        # Write to the user's folder; where that cannot be, the program works without
+        with suppress(OSError):
+            self._log_file.parent.mkdir(parents=True, exist_ok=True)
+            file = RotatingFileHandler(
+                self._log_file, maxBytes=LARGEST_LOG, backupCount=1, encoding="utf-8", delay=True
+            )
+            file.setFormatter(logging.Formatter("%(asctime)s %(levelname)s %(name)s: %(message)s"))
+            root = logging.getLogger()
+            root.addHandler(file)
+            self._restore += [file.close, lambda: root.removeHandler(file)]
         self._restore.append(_setter(sys, "excepthook", sys.excepthook))
         self._restore.append(_setter(threading, "excepthook", threading.excepthook))
         sys.excepthook = self._on_error
@@ -73,18 +82,6 @@ class LastResort(QObject):
     def watch(self, window: MainWindow) -> None:
         """Save this window's work, and tell the person there, when something happens."""
         self._window = window
-
-    def _write_a_log(self) -> None:
-        """Write to the user's folder; where that cannot be, the program works without."""
-        with suppress(OSError):
-            self._log_file.parent.mkdir(parents=True, exist_ok=True)
-            file = RotatingFileHandler(
-                self._log_file, maxBytes=LARGEST_LOG, backupCount=1, encoding="utf-8", delay=True
-            )
-            file.setFormatter(logging.Formatter("%(asctime)s %(levelname)s %(name)s: %(message)s"))
-            root = logging.getLogger()
-            root.addHandler(file)
-            self._restore += [file.close, lambda: root.removeHandler(file)]
 
     def _on_error(
         self, kind: type[BaseException], error: BaseException, trace: TracebackType | None

@@ -210,17 +210,6 @@ class Card(QFrame):
         self.setProperty("kind", "card")
         self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
         self.setCursor(Qt.CursorShape.PointingHandCursor)
-        self._fill(example)
-        follow_words(self, self._say)
-
-    def _say(self) -> None:
-        title, sentence = tr(self.example.title), tr(self.example.sentence)
-        self.setAccessibleName(f"{title}. {sentence}")
-        self.setAccessibleDescription(self.signs.accessibleName())
-        self.setToolTip("\n".join(f"• {tr(each.words)}" for each in self.example.tries))
-        self._fit_height()
-
-    def _fill(self, example: Example) -> None:
         line = self.fontMetrics().height()
         self.picture = QLabel(alignment=Qt.AlignmentFlag.AlignLeading | Qt.AlignmentFlag.AlignTop)
         self.picture.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Fixed)
@@ -236,6 +225,14 @@ class Card(QFrame):
         inside.addLayout(self._buttons(example.title, line))
         in_column(self.picture, (inside, 1), of=self, margins=(2, 2, 2, line // 2), spacing=0)
         self.set_width(round(line * CARD_LINES) + 4)
+        follow_words(self, self._say)
+
+    def _say(self) -> None:
+        title, sentence = tr(self.example.title), tr(self.example.sentence)
+        self.setAccessibleName(f"{title}. {sentence}")
+        self.setAccessibleDescription(self.signs.accessibleName())
+        self.setToolTip("\n".join(f"• {tr(each.words)}" for each in self.example.tries))
+        self._fit_height()
 
     def _buttons(self, title: str, line: int) -> Flow:
         row = Flow(spacing=line // 3)
@@ -384,15 +381,6 @@ class Gallery(QWidget):
         self._painting.timeout.connect(self._on_paint_next)
         self._settling = QTimer(self, singleShot=True, interval=SETTLED_MS)
         self._settling.timeout.connect(self._on_settled)
-        self._fill()
-        studio.words_changed.connect(self._on_words_changed)
-
-    def _on_words_changed(self) -> None:
-        """Paint the blocks in other words, one example at a time."""
-        self._unpainted = list(self._cards)
-        self._painting.start()
-
-    def _fill(self) -> None:
         line = self.fontMetrics().height()
         box = in_column(
             self._search_row(line), self._tag_row(line), of=self, margins=0, spacing=line // 2
@@ -406,6 +394,12 @@ class Gallery(QWidget):
         self._grid.setSpacing(line)
         self._grid.setAlignment(Qt.AlignmentFlag.AlignLeading | Qt.AlignmentFlag.AlignTop)
         box.addLayout(self._grid)
+        studio.words_changed.connect(self._on_words_changed)
+
+    def _on_words_changed(self) -> None:
+        """Paint the blocks in other words, one example at a time."""
+        self._unpainted = list(self._cards)
+        self._painting.start()
 
     @property
     def cards(self) -> dict[Path, Card]:

@@ -123,13 +123,13 @@ class ComparingDialog(QDialog):
         self.list.setWordWrap(True)
         self.list.setAccessibleName(tr("What is different"))
         for difference in self.differences:
-            self.list.addItem(_item(difference))
+            item = QListWidgetItem(_words(difference))
+            item.setData(Qt.ItemDataRole.UserRole, difference.block)
+            if difference.what == "removed":
+                item.setToolTip(tr("It is not there any more, so it cannot be shown."))
+            self.list.addItem(item)
         self.list.itemClicked.connect(self._on_item_chosen)
         self.list.itemActivated.connect(self._on_item_chosen)
-        self._lay_out()
-        document.destroyed.connect(self.close)
-
-    def _lay_out(self) -> None:
         line = self.fontMetrics().height()
         self.words = QLabel(self._told(), wordWrap=True)
         box = in_column(self.words, of=self, margins=line, spacing=line // 2)
@@ -140,6 +140,7 @@ class ComparingDialog(QDialog):
         close.clicked.connect(self.close)
         box.addWidget(close, 0, Qt.AlignmentFlag.AlignTrailing)
         self.resize(line * WIDTH_LINES, line * (HEIGHT_LINES if self.differences else 6))
+        document.destroyed.connect(self.close)
 
     def _told(self) -> str:
         if self.differences:
@@ -166,14 +167,6 @@ def compare_with_saved(window: MainWindow) -> None:
     dialog = ComparingDialog(document, saved, window.workbench.show_block, window)
     window.studio.words_changed.connect(dialog.reject)  # it speaks the language of before
     dialog.show()
-
-
-def _item(difference: Difference) -> QListWidgetItem:
-    item = QListWidgetItem(_words(difference))
-    item.setData(Qt.ItemDataRole.UserRole, difference.block)
-    if difference.what == "removed":
-        item.setToolTip(tr("It is not there any more, so it cannot be shown."))
-    return item
 
 
 def _words(difference: Difference) -> str:

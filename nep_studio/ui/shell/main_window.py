@@ -400,15 +400,6 @@ class MainWindow(QMainWindow):
             event.ignore()
             self.files.guard(self.close_now)
             return
-        self._remember()
-        super().closeEvent(event)
-
-    def close_now(self) -> None:
-        """Close without asking."""
-        self._may_close = True
-        self.close()
-
-    def _remember(self) -> None:
         self.settings.set_state("geometry", self.saveGeometry())
         is_complete = self.lazy.is_done
         self.lazy.stop()
@@ -422,6 +413,12 @@ class MainWindow(QMainWindow):
             self.workbench.retire()
         if self.files.document is not None:
             self.files.document.close()
+        super().closeEvent(event)
+
+    def close_now(self) -> None:
+        """Close without asking."""
+        self._may_close = True
+        self.close()
 
     def dragEnterEvent(self, event: QDragEnterEvent) -> None:
         """Take a project that is dragged onto the window."""

@@ -437,7 +437,12 @@ def dress_toolbar(bar: QToolBar) -> None:
     """Let the icons be as large as the text asks for."""
     side = round(bar.fontMetrics().height() * 1.25)
     bar.setIconSize(icon_room(side))
-    _dress_rest(bar, side)
+    # The button behind which a bar keeps what it has no room for: Qt's is black
+    more = bar.findChild(QToolButton, "qt_toolbar_ext_button")
+    if more is not None:
+        more.setIcon(icon("chevron-down", bar.palette().color(QPalette.ColorRole.WindowText)))
+        more.setIconSize(QSize(side, side))  # Qt makes it as narrow as it likes
+        labelled(more, tip="More", name="More")
     size_toolbar(bar)
 
 
@@ -463,15 +468,6 @@ def size_toolbar(bar: QToolBar) -> None:
             layout.invalidate()  # it would keep the width that it had with other words
         if bar.sizeHint().width() <= bar.window().width():
             return
-
-
-def _dress_rest(bar: QToolBar, side: int) -> None:
-    """The button behind which a bar keeps what it has no room for: Qt's is black."""
-    more = bar.findChild(QToolButton, "qt_toolbar_ext_button")
-    if more is not None:
-        more.setIcon(icon("chevron-down", bar.palette().color(QPalette.ColorRole.WindowText)))
-        more.setIconSize(QSize(side, side))  # Qt makes it as narrow as it likes
-        labelled(more, tip="More", name="More")
 
 
 def _themes() -> list[tuple[str, Words]]:

@@ -78,7 +78,14 @@ class LookPage(QWidget):
         self.theme.choose(settings.theme)
         self.text_size = QSlider(Qt.Orientation.Horizontal)
         self.text_percent = QLabel()
-        self._set_up_slider(settings.text_scale)
+        scale = settings.text_scale
+        slider = self.text_size
+        slider.setRange(
+            round(100 * SMALLEST_TEXT / TEXT_STEP), round(100 * LARGEST_TEXT / TEXT_STEP)
+        )
+        slider.setPageStep(5)
+        slider.setValue(round(100 * scale / TEXT_STEP))
+        self._show_percent(slider.value())
         form = _form(self)
         form.addRow(label_of("Language", self.language), self.language)
         form.addRow(label_of("Theme", self.theme), self.theme)
@@ -87,15 +94,6 @@ class LookPage(QWidget):
         self.text_size.valueChanged.connect(self._show_percent)
         self.text_size.sliderReleased.connect(self.size_chosen)
         self.text_size.actionTriggered.connect(self._on_size_stepped)
-
-    def _set_up_slider(self, scale: float) -> None:
-        slider = self.text_size
-        slider.setRange(
-            round(100 * SMALLEST_TEXT / TEXT_STEP), round(100 * LARGEST_TEXT / TEXT_STEP)
-        )
-        slider.setPageStep(5)
-        slider.setValue(round(100 * scale / TEXT_STEP))
-        self._show_percent(slider.value())
 
     def _size_row(self) -> QHBoxLayout:
         row = in_row((self.text_size, 1), self.text_percent)
@@ -468,8 +466,26 @@ class SettingsDialog(QDialog):
         self.cancel_button = labelled(QPushButton(), text="Cancel")
         self.close_button = labelled(QPushButton(), text="Done")
         self.pages = QTabWidget()
-        self._lay_out()
-        self._fill()
+        line = self.fontMetrics().height()
+        buttons = in_row(self.reset_button, 1, self.cancel_button, self.close_button)
+        self.close_button.setDefault(True)
+        self.cancel_button.setAutoDefault(False)
+        self.reset_button.setAutoDefault(False)
+        in_column((self.pages, 1), buttons, of=self, margins=line, spacing=line)
+        self.setMinimumWidth(line * 34)
+        # Make the pages
+        settings = self._studio.settings
+        look = LookPage(settings)
+        self.language, self.theme = look.language, look.theme
+        self.text_size: QSlider = look.text_size
+        self.language.activated.connect(self._on_language_chosen)
+        self.theme.activated.connect(self._on_theme_chosen)
+        look.size_chosen.connect(self._on_size_chosen)
+        self.folders, self.show_page = FoldersPage(settings), ShowPage(settings)
+        self.network_page, self.privacy = NetworkPage(settings), PrivacyPage(settings)
+        for page in (look, self.folders, self.show_page, self.network_page, self.privacy):
+            self.pages.addTab(page, "")
+        labelled_items(self.pages, "Look", "Folders", "Show mode", "Network", "Privacy")
         self.cancel_button.clicked.connect(self.reject)
         self.close_button.clicked.connect(self.accept)
 
@@ -489,30 +505,6 @@ class SettingsDialog(QDialog):
             studio.choose_text_scale(before.text_scale)
         if settings.language != before.language:
             studio.choose_language(before.language)
-
-    def _lay_out(self) -> None:
-        line = self.fontMetrics().height()
-        buttons = in_row(self.reset_button, 1, self.cancel_button, self.close_button)
-        self.close_button.setDefault(True)
-        self.cancel_button.setAutoDefault(False)
-        self.reset_button.setAutoDefault(False)
-        in_column((self.pages, 1), buttons, of=self, margins=line, spacing=line)
-        self.setMinimumWidth(line * 34)
-
-    def _fill(self) -> None:
-        """Make the pages."""
-        settings = self._studio.settings
-        look = LookPage(settings)
-        self.language, self.theme = look.language, look.theme
-        self.text_size: QSlider = look.text_size
-        self.language.activated.connect(self._on_language_chosen)
-        self.theme.activated.connect(self._on_theme_chosen)
-        look.size_chosen.connect(self._on_size_chosen)
-        self.folders, self.show_page = FoldersPage(settings), ShowPage(settings)
-        self.network_page, self.privacy = NetworkPage(settings), PrivacyPage(settings)
-        for page in (look, self.folders, self.show_page, self.network_page, self.privacy):
-            self.pages.addTab(page, "")
-        labelled_items(self.pages, "Look", "Folders", "Show mode", "Network", "Privacy")
 
     def _on_language_chosen(self) -> None:
         self._studio.choose_language(self.language.currentData())

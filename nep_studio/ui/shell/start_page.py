@@ -50,11 +50,6 @@ class TourOffer(QFrame):
             ReadingLabel(), text="New here? Five short steps show how a robot gets its behaviour."
         )
         self.words.setWordWrap(True)
-        words = in_column(self.words, self._answers(line))
-        box.addLayout(words, 1)
-        self.setVisible(not studio.settings.tour_done)
-
-    def _answers(self, line: int) -> Flow:
         row = Flow(spacing=line // 3)
         self.take_button = labelled(QPushButton(), text="Take the tour")
         self.take_button.setIcon(icon("footprints", self._studio.look.theme))
@@ -66,7 +61,9 @@ class TourOffer(QFrame):
         self.leave_button.clicked.connect(self._on_left)
         row.addWidget(self.take_button)
         row.addWidget(self.leave_button)
-        return row
+        words = in_column(self.words, row)
+        box.addLayout(words, 1)
+        self.setVisible(not studio.settings.tour_done)
 
     def _on_taken(self) -> None:
         self._on_left()
@@ -124,18 +121,15 @@ class StartPage(QScrollArea):
         box.addLayout(self._recent)
         self._examples_heading = _heading("Examples to try and change", line)
         box.addWidget(self._examples_heading)
-        box.addWidget(self._make_gallery())
-        box.addStretch(1)
-        self._fill_recent()
-        self.setWidget(inner)
-        self._fit()
-
-    def _make_gallery(self) -> Gallery:
         gallery = self.gallery = Gallery(self._studio)
         gallery.opened.connect(self._files.open_example)
         gallery.try_requested.connect(self.try_requested)
         gallery.focus_moved.connect(lambda widget: self.ensureWidgetVisible(widget, 0, 50))
-        return gallery
+        box.addWidget(gallery)
+        box.addStretch(1)
+        self._fill_recent()
+        self.setWidget(inner)
+        self._fit()
 
     def _margin(self) -> int:
         """Much room at the sides, but not in a narrow window."""

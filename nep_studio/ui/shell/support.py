@@ -75,7 +75,11 @@ class SupportDialog(QDialog):
         self._process = QProcess(self)
         self._process.finished.connect(self._on_finished)
         self._process.errorOccurred.connect(self._on_error)
-        self._begin()
+        self._show_buttons()
+        self.state.setText(tr("Looking at this computer…"))
+        program, *arguments = program_command("doctor", "--json")
+        self._process.start(program, arguments)
+        self._process.closeWriteChannel()
 
     def done(self, result: int) -> None:
         """End what still looks at the computer; nobody reads it."""
@@ -120,13 +124,6 @@ class SupportDialog(QDialog):
         width = min(letter.averageCharWidth() * COLUMNS, room.width())
         height = min(letter.lineSpacing() * LINES, room.height() * 3 // 4)
         self.resize(width + 2 * line, height + 6 * line)
-
-    def _begin(self) -> None:
-        self._show_buttons()
-        self.state.setText(tr("Looking at this computer…"))
-        program, *arguments = program_command("doctor", "--json")
-        self._process.start(program, arguments)
-        self._process.closeWriteChannel()
 
     def _on_finished(self) -> None:
         try:
@@ -228,29 +225,36 @@ def ask() -> bool:
 def tell_how_it_runs(window: MainWindow) -> None:
     """Tell what is unusual, and look for a newer version if the person wants that."""
     if safe_mode.is_on():
-        window.messages.tell(_safe_mode(window))
+        sentence = tr(
+            "Your settings, snippets and own nodes are left out, and settings that you change are"
+            " not kept. Work that was not saved is offered again at the next usual start."
+        )
+        steps = (
+            tr("Does all work here? Then set your settings aside, and start as usual."),
+            tr("If it fails again, send a report to those who help you."),
+        )
+        answers = (
+            Answer(tr("Set the settings aside"), lambda: _set_aside(window)),
+            Answer(tr("Report for support…"), lambda: show_report(window)),
+        )
+        window.messages.tell(
+            Message("info", tr("This is safe mode"), sentence, steps, answers=answers)
+        )
     if folder := portable.not_kept():
-        window.messages.tell(_nothing_kept(str(folder)))
+        sentence = tr(
+            "The program cannot write into {folder}. Settings, logs and unsaved work are gone when"
+            " it ends.",
+            folder=str(folder),
+        )
+        steps = (
+            tr("Is the stick write-protected, or full?"),
+            tr("Save your projects in another place."),
+        )
+        window.messages.tell(Message("warning", tr("Nothing is kept"), sentence, steps))
     if UpdateChoice(window.settings).is_wanted and not safe_mode.is_on():
         from .settings_dialog import ask_if_due
 
         ask_if_due(window)
-
-
-def _safe_mode(window: MainWindow) -> Message:
-    sentence = tr(
-        "Your settings, snippets and own nodes are left out, and settings that you change are"
-        " not kept. Work that was not saved is offered again at the next usual start."
-    )
-    steps = (
-        tr("Does all work here? Then set your settings aside, and start as usual."),
-        tr("If it fails again, send a report to those who help you."),
-    )
-    answers = (
-        Answer(tr("Set the settings aside"), lambda: _set_aside(window)),
-        Answer(tr("Report for support…"), lambda: show_report(window)),
-    )
-    return Message("info", tr("This is safe mode"), sentence, steps, answers=answers)
 
 
 def _set_aside(window: MainWindow) -> None:
@@ -261,19 +265,6 @@ def _set_aside(window: MainWindow) -> None:
         window.messages.tell(Message("success", title, sentence))
     else:
         window.messages.tell(Message("info", tr("There are no settings to set aside")))
-
-
-def _nothing_kept(folder: str) -> Message:
-    sentence = tr(
-        "The program cannot write into {folder}. Settings, logs and unsaved work are gone when"
-        " it ends.",
-        folder=folder,
-    )
-    steps = (
-        tr("Is the stick write-protected, or full?"),
-        tr("Save your projects in another place."),
-    )
-    return Message("warning", tr("Nothing is kept"), sentence, steps)
 
 
 # Offers work that was not saved when the program ended without warning.
@@ -301,11 +292,6 @@ class RecoveryDialog(QDialog):
         self.look_button = QPushButton(tr("Look"))
         self.discard_button = QPushButton(tr("Discard"))
         self.later_button = QPushButton(tr("Decide later"))
-        self._lay_out()
-        self._connect()
-        self._fill()
-
-    def _lay_out(self) -> None:
         line = self.fontMetrics().height()
         box = in_column(
             _label(tr("Some work was not saved"), "title"), of=self, margins=line, spacing=line // 2
@@ -324,6 +310,8 @@ class RecoveryDialog(QDialog):
         self.restore_button.setDefault(True)
         self.list.setMinimumSize(line * WIDTH_LINES, line * 5)
         self.list.setAccessibleName(tr("Work that was not saved"))
+        self._connect()
+        self._fill()
 
     def _connect(self) -> None:
         self.list.itemDoubleClicked.connect(self._on_restore)

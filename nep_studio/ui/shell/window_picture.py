@@ -68,7 +68,10 @@ def main(arguments: list[str]) -> int:
     from .app import make_application
     from .main_window import MainWindow
 
-    asked = _parser().parse_args(arguments)
+    parser = argparse.ArgumentParser(prog="nep-studio picture", description="Draw the window.")
+    parser.add_argument("picture", type=Path, metavar="FILE.png")
+    parser.add_argument("project", type=Path, nargs="?", metavar="FILE.nep")
+    asked = parser.parse_args(arguments)
     app = make_application()
     window = MainWindow(Studio(app), is_gradual=True)
     painted = _FirstPaint(window)
@@ -83,10 +86,3 @@ def main(arguments: list[str]) -> int:
     report = {"platform": app.platformName(), "drawn": is_drawn}
     print(json.dumps({**report, "painted_at": painted.at_s, "cpu_s": painted.cpu_s}))
     return 0 if is_drawn else FAILED
-
-
-def _parser() -> argparse.ArgumentParser:
-    parser = argparse.ArgumentParser(prog="nep-studio picture", description="Draw the window.")
-    parser.add_argument("picture", type=Path, metavar="FILE.png")
-    parser.add_argument("project", type=Path, nargs="?", metavar="FILE.nep")
-    return parser

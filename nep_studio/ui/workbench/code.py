@@ -199,12 +199,6 @@ class CodePane(QWidget):
         self.note.hide()
         self.copy_button, self.edit_button = QPushButton(), QPushButton()
         self.apply_button, self.discard_button = QPushButton(), QPushButton()
-        self._lay_out()
-        self._connect()
-        self._on_theme_changed()
-        follow_words(self, self._show_buttons)
-
-    def _lay_out(self) -> None:
         labelled(self, name="Code")
         self.apply_button.setProperty("kind", "primary")
         gap = self.fontMetrics().height() // 3
@@ -217,6 +211,9 @@ class CodePane(QWidget):
         QVBoxLayout(self.note)
         in_column(self.buttons, self.note, (self.text, 1), of=self, margins=0, spacing=0)
         self.text.setStyleSheet("QPlainTextEdit { border: none; border-radius: 0; }")
+        self._connect()
+        self._on_theme_changed()
+        follow_words(self, self._show_buttons)
 
     def _connect(self) -> None:
         self.live.began.connect(self._on_code_began)

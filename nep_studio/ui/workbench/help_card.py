@@ -78,22 +78,20 @@ class HelpCard(QFrame):
         head.moveTopLeft(viewport.mapToGlobal(head.topLeft()))
         room = room_around(self._canvas)
         self.ensurePolished()
-        self.resize(self._size(room.height() * 2 // 3).expandedTo(self.minimumSizeHint()))
-        mirrored = self._canvas.look.measures.is_mirrored
-        self.move(beside(head, self.size(), room, is_mirrored=mirrored))
-        self.show()
-        # shown, it may be larger than it was made: its style is known only now
-        self.move(beside(head, self.size(), room, is_mirrored=mirrored))
-        self.text.setFocus(Qt.FocusReason.PopupFocusReason)
-
-    def _size(self, most: int) -> QSize:
+        most = room.height() * 2 // 3
         line = self.fontMetrics().height()
         width = self.fontMetrics().averageCharWidth() * WIDTH_LETTERS
         document = self.text.document()
         document.setTextWidth(width - 2 * line)
         below = 0 if self.more.isHidden() else self.more.sizeHint().height()
         wanted = round(document.size().height()) + 2 * line + below
-        return QSize(width, min(wanted, most))
+        self.resize(QSize(width, min(wanted, most)).expandedTo(self.minimumSizeHint()))
+        mirrored = self._canvas.look.measures.is_mirrored
+        self.move(beside(head, self.size(), room, is_mirrored=mirrored))
+        self.show()
+        # shown, it may be larger than it was made: its style is known only now
+        self.move(beside(head, self.size(), room, is_mirrored=mirrored))
+        self.text.setFocus(Qt.FocusReason.PopupFocusReason)
 
     def keyPressEvent(self, event: QKeyEvent) -> None:
         """Esc takes it away, F1 leads to the page."""

@@ -73,7 +73,12 @@ class PagesBar(QWidget):
         kinds = [project.kind_of_page(page) for page in project.pages]
         position = len(kinds) - kinds[::-1].index("behaviour")
         page = project.new_id("page")
-        edit = AddPage(page, self._free_title(), position)
+        project = self._editor.project
+        taken = {page_title(project, page) for page in project.pages}
+        number = 2
+        while (title := tr("Behaviour {number}", number=number)) in taken:
+            number += 1
+        edit = AddPage(page, title, position)
         if self._attempt(lambda: self._editor.apply(edit)):
             self.page_chosen.emit(page)
 
@@ -90,14 +95,6 @@ class PagesBar(QWidget):
         """Delete a page with all that is on it; it can be undone."""
         page = list(self._editor.project.pages)[index]
         self._attempt(lambda: self._editor.delete_page(page))
-
-    def _free_title(self) -> str:
-        project = self._editor.project
-        taken = {page_title(project, page) for page in project.pages}
-        number = 2
-        while (title := tr("Behaviour {number}", number=number)) in taken:
-            number += 1
-        return title
 
     def _on_whole_changed(self, changes: Changes) -> None:
         self._fill()

@@ -20,7 +20,7 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from faults import Words, text_of
+from faults import text_of
 from nep_studio.blocks.checks.diagnostic import Diagnostic
 from nep_studio.ui.labels import labelled
 from nep_studio.ui.message_cards import ChecklistStep, MessageText
@@ -123,7 +123,9 @@ class ProblemRow(QFrame):
         kind, sentence = text_of(SEVERITIES[problem.severity]), text_of(problem.sentence)
         labelled(self, name=text_of("{name}: {kind}", name=kind, kind=sentence))
         row = in_row((_sign(problem, look, self), 0, Qt.AlignmentFlag.AlignTop), of=self)
-        words = in_column(_words(sentence))
+        label = labelled(QLabel(textFormat=Qt.TextFormat.PlainText, wordWrap=True), text=sentence)
+        label.setProperty("role", "heading")
+        words = in_column(label)
         for step in problem.checklist:
             words.addWidget(ChecklistStep(step))
         row.addLayout(words, 1)
@@ -150,12 +152,6 @@ def _sign(problem: Diagnostic, look: Look, widget: QWidget) -> QLabel:
     colour, ratio = look.theme.colour(problem.severity), widget.devicePixelRatioF()
     label.setPixmap(icon_pixmap(KIND_ICONS[problem.severity], colour, size, ratio))
     return labelled(label, tip=SEVERITIES[problem.severity])
-
-
-def _words(text: Words) -> QLabel:
-    label = labelled(QLabel(textFormat=Qt.TextFormat.PlainText, wordWrap=True), text=text)
-    label.setProperty("role", "heading")
-    return label
 
 
 def _all_well(look: Look) -> QWidget:

@@ -224,21 +224,18 @@ class TrashButton(QAbstractButton):
             inner = line * (0.45 if self._is_taking else 0.65)
             paint_icon(painter, rect.adjusted(inner, inner, -inner, -inner), "trash-2", sign)
             if self.trash.clips:
-                self._paint_count(painter, rect)
-
-    def _paint_count(self, painter: QPainter, rect: QRectF) -> None:
-        theme, line = self.canvas.look.theme, self.fontMetrics().height()
-        side = line * 1.05
-        badge = QRectF(rect.right() - side, rect.top(), side, side)
-        painter.setPen(Qt.PenStyle.NoPen)
-        painter.setBrush(theme.colour("accent"))
-        painter.drawEllipse(badge)
-        font = self.font()
-        font.setPointSizeF(font.pointSizeF() * 0.75)
-        font.setBold(True)
-        painter.setFont(font)
-        painter.setPen(theme.colour("accent_text"))
-        painter.drawText(badge, Qt.AlignmentFlag.AlignCenter, str(len(self.trash.clips)))
+                theme, line = self.canvas.look.theme, self.fontMetrics().height()
+                side = line * 1.05
+                badge = QRectF(rect.right() - side, rect.top(), side, side)
+                painter.setPen(Qt.PenStyle.NoPen)
+                painter.setBrush(theme.colour("accent"))
+                painter.drawEllipse(badge)
+                font = self.font()
+                font.setPointSizeF(font.pointSizeF() * 0.75)
+                font.setBold(True)
+                painter.setFont(font)
+                painter.setPen(theme.colour("accent_text"))
+                painter.drawText(badge, Qt.AlignmentFlag.AlignCenter, str(len(self.trash.clips)))
 
     def _take_place(self) -> None:
         """In the corner where lines end: blocks begin at the other side."""

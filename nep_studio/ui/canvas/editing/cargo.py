@@ -151,16 +151,13 @@ class NewBlocks(Cargo):
             self.chains.append(chain)
         self._at = at
         if hold is not None:
-            self._hold(canvas, hold)
-
-    def _hold(self, canvas: CanvasHost, hold: Point) -> None:
-        """Shift the blocks so that a point of the first one is where its corner was."""
-        box = self.chains[0].boxes[0]
-        side = 1 if canvas.look.measures.is_mirrored else -1
-        dx, dy = side * min(hold[0], box.width / 2), -min(hold[1], box.height / 2)
-        for chain in self.chains:
-            chain.x, chain.y = chain.x + dx, chain.y + dy
-        self._at = self._at[0] + dx, self._at[1] + dy
+            # Shift the blocks so that a point of the first one is where its corner was
+            box = self.chains[0].boxes[0]
+            side = 1 if canvas.look.measures.is_mirrored else -1
+            dx, dy = side * min(hold[0], box.width / 2), -min(hold[1], box.height / 2)
+            for chain in self.chains:
+                chain.x, chain.y = chain.x + dx, chain.y + dy
+            self._at = self._at[0] + dx, self._at[1] + dy
 
     def why_not(self, canvas: CanvasHost, target: Target) -> Text | None:
         """Why it does not fit into a place, or None when it does."""

@@ -151,7 +151,13 @@ class Keyboard:
         if rule is not None:
             rule()
             return True
-        return self._typed(event)
+        # A letter begins a new block by its name
+        held = event.modifiers() & ~(Modifier.ShiftModifier | Modifier.KeypadModifier)
+        text = event.text()
+        if held or not text or not text.isprintable() or text.isspace():
+            return False
+        self.type_letter("" if text == "/" else text)
+        return True
 
     def pick_up(self, *, alone: bool = False) -> None:
         """Take the block at the cursor, or the selection, into the hand."""
@@ -251,15 +257,6 @@ class Keyboard:
             self._canvas.pointing.gesture = None
         else:
             self._canvas.selection.clear()
-
-    def _typed(self, event: QKeyEvent) -> bool:
-        """A letter begins a new block by its name."""
-        held = event.modifiers() & ~(Modifier.ShiftModifier | Modifier.KeypadModifier)
-        text = event.text()
-        if held or not text or not text.isprintable() or text.isspace():
-            return False
-        self.type_letter("" if text == "/" else text)
-        return True
 
     def _carried(self) -> KeyboardCarry:
         gesture = self._canvas.pointing.gesture

@@ -117,7 +117,11 @@ class Stacks(Mapping[str, Chain]):
 
     def _wait(self, stack_id: str, count: int) -> None:
         self.waiting[stack_id] = None
-        self.index.set(stack_id, self._enough(stack_id, count))
+        # A rectangle that holds a stack, however its sentences are broken into rows
+        stack, measures = self._layout.project.stacks[stack_id], self._layout.measures
+        width = 2 * measures.widest
+        left = stack.x - (width if measures.is_mirrored else 0.0)
+        self.index.set(stack_id, Rect(left, stack.y, width, (count + 2) * 2 * measures.row_height))
 
     def _count(self, stack_id: str) -> int:
         """How many blocks a stack has."""
@@ -130,13 +134,6 @@ class Stacks(Mapping[str, Chain]):
             if block.inputs or block.bodies:
                 waiting.extend(block.children())
         return count
-
-    def _enough(self, stack_id: str, count: int) -> Rect:
-        """A rectangle that holds a stack, however its sentences are broken into rows."""
-        stack, measures = self._layout.project.stacks[stack_id], self._layout.measures
-        width = 2 * measures.widest
-        left = stack.x - (width if measures.is_mirrored else 0.0)
-        return Rect(left, stack.y, width, (count + 2) * 2 * measures.row_height)
 
 
 # What of a stack must be painted again: its old and its new layout are compared.

@@ -149,10 +149,7 @@ class Notes:
         painter.setPen(QPen(view.look.theme.colour("focus"), 2.5 * pixel))
         painter.setBrush(Qt.BrushStyle.NoBrush)
         painter.drawRoundedRect(QRectF(*rect), 4, 4)
-        self._paint_corner(painter, rect)
-
-    def _paint_corner(self, painter: QPainter, rect: Rect) -> None:
-        """The lines at which the note is made larger."""
+        # The lines at which the note is made larger
         is_mirrored = self._view.look.measures.is_mirrored
         painter.setPen(QPen(self._view.look.theme.colour("note_text"), 1.5))
         for inset in (5.0, 10.0):

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 from PySide6.QtCore import QPointF, QRectF, Qt
-from PySide6.QtGui import QBrush, QColor, QFont, QPainter, QPainterPath, QPen
+from PySide6.QtGui import QBrush, QColor, QFont, QPainter, QPen
 
 from nep_studio.blocks.language import Language
 from nep_studio.ui.canvas.layout.boxes import Box, Measures, Piece, Texts, TextWidths
@@ -80,7 +80,10 @@ class PiecePainter:
             painter.setPen(colours.field_text)
             self._centred(painter, piece, left, room)
         elif piece.hint:
-            self._hint(painter, piece, self._faint(colours.field_text), left, room)
+            # The colour of a hint on a field
+            faint = QColor(colours.field_text)
+            faint.setAlphaF(0.66)
+            self._hint(painter, piece, faint, left, room)
 
     def _centred(self, painter: QPainter, piece: Piece, left: float, room: float) -> None:
         line = self._measures.line
@@ -140,12 +143,6 @@ class PiecePainter:
             self._shades[key] = shade
         return shade
 
-    def _faint(self, colour: QColor) -> QColor:
-        """The colour of a hint on a field."""
-        faint = QColor(colour)
-        faint.setAlphaF(0.66)
-        return faint
-
 
 SMALLEST_TEXT_SCALE = 0.4
 """Below this zoom words cannot be read, and are not painted."""
@@ -177,7 +174,11 @@ class BlockPainter:
             x, y = placed.x, placed.y
             box = placed.box
             if box.outline == "gap":
-                self._paint_gap(painter, box)
+                colour = self.theme.colour("snap")
+                colour.setAlphaF(0.28)
+                painter.setPen(QPen(self.theme.colour("snap"), 2 * self._measures.unit))
+                painter.setBrush(colour)
+                painter.drawPath(self.outlines.of(box))
                 continue
             look = self._looks.get((box.type, box.is_disabled))
             colours, brush, pen = look or self.look_of(box)
@@ -186,7 +187,10 @@ class BlockPainter:
             painter.setBrush(brush)
             painter.drawPath(path)
             if box.is_disabled:
-                _hatch(painter, path, colours.line)
+                # Stripes: what is switched off shows it by more than its colour
+                faint = QColor(colours.line)
+                faint.setAlphaF(0.35)
+                painter.fillPath(path, QBrush(faint, Qt.BrushStyle.BDiagPattern))
             for piece in box.pieces if detail else ():
                 self._pieces.paint(painter, piece, colours, with_text=detail == 2)
         painter.translate(-x, -y)
@@ -201,20 +205,6 @@ class BlockPainter:
             pen = QPen(colours.line, 1.2 * self._measures.unit)
             look = self._looks[box.type, box.is_disabled] = (colours, QBrush(colours.fill), pen)
         return look
-
-    def _paint_gap(self, painter: QPainter, box: Box) -> None:
-        colour = self.theme.colour("snap")
-        colour.setAlphaF(0.28)
-        painter.setPen(QPen(self.theme.colour("snap"), 2 * self._measures.unit))
-        painter.setBrush(colour)
-        painter.drawPath(self.outlines.of(box))
-
-
-def _hatch(painter: QPainter, path: QPainterPath, colour: QColor) -> None:
-    """Stripes: what is switched off shows it by more than its colour."""
-    faint = QColor(colour)
-    faint.setAlphaF(0.35)
-    painter.fillPath(path, QBrush(faint, Qt.BrushStyle.BDiagPattern))
 
 
 class Look:

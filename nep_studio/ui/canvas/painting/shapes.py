@@ -150,9 +150,21 @@ def paint_marks(
         sides = (QPointF(-4, -2), QPointF(0, 2.5), QPointF(4, -2))
         painter.drawPolyline([at + side * unit for side in sides])
     if piece.mark == "tick" and piece.amount:
-        _tick(painter, middle, 5 * unit)
+        half = 5 * unit
+        painter.drawPolyline(
+            [
+                middle + QPointF(-half, 0),
+                middle + QPointF(-half * 0.25, half * 0.75),
+                middle + QPointF(half, -half * 0.75),
+            ]
+        )
     elif piece.mark == "dial":
-        _dial(painter, start, 6 * unit, piece.amount)
+        # A circle with a hand: 0 is up, positive to the left
+        radius = 6 * unit
+        angle = math.radians(piece.amount)
+        painter.drawEllipse(start, radius, radius)
+        tip = start + QPointF(-radius * 0.85 * math.sin(angle), -radius * 0.85 * math.cos(angle))
+        painter.drawLine(start, tip)
     elif piece.mark == "bar":
         is_mirrored = measures.is_mirrored
         _bar(painter, rect, colours, unit, piece.amount, is_mirrored=is_mirrored)
@@ -180,24 +192,6 @@ def paint_sign(
 def round_pen(colour: QColor, width: float) -> QPen:
     """A pen with round ends."""
     return QPen(colour, width, Qt.PenStyle.SolidLine, Qt.PenCapStyle.RoundCap)
-
-
-def _tick(painter: QPainter, at: QPointF, half: float) -> None:
-    painter.drawPolyline(
-        [
-            at + QPointF(-half, 0),
-            at + QPointF(-half * 0.25, half * 0.75),
-            at + QPointF(half, -half * 0.75),
-        ]
-    )
-
-
-def _dial(painter: QPainter, at: QPointF, radius: float, degrees: float) -> None:
-    """A circle with a hand: 0 is up, positive to the left."""
-    angle = math.radians(degrees)
-    painter.drawEllipse(at, radius, radius)
-    tip = at + QPointF(-radius * 0.85 * math.sin(angle), -radius * 0.85 * math.cos(angle))
-    painter.drawLine(at, tip)
 
 
 def _bar(

@@ -53,15 +53,12 @@ class CategoryColumn(QScrollArea):
             self._shown = shown
             self._make(drawers, theme)
         for drawer in (*drawers, recent_drawer()):
-            self._say(drawer)
+            button = self.buttons.get(drawer.id, self._to_come)
+            if button is not None:
+                button.setText(drawer.title)
+                button.setToolTip(drawer.title)
+                button.setAccessibleName(drawer.title)
         self._fit()
-
-    def _say(self, drawer: Drawer) -> None:
-        button = self.buttons.get(drawer.id, self._to_come)
-        if button is not None:
-            button.setText(drawer.title)
-            button.setToolTip(drawer.title)
-            button.setAccessibleName(drawer.title)
 
     def _make(self, drawers: Sequence[Drawer], theme: Theme) -> None:
         inner = QWidget()

@@ -254,7 +254,12 @@ class Palette(QWidget):
         self._history: History | None = None
         self._goes_to_top = False
         self._later = QTimer(self, singleShot=True, interval=0)
-        self._arrange()
+        self.fold.setAutoRaise(True)
+        self.search.setClearButtonEnabled(True)
+        self.search.addAction(self._sign, QLineEdit.ActionPosition.LeadingPosition)
+        top = in_row(self.fold, (self.search, 1), margins=(4, 4, 4, 2))
+        below = in_row(self.categories, (self.shelf, 1), spacing=0)
+        in_column(top, (below, 1), of=self, margins=0, spacing=0)
         self._connect()
         add_delete_area(canvas, self)
         labelled(self, name="Palette")
@@ -358,14 +363,6 @@ class Palette(QWidget):
             self.snippet_menu.ask_to_import()
 
     # Put together
-
-    def _arrange(self) -> None:
-        self.fold.setAutoRaise(True)
-        self.search.setClearButtonEnabled(True)
-        self.search.addAction(self._sign, QLineEdit.ActionPosition.LeadingPosition)
-        top = in_row(self.fold, (self.search, 1), margins=(4, 4, 4, 2))
-        below = in_row(self.categories, (self.shelf, 1), spacing=0)
-        in_column(top, (below, 1), of=self, margins=0, spacing=0)
 
     def _connect(self) -> None:
         canvas = self.canvas

@@ -145,25 +145,22 @@ class ShelfLayout:
         if entry.kind == "block":
             return self._blocks(entry, y, [layout.chain([entry.sample])])
         if entry.snippet is not None:
-            return self._snippet(entry, y)
+            assert entry.snippet is not None
+            project = entry.snippet.clip.project
+            language = self._canvas.editor.language.of(project)
+            layout = Layout(project, language, self.measures)
+            chains = [layout.chain(stack.body) for stack in entry.snippet.clip.stacks[:1]]
+            spot = self._blocks(entry, y, chains)
+            spot.painter = BlockPainter(
+                self._canvas.look.theme, language, self.measures, self._canvas.look.block_font
+            )
+            spot.height += 1.4 * self.line
+            return spot
         if entry.kind == "words":
             words = self.measures.text_width(entry.text) * self.size
             rows = words / max(self.width - 2 * self.margin, 1) + 1
             return Spot(entry, y, line * 1.3 * int(rows + 0.5))
         return Spot(entry, y, line * (2.0 if entry.kind == "button" else 1.9))
-
-    def _snippet(self, entry: Entry, y: float) -> Spot:
-        assert entry.snippet is not None
-        project = entry.snippet.clip.project
-        language = self._canvas.editor.language.of(project)
-        layout = Layout(project, language, self.measures)
-        chains = [layout.chain(stack.body) for stack in entry.snippet.clip.stacks[:1]]
-        spot = self._blocks(entry, y, chains)
-        spot.painter = BlockPainter(
-            self._canvas.look.theme, language, self.measures, self._canvas.look.block_font
-        )
-        spot.height += 1.4 * self.line
-        return spot
 
     def _blocks(self, entry: Entry, y: float, chains: list[Chain]) -> Spot:
         chain = chains[0]
@@ -207,9 +204,23 @@ class ShelfPainter:
             painter.setPen(self._theme.colour("text"))
             self._text(painter, self._beside(rect, badge), spot.entry.text)
         elif kind == "button":
-            self._button(painter, spot)
+            line, rect = self._layout.line, self._layout.block_rect(spot)
+            painter.setPen(QPen(self._theme.colour("field_line"), 1.2))
+            painter.setBrush(self._theme.colour("field"))
+            painter.drawRoundedRect(rect, 8, 8)
+            inner = rect.adjusted(line / 2, 0, -line / 2, 0)
+            place = self._at_start(inner, line)
+            paint_icon(painter, place, _button_icon(spot.entry), self._theme.colour("text"))
+            painter.setFont(self._font)
+            painter.setPen(self._theme.colour("text"))
+            self._text(painter, self._beside(inner, place), spot.entry.text)
         elif kind == "words":
-            self._words(painter, spot)
+            painter.setFont(self._font)
+            painter.setPen(self._theme.colour("muted"))
+            side = _side(self._layout.is_mirrored)
+            flags = side | Qt.AlignmentFlag.AlignTop | Qt.TextFlag.TextWordWrap
+            rect = self._layout.block_rect(spot).adjusted(0, 0, 0, self._layout.line)
+            painter.drawText(rect, int(flags), spot.entry.text)
         else:
             self._chains(painter, spot)
 
@@ -240,26 +251,6 @@ class ShelfPainter:
         painter.setFont(self._bold)
         below = QRectF(rect.left(), square.bottom() + line / 3, rect.width(), 2 * line)
         painter.drawText(below, Qt.AlignmentFlag.AlignHCenter, tr("Delete"))
-
-    def _button(self, painter: QPainter, spot: Spot) -> None:
-        line, rect = self._layout.line, self._layout.block_rect(spot)
-        painter.setPen(QPen(self._theme.colour("field_line"), 1.2))
-        painter.setBrush(self._theme.colour("field"))
-        painter.drawRoundedRect(rect, 8, 8)
-        inner = rect.adjusted(line / 2, 0, -line / 2, 0)
-        place = self._at_start(inner, line)
-        paint_icon(painter, place, _button_icon(spot.entry), self._theme.colour("text"))
-        painter.setFont(self._font)
-        painter.setPen(self._theme.colour("text"))
-        self._text(painter, self._beside(inner, place), spot.entry.text)
-
-    def _words(self, painter: QPainter, spot: Spot) -> None:
-        painter.setFont(self._font)
-        painter.setPen(self._theme.colour("muted"))
-        side = _side(self._layout.is_mirrored)
-        flags = side | Qt.AlignmentFlag.AlignTop | Qt.TextFlag.TextWordWrap
-        rect = self._layout.block_rect(spot).adjusted(0, 0, 0, self._layout.line)
-        painter.drawText(rect, int(flags), spot.entry.text)
 
     def _chains(self, painter: QPainter, spot: Spot) -> None:
         top = spot.y
