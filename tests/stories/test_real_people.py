@@ -122,7 +122,7 @@ def project(folder: Path, model: Path) -> Path:
     file = folder / "count.nep"
     whole = {
         "format": "nep-studio-project",
-        "version": 1,
+        "version": 2,
         "name": "Count",
         "variables": [{"id": "v1", "name": "made"}],
         "blocks": blocks,

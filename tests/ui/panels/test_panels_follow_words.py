@@ -209,7 +209,7 @@ def large_robots(made: MainWindow) -> QWidget:
 
 
 def numbers(made: MainWindow) -> QWidget:
-    workspace = show(made, "SensorsPanel").workspace
+    workspace = show(made, "SensorsPanel").page
     workspace.choose_fields()
     return workspace.chooser
 
