@@ -244,7 +244,8 @@ class Kind:
     ``fits`` are the result types of blocks that may be plugged in; ``typed`` says that the slot
     has a field (a default value that comes back when the plugged block leaves). ``why_not`` says
     why a field cannot hold a value; ``read`` makes a value of what is typed, ``write`` a text of a
-    value. ``constants`` are the types of Python's constants that a field can hold.
+    value. ``constants`` are the types of Python's constants that a field can hold. ``noun``,
+    ``hint`` and a ``unit`` of letters are English words, translated where they are shown.
     """
 
     name: str
@@ -282,6 +283,7 @@ class Kind:
     hint: str = ""
     """What an empty one says of itself."""
     unit: str = ""
+    """What stands behind the value, unless the sentence of the block says it there."""
     mark: Mark = ""
     opens: bool = False
     """Whether its value is chosen in a list or a window: it has an arrow."""
