@@ -164,10 +164,8 @@ class Language:
 
         For a slot that depends on another, it is by what the block's other slot holds.
         """
-        if slot.kind.name == "gesture":
-            return "gestures"
         if not slot.master or block is None:
-            return slot.table
+            return slot.kind.table or slot.table
         number = split_slot(key)[1]
         definition = self.definitions[block.type]
         is_beside = number and definition.slots[slot.master].group

@@ -244,7 +244,8 @@ class Kind:
     ``fits`` are the result types of blocks that may be plugged in; ``typed`` says that the slot
     has a field (a default value that comes back when the plugged block leaves). ``why_not`` says
     why a field cannot hold a value; ``read`` makes a value of what is typed, ``write`` a text of a
-    value. ``constants`` are the types of Python's constants that a field can hold.
+    value. ``constants`` are the types of Python's constants that a field can hold. ``noun``,
+    ``hint`` and a ``unit`` of letters are English words, translated where they are shown.
     """
 
     name: str
@@ -267,6 +268,8 @@ class Kind:
     """What the field of a new own block holds."""
     is_number: bool = False
     lowest: float = -math.inf
+    table: str = ""
+    """The table of choices that says how its values are called, in each language."""
     takes_any_words: bool = False
     """Whether a field may hold any word: a text, or a name that a person gives."""
     becomes_text: bool = False
@@ -280,6 +283,7 @@ class Kind:
     hint: str = ""
     """What an empty one says of itself."""
     unit: str = ""
+    """What stands behind the value, unless the sentence of the block says it there."""
     mark: Mark = ""
     opens: bool = False
     """Whether its value is chosen in a list or a window: it has an arrow."""
@@ -383,7 +387,13 @@ def _words(
 
 
 def _name(
-    name: str, noun: str, *, prefix: str = "", missing: bool = True, is_said: bool = True
+    name: str,
+    noun: str,
+    *,
+    prefix: str = "",
+    table: str = "",
+    missing: bool = True,
+    is_said: bool = True,
 ) -> Kind:
     """A kind of field that holds a name; one that is not ``is_said`` is a name in Python too."""
     told = text_of("{noun} is missing.", noun=Text(noun)) if missing else None
@@ -392,6 +402,7 @@ def _name(
         noun,
         constants=(str,) if is_said else (),
         prefix=prefix,
+        table=table,
         takes_any_words=missing,
         missing=told,
         hint=name,
@@ -470,7 +481,7 @@ KINDS: dict[str, Kind] = {
             is_pressed=True,
         ),
         _name("state", "a human state"),
-        _name("gesture", "a gesture", prefix=GESTURE_STATE),
+        _name("gesture", "a gesture", prefix=GESTURE_STATE, table="gestures"),
         _name("robot", "a robot", is_said=False),
         _name("variable", "a variable", missing=False, is_said=False),
         Kind("choice", "one of a list", hint="choose", opens=True),

@@ -67,8 +67,10 @@ class Host(Protocol):
 class NewAction:
     """An action, its menu and its place there; without a menu it is in the palette of commands.
 
-    ``words`` and ``tip`` are English templates: the window tells them, in each language.
-    It stands behind, or before, the action of the name ``after`` or ``before``, else at the end.
+    ``words`` and ``tip`` are English templates: the window tells them, in each language. ``name``
+    is its own among all actions, ``icon_name`` a picture in ``resources/icons``.
+    It stands behind, or before, the action of the name ``after`` or ``before``, else at the
+    end, in the ``order`` of the plugins.
     """
 
     name: str
@@ -86,6 +88,8 @@ class NewAction:
 class NewPanel:
     """A panel beside the canvas: left, right or at the bottom; ``title`` is an English template.
 
+    ``icon_name`` is a picture in ``resources/icons``. The widget's property ``help_page`` is the
+    page of the help that F1 opens there. It hears nothing while it is hidden.
     It gets at least ``least_share`` of the height of the window when it is opened at the bottom.
     """
 

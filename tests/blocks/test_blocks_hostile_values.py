@@ -38,7 +38,6 @@ WRITTEN = {"code.lines", "code.value", "control.note"}
 COUNTED = {"list", "text.letter", "control.count"}
 """Blocks that count from 1 where Python counts from 0: their numbers become others."""
 
-ARITHMETIC = {"number", "angle", "slider", "duration"}
 FIELDS = [
     (definition.id, key)
     for definition in LANGUAGE.definitions.values()
@@ -149,8 +148,8 @@ def assert_safe(editor: Editor, block_type: str, key: str, value: object) -> Non
 
 def is_calculated(block_type: str, key: str, value: object) -> bool:
     """Whether the program says another number than the one in the field."""
-    kind = LANGUAGE.definitions[block_type].slots[key.partition(".")[0]].kind.name
-    if kind not in ARITHMETIC:
+    kind = LANGUAGE.definitions[block_type].slots[key.partition(".")[0]].kind
+    if not kind.is_number:
         return (block_type, key, value) == ("list.split", "mark", "")
     return isinstance(value, str) or bool(COUNTED & {block_type, block_type.partition(".")[0]})
 

@@ -144,7 +144,7 @@ def words_of_slots() -> Iterator[str]:
     for definition in studio_language().definitions.values():
         yield from (slot_name(slot) for slot in definition.slots.values())
     for kind in KINDS.values():
-        yield from (kind.noun, kind.hint, kind.unit.strip("°"))
+        yield from (kind.noun, kind.hint, kind.unit if kind.unit.isalpha() else "")
 
 
 def words_of_examples() -> Iterator[str]:

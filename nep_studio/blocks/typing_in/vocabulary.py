@@ -205,7 +205,7 @@ def _texts(part: Part, definition: Definition) -> list[str]:
 def _choices(definition: Definition, language: Language) -> dict[str, tuple[tuple[str, str], ...]]:
     tables = {}
     for slot in definition.slots.values():
-        if slot.kind.name in ("choice", "gesture") and not slot.group and not slot.master:
+        if (slot.kind.table or slot.kind.name == "choice") and not slot.group and not slot.master:
             tables[slot.name] = _labels(slot, language)
     return tables
 

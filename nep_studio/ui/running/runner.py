@@ -213,10 +213,14 @@ class Runner(QObject):
     """The window's door to a running program and its nodes; nothing in here waits.
 
     What it does with the program is the RunController's doing; ``told`` gives its Events.
-    ``arrived`` gives (topic, message) pairs of what was heard, at most 30 times a second;
-    ``node_failed`` the NepError of a node that could not be started by hand; ``master_changed``
-    what became of a master that ended unexpectedly (a MasterEvent), and how it ended; ``closing``
-    that all is about to end.
+    ``arrived`` gives (topic, message) pairs of what was heard, at most 30 times a second: of nodes,
+    of human states, of actions and of the program; a ``tap`` hears any other topic.
+    ``nodes_changed`` gives the names of nodes of which ``board`` knows something new, also that
+    they ended. ``connected`` comes when the network is up; ``disconnected`` only when it is
+    about to be started anew, to be shared or joined: not at the end of a run.
+    ``node_failed`` gives the NepError of a node that could not be started by hand;
+    ``master_changed`` what became of a master that ended unexpectedly (a MasterEvent), and how it
+    ended; ``closing`` that all is about to end.
     """
 
     state_changed = Signal(str)

@@ -297,3 +297,11 @@ class StatePopup(ChoicePopup):
         """The states that are known."""
         editor = self._editors.canvas.editor
         return _states(editor.project, editor.language)
+
+
+CHOSEN: dict[str, type[FieldPopup]] = {
+    "choice": ChoicePopup,
+    "gesture": GesturePopup,
+    "state": StatePopup,
+}
+"""The editors of this file, by the kind of field."""

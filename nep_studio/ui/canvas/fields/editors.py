@@ -16,13 +16,13 @@ from nep_studio.blocks.program import Project, split_slot
 from nep_studio.ui.words import tr
 
 from .angle import AnglePopup
-from .choice import ChoicePopup, GesturePopup, StatePopup
+from .choice import CHOSEN, ChoicePopup, GesturePopup
 from .colour import ColourPopup
 from .comments import Comments
 from .field_edit import Editing, FieldEdit, ParameterEdit, page_rect_of
 from .line_editor import LineEditor, LinesEditor
 from .naming import RobotPopup, VariablePopup
-from .number import DurationPopup, SliderPopup
+from .number import NUMBERS
 from .popup import FieldPopup, FieldRing, give_back_focus
 from .settings import SettingsPopup
 
@@ -175,15 +175,12 @@ class OpenEditor(Protocol):
 
 EDITORS: dict[str, type] = {
     "lines": LinesEditor,
-    "choice": ChoicePopup,
-    "gesture": GesturePopup,
+    **CHOSEN,
     "robot": RobotPopup,
     "variable": VariablePopup,
-    "state": StatePopup,
     "colour": ColourPopup,
     "angle": AnglePopup,
-    "slider": SliderPopup,
-    "duration": DurationPopup,
+    **NUMBERS,
     "settings": SettingsPopup,
 }
 """The editors of the kinds of slot; the others are typed in a line."""

@@ -147,3 +147,7 @@ class DurationPopup(NumberPopup):
     def _on_quick(self, seconds: float) -> None:
         self.point(seconds)
         self._editors.close()
+
+
+NUMBERS: dict[str, type[FieldPopup]] = {"slider": SliderPopup, "duration": DurationPopup}
+"""The editors of this file, by the kind of field."""

@@ -3,14 +3,16 @@
 from __future__ import annotations
 
 import ast
+from dataclasses import replace
 
 import pytest
-from kinds_language import SENTENCES
+from kinds_language import SENTENCES, kinds_language
 from PySide6.QtTest import QTest
 
 from faults import text_of
 from nep_studio.blocks.errors import BlocksError
 from nep_studio.blocks.slots import KINDS, Kind, kind_of
+from nep_studio.ui.canvas.fields.editors import EDITORS
 from nep_studio.ui.canvas.fields.line_editor import LineEditor
 
 
@@ -41,6 +43,21 @@ def test_a_new_kind_is_drawn_read_checked_and_kept(note, controller_of) -> None:
     assert desk.widget.reason.text == "az is no note."
 
 
+def test_the_values_of_a_kind_are_called_as_its_table_says(monkeypatch) -> None:
+    monkeypatch.setitem(KINDS, "day", Kind("day", "a day of the week", table="weekdays"))
+    monkeypatch.setitem(SENTENCES, "kinds.day", ("wait until {day:day}", {"day": "monday"}))
+    language = kinds_language()
+    language = replace(language, choices={**language.choices, "weekdays": {"monday": "Montag"}})
+    slot = language.definitions["kinds.day"].slots["day"]
+
+    assert language.label_of(slot, "monday") == "Montag"
+    assert language.choices_of(slot) == {"monday": "Montag"}
+
+
+def test_every_editor_is_for_a_kind() -> None:
+    assert EDITORS.keys() <= KINDS.keys()
+
+
 def test_a_new_kind_goes_to_python_and_back(note) -> None:
     written = note.to_python("a")
 
@@ -57,5 +74,5 @@ def test_a_kind_that_is_not_there_is_told_in_a_sentence() -> None:
 def test_numbers_are_known_by_their_kind() -> None:
     numbers = {kind.name for kind in KINDS.values() if kind.is_number}
 
-    assert numbers == {"number", "angle", "slider", "duration"}
+    assert numbers >= {"number", "angle", "slider", "duration"}
     assert all(kind.read("2,5") == 2.5 for kind in KINDS.values() if kind.is_number)
