@@ -53,18 +53,12 @@ def marked(marks: str) -> frozenset[psutil.Process]:
 
     That is how one is found that went into the background, into a group of its own.
     """
-    mark = marks.rpartition(" ")[2]
-    return frozenset(
-        process
-        for process in psutil.process_iter()
-        if mark and process.pid != os.getpid() and mark in _marks(process)
-    )
-
-
-def _marks(process: psutil.Process) -> list[str]:
-    with contextlib.suppress(psutil.Error, OSError):  # another user's, or gone
-        return str(process.environ().get(VARIABLE, "")).split()
-    return []
+    mark, found = marks.rpartition(" ")[2], set()
+    for process in psutil.process_iter() if mark else ():
+        with contextlib.suppress(psutil.Error, OSError):  # another user's, or gone
+            if process.pid != os.getpid() and mark in process.environ().get(VARIABLE, "").split():
+                found.add(process)
+    return frozenset(found)
 
 
 def is_in_tree(pid: int, root_pid: int) -> bool:

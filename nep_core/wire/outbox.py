@@ -260,7 +260,8 @@ class Outbox:
                 if stream is not None and stream.latched:
                     welcome = frames.notice(stream.latched, stream.sent)
                 else:
-                    welcome = self.mark(topic)
+                    sent = stream.sent if stream else 0
+                    welcome = frames.mark(topic, self._node, self._run, sent)
                 self._send_privately(topic, subscriber, welcome)
         with self._changed:
             change = set.add if present else set.discard
@@ -269,11 +270,6 @@ class Outbox:
                 del self._ids[topic]
             self._slow.discard((topic, subscriber))
             self._changed.notify_all()
-
-    def mark(self, topic: str) -> bytes:
-        """The notice of how many messages of ``topic`` were sent; call under the lock."""
-        stream = self._streams.get(topic)
-        return frames.mark(topic, self._node, self._run, stream.sent if stream else 0)
 
     def note_slow(self, topic: str, subscriber: str) -> None:
         """Somebody could not take a message: from now on it hears how many there were.
@@ -293,7 +289,9 @@ class Outbox:
                 slow = [(topic, who) for topic, who in self._slow if topic in self._streams]
             for topic, subscriber in slow:
                 with self._lock:
-                    self._send_privately(topic, subscriber, self.mark(topic))
+                    sent = self._streams[topic].sent
+                    mark = frames.mark(topic, self._node, self._run, sent)
+                    self._send_privately(topic, subscriber, mark)
 
     def abandon(self, send: SendFrame) -> None:
         """In the child of a fork: ``send`` gets what its streams send, nobody holds a lock."""

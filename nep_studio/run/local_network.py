@@ -194,6 +194,7 @@ class LocalNetwork:
         self._end_listeners: tuple[EndListener, ...] = ()
         self._stack = contextlib.ExitStack()
         self._opening = threading.RLock()
+        self._was_open = False
         self._make_launchers()
 
     def _make_launchers(self) -> None:
@@ -220,7 +221,7 @@ class LocalNetwork:
     def open(self) -> None:
         """Start the master and join it, unless that is done; one that is gone is replaced."""
         with self._opening:
-            if self.is_open:
+            if self.network is not None:
                 # Start one where the last one was, if that is gone: all who were there come to it
                 if self.shared_master and ask_master(self.shared_master) is None:
                     self.shared_master, self.has_master = "", False
@@ -229,7 +230,9 @@ class LocalNetwork:
                     self.has_master = True
                     self.on_master("back", "")
                 return
-            self._make_launchers()
+            if self._was_open:  # those that were closed hear no more
+                self._make_launchers()
+            self._was_open = True
             try:
                 self._open()
             except BaseException:
@@ -313,30 +316,31 @@ class LocalNetwork:
         Does not wait until they are ready; raises NepError.
         """
         with self._opening:
-            if not self.is_open:
+            if self.network is None:
                 raise NodeStartError("The network is closed.", checklist=("Start it again.",))
-            return [self._start(one) for one in nodes]
-
-    def _start(self, planned: PlannedNode) -> LaunchedNode:
-        running = self.launcher.nodes.get(planned.name)
-        if running is not None and not running.ended.is_set():
-            if self.planned.get(planned.name) == planned:
-                return running
-            self.launcher.stop(planned.name)
-        # Write what a node will read, as the motions of the project
-        try:
-            if planned.files is not None:
-                planned.files.write()
-        except OSError as error:
-            raise NodeStartError(
-                "What {name} needs could not be written: {reason}.",
-                checklist=("Is there room on the disk?",),
-                details=str(error),
-                name=planned.name,
-                reason=reason_of(error),
-            ) from error
-        self.planned[planned.name] = planned
-        return self.launcher.launch(planned.node, planned.name, planned.parameters)
+            launched = []
+            for one in nodes:
+                running = self.launcher.nodes.get(one.name)
+                if running is not None and not running.ended.is_set():
+                    if self.planned.get(one.name) == one:
+                        launched.append(running)
+                        continue
+                    self.launcher.stop(one.name)
+                # Write what a node will read, as the motions of the project
+                try:
+                    if one.files is not None:
+                        one.files.write()
+                except OSError as error:
+                    raise NodeStartError(
+                        "What {name} needs could not be written: {reason}.",
+                        checklist=("Is there room on the disk?",),
+                        details=str(error),
+                        name=one.name,
+                        reason=reason_of(error),
+                    ) from error
+                self.planned[one.name] = one
+                launched.append(self.launcher.launch(one.node, one.name, one.parameters))
+            return launched
 
     def stop(self, name: str) -> None:
         """Stop one node."""
@@ -367,7 +371,7 @@ class LocalNetwork:
             listener(launched, outcome, again)
 
     def _on_master_end(self, launched: LaunchedNode, outcome: Outcome, again: bool) -> None:
-        if launched.stopping or not self.is_open:
+        if launched.stopping or self.network is None:
             return  # it was stopped, or never answered: who starts it tells of that
         if again:
             self.on_master("restarting", text_of("{outcome}.", outcome=outcome.text))

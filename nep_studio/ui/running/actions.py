@@ -27,7 +27,6 @@ if TYPE_CHECKING:
     from nep_studio.ui.host import Host
 
     from .control import RunControl
-    from .runner import Runner
 
 RUN_BUTTONS = ("run", "stop", "pause", "step")
 PACES = (
@@ -43,20 +42,19 @@ WITH_A_PROJECT = ("breakpoint", "clear_breakpoints", "needs")
 def fill_run_menu(menu: QMenu, host: Host) -> None:
     """Make the actions of the Run menu."""
     add = host.actions.add
-
-    def runner() -> Runner:
-        return host.services.runner
-
-    run = add("run", "Run", lambda: runner().run(), icon_name="play", keys="F5")
+    services = host.services
+    run = add("run", "Run", lambda: services.runner.run(), icon_name="play", keys="F5")
     stop = add(
         "stop",
         "Stop",
-        lambda: host.services.running.stop(),
+        lambda: services.running.stop(),
         icon_name="square",
         keys="Shift+F5",
     )
-    pause = add("pause", "Pause", lambda: runner().pause(), icon_name="pause", keys="F6")
-    step = add("step", "One step", lambda: runner().step(), icon_name="step-forward", keys="F10")
+    pause = add("pause", "Pause", lambda: services.runner.pause(), icon_name="pause", keys="F6")
+    step = add(
+        "step", "One step", lambda: services.runner.step(), icon_name="step-forward", keys="F10"
+    )
     menu.addActions([run, stop, pause, step])
     menu.addSeparator()
     paces = menu.addMenu(icon("gauge", host.services.look.theme), "")

@@ -269,7 +269,7 @@ class Runner(QObject):
     @property
     def is_connected(self) -> bool:
         """Whether messages can be sent and heard."""
-        return self.local.is_open
+        return self.local.network is not None
 
     @property
     def state(self) -> State:

@@ -52,7 +52,14 @@ class Marks:
         """Take in what the program told."""
         match state.event:
             case "line":
-                self._lines(state.lines)
+                inner, outer = set[str](), set[str]()
+                for stack in state.lines.values():
+                    blocks = [block for line in stack if (block := self.code.block_at(line))]
+                    inner.update(blocks[-1:])
+                    outer.update(blocks[:-1])
+                self.glowing, self.around = frozenset(inner), frozenset(outer - inner)
+                for thread in [one for one in self.paused if one not in state.lines]:
+                    del self.paused[thread]
             case "value":
                 for name, text in state.values.items():
                     self._value(name, clipped(text))
@@ -93,16 +100,6 @@ class Marks:
         statement = self.code.block_at(line)
         if block is not None and statement is not None:
             self.results.setdefault(statement, {})[block] = text
-
-    def _lines(self, lines: dict[str, list[int]]) -> None:
-        inner, outer = set[str](), set[str]()
-        for stack in lines.values():
-            blocks = [block for line in stack if (block := self.code.block_at(line))]
-            inner.update(blocks[-1:])
-            outer.update(blocks[:-1])
-        self.glowing, self.around = frozenset(inner), frozenset(outer - inner)
-        for thread in [one for one in self.paused if one not in lines]:
-            del self.paused[thread]
 
 
 def clipped(text: str) -> str:
