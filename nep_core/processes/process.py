@@ -61,15 +61,6 @@ def marked(marks: str) -> frozenset[psutil.Process]:
     return frozenset(found)
 
 
-def is_in_tree(pid: int, root_pid: int) -> bool:
-    """Whether ``pid`` is ``root_pid``, or was started by it or by one that it started."""
-    if pid == root_pid:
-        return True
-    with contextlib.suppress(psutil.Error, ValueError):
-        return root_pid in [parent.pid for parent in psutil.Process(pid).parents()]
-    return False
-
-
 def kill(processes: Iterable[psutil.Process]) -> None:
     """End those that still run and that we may end; never another with the same number."""
     for process in processes:
@@ -305,7 +296,10 @@ class ChildProcess:
         self._reader.join(1.0)  # one that we may not end may hold the pipe open
         if self._popen.stdin is not None:
             self._popen.stdin.close()
-        words, refusal = last_words(list(self._last_lines)), handover.take(self._refusal)
+        # The last line that says something, one without an indent if there is any
+        said = [line for line in self.last_lines if line.strip()] or [""]
+        words = ([line for line in said if not line[:1].isspace()] or said)[-1].strip()
+        refusal = handover.take(self._refusal)
         self._on_end(Outcome(self.name, code, self._asked, words, refusal))
 
 
@@ -348,13 +342,6 @@ def _can_send_signals() -> bool:
     import ctypes
 
     return bool(ctypes.windll.kernel32.GetConsoleCP())
-
-
-def last_words(lines: list[str]) -> str:
-    """The last line that says something, one without an indent if there is any; else ""."""
-    said = [line for line in lines if line.strip()]
-    whole = [line for line in said if not line[0].isspace()] or said
-    return whole[-1].strip() if whole else ""
 
 
 def program_command(*words: str) -> list[str]:

@@ -137,7 +137,8 @@ class Stream:
             waited_ns = _now_ns() - self._waiting_since_ns
             if waited_ns >= older_than_ns or waited_ns < 0:  # the clock may be set back
                 with self._lock:
-                    self._flush()
+                    if self._waiting:
+                        self._flush()
         while self._late:
             self._send_payload(*self._late.popleft())
 
@@ -150,7 +151,8 @@ class Stream:
             self._send_later(payload, encoding, latch)
             return
         try:
-            self._flush()
+            if self._waiting:
+                self._flush()
             self.sent += 1
             frame = join(
                 self._start, self._node, self.sent, _now_ns(), encoding, payload, self._run
@@ -166,8 +168,6 @@ class Stream:
         self._hurry()  # the I/O thread sends it
 
     def _flush(self) -> None:
-        if not self._waiting:
-            return
         waiting, self._waiting = self._waiting, []
         first, since_ns = self.sent + 1, self._waiting_since_ns
         frame = join(self._start, self._node, first, since_ns, "json", NUL.join(waiting), self._run)

@@ -226,7 +226,7 @@ class LocalNetwork:
                 if self.shared_master and ask_master(self.shared_master) is None:
                     self.shared_master, self.has_master = "", False
                 if not self.has_master:
-                    self._start_master(self.launcher.master)
+                    start_master(self._master_launcher, self.launcher.master, self.master_options())
                     self.has_master = True
                     self.on_master("back", "")
                 return
@@ -244,9 +244,11 @@ class LocalNetwork:
         if transport() == "p2p":  # a broker or a router serves more than one session
             if not self.joined_master:
                 self.shared_master = "" if self.wanted_master else shared_master(self.name)
-            self.launcher.master = (
-                self.joined_master or self.shared_master or self._start_master(self.wanted_master)
-            )
+            self.launcher.master = self.joined_master or self.shared_master
+            if not self.launcher.master:
+                self.launcher.master = start_master(
+                    self._master_launcher, self.wanted_master, self.master_options()
+                )
         network = self._join()
         self._stack.callback(network.close)
         self.voice = Voice(network)
@@ -272,15 +274,14 @@ class LocalNetwork:
             if not self.shared_master:
                 raise
             self.shared_master = ""  # another session was quicker: this one keeps apart from it
-            self.launcher.master = self._start_master(self.wanted_master)
+            self.launcher.master = start_master(
+                self._master_launcher, self.wanted_master, self.master_options()
+            )
             return self._join()
         except BaseException:
             network.close()
             raise
         return network
-
-    def _start_master(self, wanted: str | None) -> str:
-        return start_master(self._master_launcher, wanted, self.master_options())
 
     def close(self) -> None:
         """Stop all nodes, leave the network, stop the master."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from PySide6.QtCore import QEvent, QObject, QPoint, Qt, QTimer, Signal
+from PySide6.QtCore import QEvent, QObject, QPoint, QSize, Qt, QTimer, Signal
 from PySide6.QtGui import QColor, QGuiApplication, QKeyEvent, QPainter, QPaintEvent
 from PySide6.QtWidgets import (
     QApplication,
@@ -23,7 +23,7 @@ from faults import Words
 from .labels import labelled
 from .messages import KIND_ICONS, Answer, Message
 from .theme.colours import Theme
-from .theme.icons import icon, icon_pixmap, icon_room
+from .theme.icons import icon, icon_room
 from .theme.look import Look
 
 # A message as a card: icon, title, sentence, checklist, answers, and details to copy.
@@ -109,39 +109,36 @@ class MessageCard(QFrame):
         button.setIconSize(icon_room(button.fontMetrics().height()))
         self.close_button = button
         self.close_button.clicked.connect(self.closed)
-        self.buttons = [self._button(answer) for answer in message.answers]
+        self.buttons: list[QPushButton] = []
         self._fill(theme)
 
     def _fill(self, theme: Theme) -> None:
         line = self.fontMetrics().height()
         row = QHBoxLayout(self)
         row.setSpacing(line // 2)
-        sign, size = QLabel(), round(line * 1.3)
-        kind = self.message.kind
-        ratio = self.devicePixelRatioF()
-        sign.setPixmap(icon_pixmap(KIND_ICONS[kind], theme.colour(kind), size, ratio))
+        sign, size, kind = QLabel(), round(line * 1.3), self.message.kind
+        picture = icon(KIND_ICONS[kind], theme, kind)
+        sign.setPixmap(picture.pixmap(QSize(size, size), self.devicePixelRatioF()))
         row.addWidget(sign, 0, Qt.AlignmentFlag.AlignTop)
         words = QVBoxLayout()
         words.addWidget(MessageText(self.message))
         if self.message.is_busy:
             words.addWidget(_endless_progress())
-        if self.buttons:
+        if self.message.answers:
             answers = QHBoxLayout()
-            for button in self.buttons:
+            for answer in self.message.answers:
+                button = QPushButton(answer.words)
+                if answer.look:
+                    button.setProperty("kind", answer.look)
+                button.clicked.connect(self.closed)
+                button.clicked.connect(lambda _=False, do=answer.do: do())
+                self.buttons.append(button)
                 answers.addWidget(button)
             answers.addStretch(1)
             words.addLayout(answers)
         row.addLayout(words, 1)
         row.addWidget(self.close_button, 0, Qt.AlignmentFlag.AlignTop)
         self.close_button.setVisible(not self.message.is_busy)
-
-    def _button(self, answer: Answer) -> QPushButton:
-        button = QPushButton(answer.words)
-        if answer.look:
-            button.setProperty("kind", answer.look)
-        button.clicked.connect(self.closed)
-        button.clicked.connect(lambda: answer.do())
-        return button
 
     def changeEvent(self, event: QEvent) -> None:
         """Take the room that the words need in another font."""

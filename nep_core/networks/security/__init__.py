@@ -51,13 +51,3 @@ def trust_master(socket: zmq.Socket[bytes]) -> None:
     keys = KeyFile(path).keys
     show_keys(socket, keys)
     expect_key(socket, keys.master_key)
-
-
-def told_master() -> str:
-    """Where the key file says that the master is; "" without one. Raises KeyFileError."""
-    path = key_file_path()
-    if path is None:
-        return ""
-    from .keys import KeyFile
-
-    return KeyFile(path).keys.master

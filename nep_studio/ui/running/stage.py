@@ -324,8 +324,8 @@ class Stage(QObject):
         for block in blocks:
             placed = view.page_layout.placed(block)
             if placed is not None:
-                x, y, width, height = placed.rect
-                view.layers.update_page(Rect(x - reach, y - 16, width + 2 * reach, height + 32))
+                wide, high = placed.box.width + 2 * reach, placed.box.height + 32
+                view.layers.update_page(Rect(placed.x - reach, placed.y - 16, wide, high))
 
     def _repaint_all(self) -> None:
         if self._canvas is not None:
