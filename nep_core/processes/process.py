@@ -297,7 +297,7 @@ class ChildProcess:
         if self._popen.stdin is not None:
             self._popen.stdin.close()
         # The last line that says something, one without an indent if there is any
-        said = [line for line in self.last_lines if line.strip()] or [""]
+        said = [line for line in self._last_lines if line.strip()] or [""]
         words = ([line for line in said if not line[:1].isspace()] or said)[-1].strip()
         refusal = handover.take(self._refusal)
         self._on_end(Outcome(self.name, code, self._asked, words, refusal))

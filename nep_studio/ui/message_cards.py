@@ -325,7 +325,8 @@ class QuestionDialog(QDialog):
         row.setSpacing(line)
         sign, kind = QLabel(), self.message.kind
         colour = self.palette().color(self.foregroundRole())
-        sign.setPixmap(icon_pixmap(KIND_ICONS[kind], colour, line * 2, self.devicePixelRatioF()))
+        size, picture = QSize(line * 2, line * 2), icon(KIND_ICONS[kind], colour)
+        sign.setPixmap(picture.pixmap(size, self.devicePixelRatioF()))
         row.addWidget(sign, 0, Qt.AlignmentFlag.AlignTop)
         row.addWidget(MessageText(self.message), 1)
         return row

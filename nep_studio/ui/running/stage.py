@@ -18,7 +18,7 @@ from nep_studio.ui.canvas.editing.menu import MenuEntry, MenuPlace
 from nep_studio.ui.canvas.host import CanvasHost
 from nep_studio.ui.canvas.layout.index import Rect
 from nep_studio.ui.canvas.layout.page import Placed
-from nep_studio.ui.canvas.painting.overlay import ring
+from nep_studio.ui.canvas.painting.overlay import rings
 from nep_studio.ui.words import tr
 
 from .runner import Runner
@@ -131,11 +131,11 @@ class RunOverlay:
         """Draw them."""
         marks = self.marks
         for blocks, lines in ((marks.around, AROUND), (marks.glowing, HALO)):
+            found = [placed for one in blocks if (placed := view.page_layout.placed(one))]
             for width, opacity in lines:
                 colour = QColor(view.look.theme.colour("glow"))
                 colour.setAlpha(opacity)
-                for block in blocks:
-                    ring(painter, view, block, colour, width / view.sight.camera.scale)
+                rings(painter, view, found, colour, width / view.sight.camera.scale)
         known = (marks.counts, marks.values, marks.results, marks.paused)
         if not (self.breakpoints or any(known)):
             return

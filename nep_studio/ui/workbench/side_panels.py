@@ -30,11 +30,8 @@ class Panel:
     action: QAction
     is_usual: bool
     """Whether it is shown as long as nobody has shown or hidden it."""
-
-    @property
-    def name(self) -> str:
-        """What it is called in the settings."""
-        return type(self.widget).__name__
+    name: str
+    """What it is called in the settings."""
 
 
 class Area(QTabWidget):
@@ -167,7 +164,7 @@ class Panels(QObject):
         place = self.areas[area]
         place.add_panel(widget, title)
         action = labelled(QAction(self, checkable=True), text=title)
-        panel = Panel(widget, title, icon_name, place, action, is_shown)
+        panel = Panel(widget, title, icon_name, place, action, is_shown, type(widget).__name__)
         self.all.append(panel)
         action.setChecked(self._settings.is_shown(panel.name, default=is_shown))
         place.show_panel(widget, action.isChecked())
