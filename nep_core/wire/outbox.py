@@ -87,10 +87,12 @@ class Stream:
         self._hurry = hurry
         self._window = 0
         self._in_window = 0
-        self._waiting: list[bytes] = []
+        self.waiting: list[bytes] = []
+        """What is left of a flood."""
         self._room_bytes = SHARED_FRAME_BYTES
         self._waiting_since_ns = 0
-        self._late: deque[tuple[bytes, Encoding, bool]] = deque()
+        self.late: deque[tuple[bytes, Encoding, bool]] = deque()
+        """What a signal's handler could not send."""
 
     def send(self, message: Sendable, latch: bool = False) -> None:
         """Send ``message``; with ``latch``, subscribers that join later get it too.
@@ -110,7 +112,7 @@ class Stream:
             self._send_later(payload, "json", latch)
             return
         try:
-            if not self._waiting:
+            if not self.waiting:
                 now_ns = _now_ns()
                 if now_ns >> MILLISECOND_BITS != self._window:
                     self._window, self._in_window = now_ns >> MILLISECOND_BITS, 0
@@ -124,7 +126,7 @@ class Stream:
                 self._room_bytes = SHARED_FRAME_BYTES
                 self._waiting_since_ns = now_ns
                 self._hurry()  # the I/O thread sends it if no more messages come
-            self._waiting.append(payload)
+            self.waiting.append(payload)
             self._room_bytes -= len(payload)
             if self._room_bytes <= 0:
                 self._flush()
@@ -133,14 +135,14 @@ class Stream:
 
     def flush(self, older_than_ns: int = 0) -> None:
         """Send what waits, if it has waited for so long."""
-        if self._waiting:
+        if self.waiting:
             waited_ns = _now_ns() - self._waiting_since_ns
             if waited_ns >= older_than_ns or waited_ns < 0:  # the clock may be set back
                 with self._lock:
-                    if self._waiting:
+                    if self.waiting:
                         self._flush()
-        while self._late:
-            self._send_payload(*self._late.popleft())
+        while self.late:
+            self._send_payload(*self.late.popleft())
 
     def abandon(self, send: Callable[[bytes], object]) -> None:
         """From now on ``send`` gets the frames, and whoever held the lock is not there any more."""
@@ -151,7 +153,7 @@ class Stream:
             self._send_later(payload, encoding, latch)
             return
         try:
-            if self._waiting:
+            if self.waiting:
                 self._flush()
             self.sent += 1
             frame = join(
@@ -164,11 +166,11 @@ class Stream:
             self._lock.release()
 
     def _send_later(self, payload: bytes, encoding: Encoding, latch: bool) -> None:
-        self._late.append((payload, encoding, latch))
+        self.late.append((payload, encoding, latch))
         self._hurry()  # the I/O thread sends it
 
     def _flush(self) -> None:
-        waiting, self._waiting = self._waiting, []
+        waiting, self.waiting = self.waiting, []
         first, since_ns = self.sent + 1, self._waiting_since_ns
         frame = join(self._start, self._node, first, since_ns, "json", NUL.join(waiting), self._run)
         self.sent += len(waiting)
@@ -282,7 +284,8 @@ class Outbox:
     def tend(self) -> None:
         """Send what has waited in a flood, and the marks that are due (the I/O thread)."""
         for stream in list(self._streams.values()):
-            stream.flush(older_than_ns=FLOOD_NS)
+            if stream.waiting or stream.late:
+                stream.flush(older_than_ns=FLOOD_NS)
         if self._slow and time.monotonic() >= self._next_mark_s:
             self._next_mark_s = time.monotonic() + MARK_S
             with self._changed:

@@ -129,16 +129,13 @@ RUN_WORDS = {"paused": "Go on", "running": "Run again"}
 """What Run means in a state of the program, if it is not what it says."""
 
 
-def state_words(state: str) -> str:
-    """How it is going, in a word or two."""
-    words = {
-        "starting": tr("Starting…"),
-        "running": tr("Running"),
-        "paused": tr("Paused"),
-        "stopping": tr("Stopping…"),
-    }
-    return words.get(state, "")
-
+STATE_WORDS = {
+    "starting": "Starting…",
+    "running": "Running",
+    "paused": "Paused",
+    "stopping": "Stopping…",
+}
+"""How it is going, in a word or two."""
 
 STATES = {
     "idle": ("", ""),
@@ -180,7 +177,7 @@ class RunState(QWidget):
     def sizeHint(self) -> QSize:
         """Room for the usual words."""
         metrics, line = self.fontMetrics(), self.fontMetrics().height()
-        widest = max(metrics.horizontalAdvance(state_words(state)) for state in STATES)
+        widest = max(map(metrics.horizontalAdvance, map(tr, STATE_WORDS.values())))
         room = 0 if self._is_tight else widest
         return QSize(room + 3 * line, super().sizeHint().height())
 
@@ -200,7 +197,7 @@ class RunState(QWidget):
         running = self._running
         is_stale = running is not None and running.is_stale and state in ("running", "paused")
         stale = tr("Running as it was before your changes")
-        self.words.set_words(stale if is_stale else state_words(state))
+        self.words.set_words(stale if is_stale else tr(STATE_WORDS.get(state, "")))
         self.setToolTip(tr("Run again to use your changes") if is_stale else "")
         self._sign.setVisible(bool(name))
         if name:

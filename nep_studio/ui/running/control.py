@@ -122,7 +122,9 @@ class RunControl(QObject):
         document = self._host.services.document
         if document is None:
             return []
-        subject = self._subject_of(document)
+        choices = Choices(virtual=self._virtual)
+        language = self._host.services.language
+        subject = Subject(document.project, language, document.folder, choices)
         if self._plan is None or self._plan[0] != subject or not self._is_settled:
             self._plan = subject, subject.nodes()
         return list(self._plan[1])
@@ -164,15 +166,13 @@ class RunControl(QObject):
                 "There is no project to run.", ("Open or make one first.",)
             )
             return None
-        workbench, subject = self._host.workbench, self._subject_of(document)
+        workbench, language = self._host.workbench, self._host.services.language
+        choices = Choices(virtual=self._virtual)
+        subject = Subject(document.project, language, document.folder, choices)
         is_in_order, code = workbench.checks.is_in_order, workbench.code.live.program
         is_planned = self._plan is not None and self._plan[0] == subject and self._is_settled
         known = self._plan[1] if self._plan is not None and is_planned and is_in_order else None
         return replace(subject, is_in_order=is_in_order, code=code, known=known)
-
-    def _subject_of(self, document: Document) -> Subject:
-        choices = Choices(virtual=self._virtual)
-        return Subject(document.project, self._host.services.language, document.folder, choices)
 
     def _on_edited(self, changes: Changes) -> None:
         self._is_settled = False
