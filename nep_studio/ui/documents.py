@@ -109,7 +109,7 @@ class Document(QObject):
             return
         self._is_open = False
         self._flush.stop()
-        self._edits.edited.disconnect(self._tell)
+        self._edits.edited.disconnect(self._on_edited)
         self._edits.settled.disconnect(self._look_at_journal)
         if self._journal is not None:
             self._journal.close(keep=keep)
