@@ -317,7 +317,7 @@ class Launcher(Closing):
         launched.outcome = outcome
         if not again:
             launched.ended.set()
-        is_well = outcome.was_successful and not outcome.asked
+        is_well = outcome.code in (0, ASKED) and not outcome.asked
         if not is_well and not (outcome.asked and launched.has_said_end(outcome)):
             state = NodeState(
                 node=launched.name,

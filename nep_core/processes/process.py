@@ -24,7 +24,7 @@ from typing import Any, TypeVar
 
 import psutil
 
-from faults import Fault, Text, fault_of, reason_of, text_of, verbatim
+from faults import Fault, Text, reason_of, text_of, verbatim
 from nep_core.errors import NodeStartError
 from nep_core.wire.messages import PROCESS_ENDED, PROCESS_RESTARTS, PROCESS_STOPPED
 
@@ -142,7 +142,7 @@ class Outcome:
         """What is told for the node; ``again``: it is started again."""
         if again:
             words = "{outcome}; it is started again"
-            return fault_of(words, code=PROCESS_RESTARTS, outcome=self.text)
+            return Fault(PROCESS_RESTARTS, text_of(words, outcome=self.text))
         code = PROCESS_STOPPED if self.asked else PROCESS_ENDED
         return Fault(code, self.text, self.checklist)
 

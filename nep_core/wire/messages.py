@@ -12,7 +12,7 @@ from typing import Any, Literal
 
 import msgspec
 
-from faults import MOST_STEPS, Fault, Words, heard, text_of, verbatim
+from faults import MOST_STEPS, Fault, Words, heard, plain, text_of, verbatim
 
 NODE_STATE = "/node_state"
 IMU = "/imu"
@@ -103,7 +103,7 @@ class Described(msgspec.Struct, kw_only=True, omit_defaults=True):
 def described(fault: Fault) -> dict[str, Any]:
     """The keys of a message that says what happened."""
     return {
-        "description": str(fault.sentence),
+        "description": plain(fault.sentence),
         "code": fault.code,
         "text": fault.sentence.text,
         "values": fault.sentence.values,
