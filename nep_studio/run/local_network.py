@@ -194,7 +194,6 @@ class LocalNetwork:
         self._end_listeners: tuple[EndListener, ...] = ()
         self._stack = contextlib.ExitStack()
         self._opening = threading.RLock()
-        self._was_open = False
         self._make_launchers()
 
     def _make_launchers(self) -> None:
@@ -230,9 +229,7 @@ class LocalNetwork:
                     self.has_master = True
                     self.on_master("back", "")
                 return
-            if self._was_open:  # those that were closed hear no more
-                self._make_launchers()
-            self._was_open = True
+            self._make_launchers()
             try:
                 self._open()
             except BaseException:
