@@ -114,13 +114,13 @@ def filled(template: str, values: Mapping[str, object], tr: Tr) -> str:
     """
     if not values:
         return template
-
-    def fill(found: re.Match[str]) -> str:
+    words, end = "", 0
+    for found in _PLACE.finditer(template):
         value = _told(values.get(found[1], found[0]), tr)
         goes_on = template[found.end() : found.end() + 1] in _GOES_ON
-        return value.rstrip(_STOPS) if isinstance(value, _Inner) and goes_on else str(value)
-
-    return _PLACE.sub(fill, template)
+        said = value.rstrip(_STOPS) if isinstance(value, _Inner) and goes_on else str(value)
+        words, end = words + template[end : found.start()] + said, found.end()
+    return words + template[end:]
 
 
 def fault_of(

@@ -242,7 +242,7 @@ class Settings(SettingsFile):
 
     def is_chosen(self, panel: str) -> bool:
         """Whether a person has ever shown or hidden a panel."""
-        return bool(self._text(f"panels/{panel}", ""))
+        return self.values.contains(f"panels/{panel}")
 
     def set_shown(self, panel: str, is_shown: bool) -> None:
         """Remember whether a panel is open."""

@@ -52,9 +52,12 @@ def master_endpoint() -> str:
     """
     if os.environ.get(NETWORK_VARIABLE) == "broker":
         return broker_registry()
-    return fixed_endpoint(
-        os.environ.get(MASTER_VARIABLE) or security.told_master() or DEFAULT_MASTER
-    )
+    told = os.environ.get(MASTER_VARIABLE)
+    if not told and (keys := security.key_file_path()) is not None:
+        from .security.keys import KeyFile
+
+        told = KeyFile(keys).keys.master
+    return fixed_endpoint(told or DEFAULT_MASTER)
 
 
 def broker_endpoints(first: str | None = None) -> tuple[str, str]:

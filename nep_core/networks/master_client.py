@@ -76,7 +76,7 @@ class MasterClient:
         self._socket.setsockopt(zmq.IMMEDIATE, 1)  # nothing piles up while the master is away
         self._socket.reconnect_ivl = RECONNECT_MS
         self._socket.reconnect_ivl_max = LONGEST_RECONNECT_MS
-        security.trust_in_master()(self._socket)
+        security.trust_master(self._socket)
         self._socket.connect(master)
         self._changed = threading.Condition()
         self._version = 0
@@ -312,7 +312,6 @@ class MasterFeed(Feed):
 
     def __init__(self, master: str, on_change: OnChange) -> None:
         self.master = fixed_endpoint(master)
-        trust = security.trust_in_master()
         super().__init__(on_change)
         self._by_instance: dict[str, Registration] = {}
         self._epoch, self._number = "", 0
@@ -325,7 +324,11 @@ class MasterFeed(Feed):
         self._socket.setsockopt(zmq.IMMEDIATE, 1)
         self._socket.setsockopt(zmq.IPV6, int("[" in master))
         self._socket.reconnect_ivl_max = 500
-        trust(self._socket)
+        try:
+            security.trust_master(self._socket)
+        except BaseException:
+            self._context.destroy(linger=0)
+            raise
         self._socket.connect(master)
         self._thread.start()
 

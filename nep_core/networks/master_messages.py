@@ -210,11 +210,14 @@ class MasterProbe(Closing):
 
     def __init__(self, endpoint: str) -> None:
         fixed_endpoint(endpoint)
-        trust = security.trust_in_master()
         self._context: zmq.Context[zmq.Socket[bytes]] = zmq.Context()
         self._socket = self._context.socket(zmq.DEALER)
         self._socket.setsockopt(zmq.IPV6, int("[" in endpoint))
-        trust(self._socket)
+        try:
+            security.trust_master(self._socket)
+        except BaseException:
+            self.close()
+            raise
         self._socket.connect(endpoint)
 
     def ask(self, request: Request, kind: type[A], timeout_s: float = 2.0) -> A | None:

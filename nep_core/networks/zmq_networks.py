@@ -156,7 +156,8 @@ class PeerNetwork(ZmqNetwork):
     already running.
 
     ``node`` is the name that others see, ``master`` an endpoint (None: as NEP_MASTER says),
-    ``high_water_mark`` how many frames may wait; ``is_far``: messages go through a broker.
+    ``high_water_mark`` how many frames may wait; ``through``: the ends of a broker, where
+    messages are sent and heard.
     """
 
     def __init__(
@@ -165,17 +166,26 @@ class PeerNetwork(ZmqNetwork):
         *,
         master: str | None = None,
         high_water_mark: int = HIGH_WATER_MARK,
-        is_far: bool = False,
+        through: tuple[str, str] | None = None,
     ) -> None:
         self.master = fixed_endpoint(master or master_endpoint())
+        is_far = through is not None
         super().__init__(node, high_water_mark=high_water_mark, is_far=is_far)
+        self._heard_at = through[1] if through is not None else ""
+        """Where a broker is heard, if all goes through one."""
         self._topics: dict[str, int] = {}
         """How many publishers of each topic there are here."""
         self._heard: dict[str, str] = {}
         """The topic of each subscriber here."""
         self._inboxes_by_topic: dict[str, list[Inbox]] = {}
-        try:
-            endpoint = self._open_outbox()
+        try:  # where subscribers find the messages
+            if through is None:
+                # On this computer alone, or with keys where other computers reach it
+                host = "127.0.0.1" if self.security is None else own_address(self.master)
+                endpoint = self.outbox.bind(endpoint_at(host, "*"))
+            else:
+                endpoint = through[0]
+                self.outbox.connect(endpoint)
         except NetworkError:
             self.outbox.close()
             self._end()
@@ -234,27 +244,20 @@ class PeerNetwork(ZmqNetwork):
         super().remove_subscriber(subscriber)
         self._client.change_later(self._tell_topics)
 
-    def _open_outbox(self) -> str:
-        """Where subscribers find the messages."""
-        # Where to bind: this computer alone, or with keys where other computers reach it
-        host = "127.0.0.1" if self.security is None else own_address(self.master)
-        return self.outbox.bind(endpoint_at(host, "*"))
-
     def _tell_topics(self, told: Registration) -> None:
         topics = self._topics.copy()  # other threads may change it meanwhile
         told.publishes = sorted(topic for topic, count in topics.items() if count > 0)
         told.subscribes = self._heard.copy()
 
     def _connect_subscribers(self, topic: str, publishers: list[Publishing]) -> None:
-        endpoints = self._endpoints_of(publishers)
+        if self._heard_at:
+            endpoints = {self._heard_at: self._key_at(self._heard_at)}
+        else:
+            endpoints = {publisher.endpoint: publisher.key for publisher in publishers}
         with self._lock:
             inboxes = list(self._inboxes_by_topic.get(topic, []))
         for inbox in inboxes:
             inbox.connect(endpoints, {publisher.instance for publisher in publishers})
-
-    def _endpoints_of(self, publishers: list[Publishing]) -> dict[str, str]:
-        """Where they are heard, and their keys."""
-        return {publisher.endpoint: publisher.key for publisher in publishers}
 
     def _leave(self) -> None:
         self._client.close()
@@ -329,8 +332,8 @@ class BrokerNetwork(PeerNetwork):
     """
 
     def __init__(self, broker: str | None = None, *, node: str = "") -> None:
-        self._publishers_end, self._subscribers_end = broker_endpoints(broker)
-        super().__init__(node, master=broker_registry(broker), is_far=True)
+        self._ends = broker_endpoints(broker)
+        super().__init__(node, master=broker_registry(broker), through=self._ends)
 
     def join(self) -> None:
         """Make the node's name known at once; the first topic would do it too."""
@@ -344,16 +347,9 @@ class BrokerNetwork(PeerNetwork):
 
     def add_subscriber(self, topic: str, subscriber: str, inbox: Inbox) -> set[str]:
         """Connect to the broker and register; the publishers that are known."""
-        inbox.connect(self._endpoints_of([]))
+        inbox.connect({self._heard_at: self._key_at(self._heard_at)})
         with self._broker_found():
             return super().add_subscriber(topic, subscriber, inbox)
-
-    def _open_outbox(self) -> str:
-        self.outbox.connect(self._publishers_end)
-        return self._publishers_end
-
-    def _endpoints_of(self, publishers: list[Publishing]) -> dict[str, str]:
-        return {self._subscribers_end: self._key_at(self._subscribers_end)}
 
     @contextlib.contextmanager
     def _broker_found(self) -> Iterator[None]:
@@ -362,7 +358,7 @@ class BrokerNetwork(PeerNetwork):
         except NotLetIn:
             raise
         except MasterNotFound as error:
-            raise no_broker(self._publishers_end) from error
+            raise no_broker(self._ends[0]) from error
 
 
 def no_broker(endpoint: str) -> BrokerNotFound:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import logging
 import os
 import shutil
@@ -12,6 +13,8 @@ from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field, replace
 from functools import partial
 from pathlib import Path
+
+import psutil
 
 from faults import fault_in
 from nep_core.closing import Closing
@@ -26,7 +29,7 @@ from .guard import GUARD
 from .manifest import READY_S, Manifest, NodeCatalog, Restart, Value
 from .node import check_node_name
 from .node_log import log_file_name
-from .process import ASKED, ChildProcess, Outcome, is_in_tree, program_command
+from .process import ASKED, ChildProcess, Outcome, program_command
 
 log = logging.getLogger(__name__)
 
@@ -66,7 +69,11 @@ class LaunchedNode:
 
     def owns(self, pid: int) -> bool:
         """Whether the process ``pid`` is its own, perhaps started by a wrapper or a launch stub."""
-        return self.process is not None and is_in_tree(pid, self.process.pid)
+        if self.process is None or pid == self.process.pid:
+            return self.process is not None
+        with contextlib.suppress(psutil.Error, ValueError):
+            return self.process.pid in [parent.pid for parent in psutil.Process(pid).parents()]
+        return False
 
     def has_said_end(self, outcome: Outcome) -> bool:
         """Whether the node itself told that it stopped; waits a moment for its last message."""
@@ -291,32 +298,8 @@ class Launcher(Closing):
             outcome = replace(outcome, asked=True)
         again = launched.deserves_another(outcome)
         self._tell_end(launched, outcome, again)
-        if again:
-            self._restart(launched, outcome)
-
-    def _tell_end(self, launched: LaunchedNode, outcome: Outcome, again: bool) -> None:
-        launched.outcome = outcome
         if not again:
-            launched.ended.set()
-        is_well = outcome.was_successful and not outcome.asked
-        if not is_well and not (outcome.asked and launched.has_said_end(outcome)):
-            state = NodeState(
-                node=launched.name,
-                type=launched.manifest.type if launched.manifest else "cognitive",
-                event="stopped" if outcome.asked else "crashed",
-                pid=launched.pid,
-                host=socket.gethostname(),
-                **described(outcome.fault(again=again)),
-            )
-            with self._speaking:
-                if self._said is not None and not self._said.network.closed:
-                    self._said.send(state)
-        if self._on_end is not None:
-            self._on_end(launched, outcome, again)
-        if not again:
-            launched.end_reported.set()
-
-    def _restart(self, launched: LaunchedNode, outcome: Outcome) -> None:
+            return
         launched.ended.wait(FIRST_PAUSE_S * 2**launched.restarts)  # unless it is stopped meanwhile
         launched.restarts += 1
         try:
@@ -329,6 +312,28 @@ class Launcher(Closing):
             log.warning("%s", error)
             outcome = Outcome(launched.name, 1, refusal=fault_in(error))
         self._tell_end(launched, outcome, again=False)
+
+    def _tell_end(self, launched: LaunchedNode, outcome: Outcome, again: bool) -> None:
+        launched.outcome = outcome
+        if not again:
+            launched.ended.set()
+        is_well = outcome.code in (0, ASKED) and not outcome.asked
+        if not is_well and not (outcome.asked and launched.has_said_end(outcome)):
+            state = NodeState(
+                node=launched.name,
+                type=launched.manifest.type if launched.manifest else "cognitive",
+                event="stopped" if outcome.asked else "crashed",
+                pid=launched.process.pid if launched.process else 0,
+                host=socket.gethostname(),
+                **described(outcome.fault(again=again)),
+            )
+            with self._speaking:
+                if self._said is not None and not self._said.network.closed:
+                    self._said.send(state)
+        if self._on_end is not None:
+            self._on_end(launched, outcome, again)
+        if not again:
+            launched.end_reported.set()
 
     def _on_node_state(self, state: NodeState) -> None:
         """Take note of what a node of ours told, or another of its name."""

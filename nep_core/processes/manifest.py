@@ -177,7 +177,7 @@ def read_manifest(path: Path) -> Manifest:
     except OSError as error:
         raise _wrong(path, error) from error
     manifest = _read(path, state.st_mtime_ns, state.st_size)
-    if not manifest.command and not Path(manifest.module).is_file():
+    if not manifest.command and not path.with_suffix(".py").is_file():
         raise _wrong(path, f"there is no {path.stem}.py beside it, and it has no command")
     return manifest
 

@@ -24,7 +24,7 @@ from typing import Any, TypeVar
 
 import psutil
 
-from faults import Fault, Text, fault_of, reason_of, text_of, verbatim
+from faults import Fault, Text, reason_of, text_of, verbatim
 from nep_core.errors import NodeStartError
 from nep_core.wire.messages import PROCESS_ENDED, PROCESS_RESTARTS, PROCESS_STOPPED
 
@@ -53,27 +53,12 @@ def marked(marks: str) -> frozenset[psutil.Process]:
 
     That is how one is found that went into the background, into a group of its own.
     """
-    mark = marks.rpartition(" ")[2]
-    return frozenset(
-        process
-        for process in psutil.process_iter()
-        if mark and process.pid != os.getpid() and mark in _marks(process)
-    )
-
-
-def _marks(process: psutil.Process) -> list[str]:
-    with contextlib.suppress(psutil.Error, OSError):  # another user's, or gone
-        return str(process.environ().get(VARIABLE, "")).split()
-    return []
-
-
-def is_in_tree(pid: int, root_pid: int) -> bool:
-    """Whether ``pid`` is ``root_pid``, or was started by it or by one that it started."""
-    if pid == root_pid:
-        return True
-    with contextlib.suppress(psutil.Error, ValueError):
-        return root_pid in [parent.pid for parent in psutil.Process(pid).parents()]
-    return False
+    mark, found = marks.rpartition(" ")[2], set()
+    for process in psutil.process_iter() if mark else ():
+        with contextlib.suppress(psutil.Error, OSError):  # another user's, or gone
+            if process.pid != os.getpid() and mark in process.environ().get(VARIABLE, "").split():
+                found.add(process)
+    return frozenset(found)
 
 
 def kill(processes: Iterable[psutil.Process]) -> None:
@@ -157,7 +142,7 @@ class Outcome:
         """What is told for the node; ``again``: it is started again."""
         if again:
             words = "{outcome}; it is started again"
-            return fault_of(words, code=PROCESS_RESTARTS, outcome=self.text)
+            return Fault(PROCESS_RESTARTS, text_of(words, outcome=self.text))
         code = PROCESS_STOPPED if self.asked else PROCESS_ENDED
         return Fault(code, self.text, self.checklist)
 
@@ -311,7 +296,10 @@ class ChildProcess:
         self._reader.join(1.0)  # one that we may not end may hold the pipe open
         if self._popen.stdin is not None:
             self._popen.stdin.close()
-        words, refusal = last_words(list(self._last_lines)), handover.take(self._refusal)
+        # The last line that says something, one without an indent if there is any
+        said = [line for line in self._last_lines if line.strip()] or [""]
+        words = ([line for line in said if not line[:1].isspace()] or said)[-1].strip()
+        refusal = handover.take(self._refusal)
         self._on_end(Outcome(self.name, code, self._asked, words, refusal))
 
 
@@ -354,13 +342,6 @@ def _can_send_signals() -> bool:
     import ctypes
 
     return bool(ctypes.windll.kernel32.GetConsoleCP())
-
-
-def last_words(lines: list[str]) -> str:
-    """The last line that says something, one without an indent if there is any; else ""."""
-    said = [line for line in lines if line.strip()]
-    whole = [line for line in said if not line[0].isspace()] or said
-    return whole[-1].strip() if whole else ""
 
 
 def program_command(*words: str) -> list[str]:

@@ -23,52 +23,12 @@ if TYPE_CHECKING:
     from nep_core.networks.security.curve import Security
 
 
-# How many messages were sent to a subscriber and did not arrive, publisher by publisher.
-
 MOST_PUBLISHERS = 1_000
 """Starts of publishers that are remembered, those heard last: a topic may live for weeks."""
 
 
-class Totals:
-    """Counts by the numbers of messages; told of each frame in the order of arrival."""
-
-    def __init__(self) -> None:
-        self.lost = 0
-        self._known: dict[tuple[str, str], list[int]] = {}
-        """By node and run: the numbers of the first message received and the last one sent, and
-        at which note of ours it was heard last."""
-        self._notes = 0
-
-    def note(self, header: Header, messages: int) -> bool:
-        """Count a frame with so many messages; whether they are new to the subscriber."""
-        known = self._known.get((header.node, header.run))
-        last = header.sequence + messages - 1
-        self._notes += 1
-        if known is None:
-            if len(self._known) >= MOST_PUBLISHERS:
-                del self._known[min(self._known, key=lambda start: self._known[start][2])]
-            ends = (
-                [header.sequence, last] if header.sent is None else [header.sent + 1, header.sent]
-            )
-            self._known[header.node, header.run] = [*ends, self._notes]
-            return header.sent is None or messages > 0
-        known[2] = self._notes
-        if header.sent is not None:
-            sent = header.sent
-            was_lost = header.sequence > known[1]
-            is_new = messages > 0 and (was_lost or header.sequence < known[0])
-            self.lost += max(0, sent - known[1] - (messages if was_lost else 0))
-            known[1] = max(known[1], sent)
-            if is_new:
-                known[0] = min(known[0], header.sequence)
-            return is_new
-        if header.sequence > known[1] + 1:
-            self.lost += header.sequence - known[1] - 1
-        known[1] = last  # lower than before: a sender without a run has started again
-        return True
-
-
-# What has arrived for one subscriber and waits to be read.
+# What has arrived for one subscriber and waits to be read, and how many messages did not arrive,
+# publisher by publisher.
 #
 # It is bounded: of events the oldest are dropped and counted, of states only the newest is kept.
 
@@ -88,8 +48,13 @@ class Backlog:
     def __init__(self, topic: str, policy: Policy = "events") -> None:
         self.policy = policy
         self._head_at = len(subscription(topic))
-        self._totals = Totals()
-        self._frames: deque[bytes] = deque()
+        self._lost = 0
+        self._known: dict[tuple[str, str], list[int]] = {}
+        """By node and run: the numbers of the first message received and the last one sent, and
+        at which note of ours it was heard last."""
+        self._notes = 0
+        self._frames: deque[tuple[bytes, int]] = deque()
+        """Each with its number of messages."""
         self._bytes = 0
         self._newest: dict[tuple[str, str], bytes] = {}
         self.passed = b""
@@ -101,21 +66,21 @@ class Backlog:
     @property
     def lost(self) -> int:
         """How many messages are lost so far."""
-        return self._totals.lost if self.policy == "events" else 0
+        return self._lost if self.policy == "events" else 0
 
     def put(self, frame: bytes) -> None:
         """Take in a frame or a notice."""
         self.count_passed()
-        header, messages = self._read(frame)
-        if header is not None and not self._totals.note(header, messages):
+        header, messages, is_new = self._count(frame)
+        if not is_new:
             return
         if self.policy == "events":  # an unreadable one too: its reader tells what is wrong
-            self._frames.append(frame)
+            self._frames.append((frame, messages))
             self._bytes += len(frame)
             while len(self._frames) > 1 and (len(self._frames) > FRAMES or self._bytes > BYTES):
-                dropped = self._frames.popleft()
+                dropped, messages = self._frames.popleft()
                 self._bytes -= len(dropped)
-                self._totals.lost += self._read(dropped)[1]
+                self._lost += messages
         elif header is not None:
             sender = (header.node, header.run)
             if header.sent is None or sender not in self._newest:  # a notice brings what is old
@@ -124,7 +89,7 @@ class Backlog:
     def pop(self) -> bytes | None:
         """The oldest frame that is here."""
         if self._frames:
-            frame = self._frames.popleft()
+            frame, _messages = self._frames.popleft()
             self._bytes -= len(frame)
             return frame
         if self._newest:
@@ -135,23 +100,40 @@ class Backlog:
         """Count the frame that was passed by, before the next one comes."""
         if self.passed:
             passed, self.passed = self.passed, b""
-            header, messages = self._read(passed)
-            if header is not None:
-                self._totals.note(header, messages)
+            self._count(passed)
 
-    def _read(self, frame: bytes) -> tuple[Header | None, int]:
-        """The header (None: unreadable) and how many messages there are."""
+    def _count(self, frame: bytes) -> tuple[Header | None, int, bool]:
+        """The header (None: unreadable), how many messages, and whether they are new here."""
         end = frame.find(NUL, self._head_at)
         try:
             header = read_header(frame[self._head_at : end if end >= 0 else None])
         except BadMessage:
-            return None, 0
-        if end < 0:
-            return header, 0  # a mark
-        if header.encoding != "json":
-            return header, 1
-        payloads = frame[end:]  # count() is ten times slower
-        return header, len(payloads) - len(payloads.replace(NUL, b""))
+            return None, 0, True
+        payloads = frame[end:] if end >= 0 else b""  # none: a mark
+        messages = len(payloads) - len(payloads.replace(NUL, b""))  # count() is ten times slower
+        if payloads and header.encoding != "json":
+            messages = 1
+        sender, sent, self._notes = (header.node, header.run), header.sent, self._notes + 1
+        last = header.sequence + messages - 1
+        known = self._known.get(sender)
+        if known is None:
+            if len(self._known) >= MOST_PUBLISHERS:
+                del self._known[min(self._known, key=lambda start: self._known[start][2])]
+            ends = (header.sequence, last) if sent is None else (sent + 1, sent)
+            self._known[sender] = [*ends, self._notes]
+            return header, messages, sent is None or messages > 0
+        known[2] = self._notes
+        if sent is None:
+            self._lost += max(0, header.sequence - known[1] - 1)
+            known[1] = last  # lower than before: a sender without a run has started again
+            return header, messages, True
+        was_lost = header.sequence > known[1]
+        is_new = messages > 0 and (was_lost or header.sequence < known[0])
+        self._lost += max(0, sent - known[1] - (messages if was_lost else 0))
+        known[1] = max(known[1], sent)
+        if is_new:
+            known[0] = min(known[0], header.sequence)
+        return header, messages, is_new
 
 
 # The C back end's own: socket.EVENTS takes eight times longer, for each of 1,000 subscribers.
@@ -248,8 +230,8 @@ class Inbox:
                 if self._leaving:
                     self._disconnect_left()
                 self._backlog.count_passed()  # before we wait: it must not delay the next one
-                if self._backlog:
-                    return self._backlog.pop()
+                if (frame := self._backlog.pop()) is not None:
+                    return frame
                 left_s = None if deadline is None else max(0.0, deadline - time.monotonic())
                 frame = self._receive(left_s)
                 if frame is not None:

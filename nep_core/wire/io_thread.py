@@ -97,13 +97,15 @@ class IoThread:
         self.wake.close()
 
     def _run(self) -> None:
+        waker = self.wake.fileno()
         while not self._stopping.is_set():
             try:
                 hurried = time.monotonic() < self._hurry_until_s
-                self._poller.poll(HURRIED_TICK_MS if hurried else TICK_MS)
+                ready = self._poller.poll(HURRIED_TICK_MS if hurried else TICK_MS)
             except zmq.ZMQError:
                 return  # the context ended
-            self.wake.clear()
+            if (waker, zmq.POLLIN) in ready:
+                self.wake.clear()
             for function in self._tending:
                 try:
                     function()

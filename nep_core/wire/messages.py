@@ -12,7 +12,7 @@ from typing import Any, Literal
 
 import msgspec
 
-from faults import MOST_STEPS, Fault, Words, heard, text_of, verbatim
+from faults import MOST_STEPS, Fault, Words, heard, plain, text_of, verbatim
 
 NODE_STATE = "/node_state"
 IMU = "/imu"
@@ -89,23 +89,21 @@ class Described(msgspec.Struct, kw_only=True, omit_defaults=True):
     @property
     def fault(self) -> Fault:
         """What happened; where only a description came, that, as it is."""
-        return _fault(self, self.values)
-
-
-def _fault(told: Described, values: object) -> Fault:
-    if isinstance(told.text, str) and told.text:
-        sentence = heard({"text": told.text, "values": values})
-    else:
-        sentence = verbatim(told.description)
-    steps = told.checklist if isinstance(told.checklist, list) else []
-    code = told.code if isinstance(told.code, str) else ""
-    return Fault(code, sentence, tuple(map(heard, steps[:MOST_STEPS])))
+        if isinstance(self.text, str) and self.text:
+            # The values of a program's state are those of its variables
+            values = getattr(self, "text_values", self.values)
+            sentence = heard({"text": self.text, "values": values})
+        else:
+            sentence = verbatim(self.description)
+        steps = self.checklist if isinstance(self.checklist, list) else []
+        code = self.code if isinstance(self.code, str) else ""
+        return Fault(code, sentence, tuple(map(heard, steps[:MOST_STEPS])))
 
 
 def described(fault: Fault) -> dict[str, Any]:
     """The keys of a message that says what happened."""
     return {
-        "description": str(fault.sentence),
+        "description": plain(fault.sentence),
         "code": fault.code,
         "text": fault.sentence.text,
         "values": fault.sentence.values,
@@ -238,11 +236,6 @@ class ProgramState(Described, kw_only=True, omit_defaults=True):
     rule: str = ""
     thread: str = ""
     time: float = msgspec.field(default_factory=time.time)
-
-    @property
-    def fault(self) -> Fault:
-        """What happened."""
-        return _fault(self, self.text_values)
 
 
 class ProgramControl(msgspec.Struct, kw_only=True, omit_defaults=True):

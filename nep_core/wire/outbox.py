@@ -87,10 +87,12 @@ class Stream:
         self._hurry = hurry
         self._window = 0
         self._in_window = 0
-        self._waiting: list[bytes] = []
+        self.waiting: list[bytes] = []
+        """What is left of a flood."""
         self._room_bytes = SHARED_FRAME_BYTES
         self._waiting_since_ns = 0
-        self._late: deque[tuple[bytes, Encoding, bool]] = deque()
+        self.late: deque[tuple[bytes, Encoding, bool]] = deque()
+        """What a signal's handler could not send."""
 
     def send(self, message: Sendable, latch: bool = False) -> None:
         """Send ``message``; with ``latch``, subscribers that join later get it too.
@@ -110,7 +112,7 @@ class Stream:
             self._send_later(payload, "json", latch)
             return
         try:
-            if not self._waiting:
+            if not self.waiting:
                 now_ns = _now_ns()
                 if now_ns >> MILLISECOND_BITS != self._window:
                     self._window, self._in_window = now_ns >> MILLISECOND_BITS, 0
@@ -124,7 +126,7 @@ class Stream:
                 self._room_bytes = SHARED_FRAME_BYTES
                 self._waiting_since_ns = now_ns
                 self._hurry()  # the I/O thread sends it if no more messages come
-            self._waiting.append(payload)
+            self.waiting.append(payload)
             self._room_bytes -= len(payload)
             if self._room_bytes <= 0:
                 self._flush()
@@ -133,13 +135,14 @@ class Stream:
 
     def flush(self, older_than_ns: int = 0) -> None:
         """Send what waits, if it has waited for so long."""
-        if self._waiting:
+        if self.waiting:
             waited_ns = _now_ns() - self._waiting_since_ns
             if waited_ns >= older_than_ns or waited_ns < 0:  # the clock may be set back
                 with self._lock:
-                    self._flush()
-        while self._late:
-            self._send_payload(*self._late.popleft())
+                    if self.waiting:
+                        self._flush()
+        while self.late:
+            self._send_payload(*self.late.popleft())
 
     def abandon(self, send: Callable[[bytes], object]) -> None:
         """From now on ``send`` gets the frames, and whoever held the lock is not there any more."""
@@ -150,7 +153,8 @@ class Stream:
             self._send_later(payload, encoding, latch)
             return
         try:
-            self._flush()
+            if self.waiting:
+                self._flush()
             self.sent += 1
             frame = join(
                 self._start, self._node, self.sent, _now_ns(), encoding, payload, self._run
@@ -162,13 +166,11 @@ class Stream:
             self._lock.release()
 
     def _send_later(self, payload: bytes, encoding: Encoding, latch: bool) -> None:
-        self._late.append((payload, encoding, latch))
+        self.late.append((payload, encoding, latch))
         self._hurry()  # the I/O thread sends it
 
     def _flush(self) -> None:
-        if not self._waiting:
-            return
-        waiting, self._waiting = self._waiting, []
+        waiting, self.waiting = self.waiting, []
         first, since_ns = self.sent + 1, self._waiting_since_ns
         frame = join(self._start, self._node, first, since_ns, "json", NUL.join(waiting), self._run)
         self.sent += len(waiting)
@@ -260,7 +262,8 @@ class Outbox:
                 if stream is not None and stream.latched:
                     welcome = frames.notice(stream.latched, stream.sent)
                 else:
-                    welcome = self.mark(topic)
+                    sent = stream.sent if stream else 0
+                    welcome = frames.mark(topic, self._node, self._run, sent)
                 self._send_privately(topic, subscriber, welcome)
         with self._changed:
             change = set.add if present else set.discard
@@ -269,11 +272,6 @@ class Outbox:
                 del self._ids[topic]
             self._slow.discard((topic, subscriber))
             self._changed.notify_all()
-
-    def mark(self, topic: str) -> bytes:
-        """The notice of how many messages of ``topic`` were sent; call under the lock."""
-        stream = self._streams.get(topic)
-        return frames.mark(topic, self._node, self._run, stream.sent if stream else 0)
 
     def note_slow(self, topic: str, subscriber: str) -> None:
         """Somebody could not take a message: from now on it hears how many there were.
@@ -286,14 +284,17 @@ class Outbox:
     def tend(self) -> None:
         """Send what has waited in a flood, and the marks that are due (the I/O thread)."""
         for stream in list(self._streams.values()):
-            stream.flush(older_than_ns=FLOOD_NS)
+            if stream.waiting or stream.late:
+                stream.flush(older_than_ns=FLOOD_NS)
         if self._slow and time.monotonic() >= self._next_mark_s:
             self._next_mark_s = time.monotonic() + MARK_S
             with self._changed:
                 slow = [(topic, who) for topic, who in self._slow if topic in self._streams]
             for topic, subscriber in slow:
                 with self._lock:
-                    self._send_privately(topic, subscriber, self.mark(topic))
+                    sent = self._streams[topic].sent
+                    mark = frames.mark(topic, self._node, self._run, sent)
+                    self._send_privately(topic, subscriber, mark)
 
     def abandon(self, send: SendFrame) -> None:
         """In the child of a fork: ``send`` gets what its streams send, nobody holds a lock."""

@@ -67,7 +67,8 @@ class Publisher:
         except BaseException:
             self.close()
             raise
-        if not self.network.outbox.wait_for(topic, expected, 0, HANDSHAKE_S):
+        outbox = self.network.outbox
+        if expected and not outbox.wait_for(topic, expected, 0, HANDSHAKE_S):
             log.warning("a subscriber of %s has not connected yet", topic)
         if wait_for_subscribers:
             self.wait_for_subscribers(wait_for_subscribers, timeout_s)

@@ -12,7 +12,7 @@ from __future__ import annotations
 import logging
 import tempfile
 import threading
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Literal
@@ -50,8 +50,8 @@ AT_ONCE = frozenset((triggers.KEY, surroundings.KEY))
 class Subject:
     """What is to be run: a project, where its files are, and who plays its robots.
 
-    ``is_in_order``: it was checked as it is now, and nothing is wrong; ``code``: its Python, where
-    that was made already.
+    ``is_in_order``: it was checked as it is now, and nothing is wrong; ``code``: its Python, and
+    ``known``: its nodes, where these were made already.
     """
 
     project: Project
@@ -60,9 +60,12 @@ class Subject:
     choices: Choices = field(default_factory=Choices)
     is_in_order: bool = False
     code: Code | None = None
+    known: Sequence[PlannedNode] | None = None
 
     def nodes(self) -> list[PlannedNode]:
         """The nodes that it needs."""
+        if self.known is not None:
+            return list(self.known)
         return plan(self.project, self.language, self.choices, self.folder)
 
 

@@ -220,12 +220,12 @@ class LocalNetwork:
     def open(self) -> None:
         """Start the master and join it, unless that is done; one that is gone is replaced."""
         with self._opening:
-            if self.is_open:
+            if self.network is not None:
                 # Start one where the last one was, if that is gone: all who were there come to it
                 if self.shared_master and ask_master(self.shared_master) is None:
                     self.shared_master, self.has_master = "", False
                 if not self.has_master:
-                    self._start_master(self.launcher.master)
+                    start_master(self._master_launcher, self.launcher.master, self.master_options())
                     self.has_master = True
                     self.on_master("back", "")
                 return
@@ -241,9 +241,11 @@ class LocalNetwork:
         if transport() == "p2p":  # a broker or a router serves more than one session
             if not self.joined_master:
                 self.shared_master = "" if self.wanted_master else shared_master(self.name)
-            self.launcher.master = (
-                self.joined_master or self.shared_master or self._start_master(self.wanted_master)
-            )
+            self.launcher.master = self.joined_master or self.shared_master
+            if not self.launcher.master:
+                self.launcher.master = start_master(
+                    self._master_launcher, self.wanted_master, self.master_options()
+                )
         network = self._join()
         self._stack.callback(network.close)
         self.voice = Voice(network)
@@ -269,15 +271,14 @@ class LocalNetwork:
             if not self.shared_master:
                 raise
             self.shared_master = ""  # another session was quicker: this one keeps apart from it
-            self.launcher.master = self._start_master(self.wanted_master)
+            self.launcher.master = start_master(
+                self._master_launcher, self.wanted_master, self.master_options()
+            )
             return self._join()
         except BaseException:
             network.close()
             raise
         return network
-
-    def _start_master(self, wanted: str | None) -> str:
-        return start_master(self._master_launcher, wanted, self.master_options())
 
     def close(self) -> None:
         """Stop all nodes, leave the network, stop the master."""
@@ -313,30 +314,31 @@ class LocalNetwork:
         Does not wait until they are ready; raises NepError.
         """
         with self._opening:
-            if not self.is_open:
+            if self.network is None:
                 raise NodeStartError("The network is closed.", checklist=("Start it again.",))
-            return [self._start(one) for one in nodes]
-
-    def _start(self, planned: PlannedNode) -> LaunchedNode:
-        running = self.launcher.nodes.get(planned.name)
-        if running is not None and not running.ended.is_set():
-            if self.planned.get(planned.name) == planned:
-                return running
-            self.launcher.stop(planned.name)
-        # Write what a node will read, as the motions of the project
-        try:
-            if planned.files is not None:
-                planned.files.write()
-        except OSError as error:
-            raise NodeStartError(
-                "What {name} needs could not be written: {reason}.",
-                checklist=("Is there room on the disk?",),
-                details=str(error),
-                name=planned.name,
-                reason=reason_of(error),
-            ) from error
-        self.planned[planned.name] = planned
-        return self.launcher.launch(planned.node, planned.name, planned.parameters)
+            launched = []
+            for one in nodes:
+                running = self.launcher.nodes.get(one.name)
+                if running is not None and not running.ended.is_set():
+                    if self.planned.get(one.name) == one:
+                        launched.append(running)
+                        continue
+                    self.launcher.stop(one.name)
+                # Write what a node will read, as the motions of the project
+                try:
+                    if one.files is not None:
+                        one.files.write()
+                except OSError as error:
+                    raise NodeStartError(
+                        "What {name} needs could not be written: {reason}.",
+                        checklist=("Is there room on the disk?",),
+                        details=str(error),
+                        name=one.name,
+                        reason=reason_of(error),
+                    ) from error
+                self.planned[one.name] = one
+                launched.append(self.launcher.launch(one.node, one.name, one.parameters))
+            return launched
 
     def stop(self, name: str) -> None:
         """Stop one node."""
@@ -367,7 +369,7 @@ class LocalNetwork:
             listener(launched, outcome, again)
 
     def _on_master_end(self, launched: LaunchedNode, outcome: Outcome, again: bool) -> None:
-        if launched.stopping or not self.is_open:
+        if launched.stopping or self.network is None:
             return  # it was stopped, or never answered: who starts it tells of that
         if again:
             self.on_master("restarting", text_of("{outcome}.", outcome=outcome.text))

@@ -73,15 +73,14 @@ class Session:
 
     def wait(self, seconds: float | None = None) -> Ending:
         """Wait until the program ends, or for so long; how it ended."""
-        with self._changed:
-            self._changed.wait_for(lambda: self._ending is not None, seconds)
-            return self._ending or Ending()
+        self._is_over.wait(seconds)
+        return self._ending or Ending()
 
     def end(self, ending: Ending | None = None) -> None:
         """Let wait() return, and a start that is under way be given up; the first ending counts."""
         with self._changed:
             self._ending = self._ending or ending or Ending()
-            self._is_over.set()
+            self._is_over.set()  # wait() may go on: the ending is there
             self._changed.notify_all()
 
     def stop_robots(self) -> None:
@@ -126,7 +125,15 @@ class Session:
         try:
             self.network.open()
             self._start_nodes([node for node in self._nodes if not node.is_sensory])
-            self._start_program()
+            if not self._is_over.is_set():
+                # It listens, but does not act yet: no robot moves before every node is there
+                settings: dict[str, Value] = {"file": str(self.program), "hold": True}
+                if self._watching is not None:
+                    settings["trace"] = True
+                launcher, kind = self.network.launcher, "cognitive/program"
+                launched = launcher.launch(kind, PROGRAM, settings, restart="on-kill")
+                self._started.append(PROGRAM)
+                launched.wait_ready(given_up=self._is_over)
             self._start_nodes([node for node in self._nodes if node.is_sensory])
             self._begin_program()
         except BaseException:
@@ -146,19 +153,6 @@ class Session:
         self._started += [node.name for node in nodes if node.name not in running]
         for launched in self.network.start(nodes):
             launched.wait_ready(given_up=self._is_over)
-
-    def _start_program(self) -> None:
-        """Let the program listen, but not act yet: no robot moves before every node is there."""
-        if self._is_over.is_set():
-            return
-        settings: dict[str, Value] = {"file": str(self.program), "hold": True}
-        if self._watching is not None:
-            settings["trace"] = True
-        launched = self.network.launcher.launch(
-            "cognitive/program", PROGRAM, settings, restart="on-kill"
-        )
-        self._started.append(PROGRAM)
-        launched.wait_ready(given_up=self._is_over)
 
     def _begin_program(self) -> None:
         if self._is_over.is_set():

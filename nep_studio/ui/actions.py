@@ -63,18 +63,16 @@ class Actions(QObject):
     def label(self, name: str, words: Words, tip: Words = "") -> None:
         """Give an action other words, and a tool tip if they do not say it all."""
         self._words[name] = words, tip
-        self._say(name)
-
-    def _say(self, name: str) -> None:
-        (words, tip), action = self._words[name], self.by_name[name]
-        short = tr(words).removesuffix("…")
-        action.setText(tr(words))
+        action, said = self.by_name[name], tr(words)
+        short = said.removesuffix("…")
+        keys = action.shortcut().toString(QKeySequence.SequenceFormat.NativeText)
+        action.setText(said)
         action.setIconText(short)
-        action.setToolTip(_tip(tr(tip) or short, action))
+        action.setToolTip(f"{tr(tip) or short} ({keys})" if keys else tr(tip) or short)
 
     def _say_all(self) -> None:
-        for name in self._words:
-            self._say(name)
+        for name, (words, tip) in self._words.items():
+            self.label(name, words, tip)
 
     def enable(self, is_enabled: bool, *names: str) -> None:
         """Let these actions be used, or not."""
@@ -99,11 +97,6 @@ def sequences(keys: Keys | tuple[Keys, ...]) -> list[QKeySequence]:
         else:
             found.extend(QKeySequence.keyBindings(key))
     return list(dict.fromkeys(found))  # one that is there twice would be ambiguous
-
-
-def _tip(words: str, action: QAction) -> str:
-    keys = action.shortcut().toString(QKeySequence.SequenceFormat.NativeText)
-    return f"{words} ({keys})" if keys else words
 
 
 # What the keys of actions do, and the mouse on the canvas, as a list for people.

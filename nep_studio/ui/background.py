@@ -28,13 +28,8 @@ class Background(QObject):
 
     def post(self, do: Callable[[], object]) -> None:
         """Do this in the thread of Qt, soon and in order; from any thread."""
-
-        def do_if_wanted() -> None:
-            if not self._gone.is_set():
-                do()
-
         with contextlib.suppress(RuntimeError):  # the program ends
-            self._post.asked.emit(do_if_wanted)
+            self._post.asked.emit(do, self._gone)
 
     def start(
         self, work: Callable[[], Result], then: Callable[[Result], object], *, name: str
@@ -53,14 +48,15 @@ class Background(QObject):
 class _Post(QObject):
     """Lives as long as the program: a thread may use it while a dialog is being thrown away."""
 
-    asked = Signal(object)
+    asked = Signal(object, object)
 
     def __init__(self) -> None:
         super().__init__(QCoreApplication.instance())
         self.asked.connect(self._on_asked, Qt.ConnectionType.QueuedConnection)
 
-    def _on_asked(self, do: Callable[[], None]) -> None:
-        do()
+    def _on_asked(self, do: Callable[[], None], gone: threading.Event) -> None:
+        if not gone.is_set():
+            do()
 
 
 @cache

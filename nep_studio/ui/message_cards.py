@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from PySide6.QtCore import QEvent, QObject, QPoint, Qt, QTimer, Signal
+from PySide6.QtCore import QEvent, QObject, QPoint, QSize, Qt, QTimer, Signal
 from PySide6.QtGui import QColor, QGuiApplication, QKeyEvent, QPainter, QPaintEvent
 from PySide6.QtWidgets import (
     QApplication,
@@ -24,7 +24,7 @@ from nep_studio.ui.widgets.layouts import in_column, in_row
 from .labels import labelled
 from .messages import KIND_ICONS, Answer, Message
 from .theme.colours import Theme
-from .theme.icons import icon, icon_pixmap, icon_room
+from .theme.icons import icon, icon_room
 from .theme.look import Look
 
 # A message as a card: icon, title, sentence, checklist, answers, and details to copy.
@@ -95,32 +95,30 @@ class MessageCard(QFrame):
         button.setIconSize(icon_room(button.fontMetrics().height()))
         self.close_button = button
         self.close_button.clicked.connect(self.closed)
-        self.buttons = [self._button(answer) for answer in message.answers]
+        self.buttons: list[QPushButton] = []
         line = self.fontMetrics().height()
-        sign, size = QLabel(), round(line * 1.3)
-        kind = self.message.kind
-        ratio = self.devicePixelRatioF()
-        sign.setPixmap(icon_pixmap(KIND_ICONS[kind], theme.colour(kind), size, ratio))
+        sign, size, kind = QLabel(), round(line * 1.3), self.message.kind
+        picture = icon(KIND_ICONS[kind], theme, kind)
+        sign.setPixmap(picture.pixmap(QSize(size, size), self.devicePixelRatioF()))
         row = in_row((sign, 0, Qt.AlignmentFlag.AlignTop), of=self, spacing=line // 2)
         words = in_column(MessageText(self.message))
         if self.message.is_busy:
             bar = QProgressBar(textVisible=False)
             bar.setRange(0, 0)
             words.addWidget(bar)
-        if self.buttons:
+        if self.message.answers:
+            for answer in self.message.answers:
+                answering = QPushButton(answer.words)
+                if answer.look:
+                    answering.setProperty("kind", answer.look)
+                answering.clicked.connect(self.closed)
+                answering.clicked.connect(lambda _=False, do=answer.do: do())
+                self.buttons.append(answering)
             answers = in_row(*self.buttons, 1)
             words.addLayout(answers)
         row.addLayout(words, 1)
         row.addWidget(self.close_button, 0, Qt.AlignmentFlag.AlignTop)
         self.close_button.setVisible(not self.message.is_busy)
-
-    def _button(self, answer: Answer) -> QPushButton:
-        button = QPushButton(answer.words)
-        if answer.look:
-            button.setProperty("kind", answer.look)
-        button.clicked.connect(self.closed)
-        button.clicked.connect(lambda: answer.do())
-        return button
 
     def changeEvent(self, event: QEvent) -> None:
         """Take the room that the words need in another font."""
@@ -290,7 +288,8 @@ class QuestionDialog(QDialog):
     def _words(self, line: int) -> QHBoxLayout:
         sign, kind = QLabel(), self.message.kind
         colour = self.palette().color(self.foregroundRole())
-        sign.setPixmap(icon_pixmap(KIND_ICONS[kind], colour, line * 2, self.devicePixelRatioF()))
+        size, picture = QSize(line * 2, line * 2), icon(KIND_ICONS[kind], colour)
+        sign.setPixmap(picture.pixmap(size, self.devicePixelRatioF()))
         row = in_row(
             (sign, 0, Qt.AlignmentFlag.AlignTop), (MessageText(self.message), 1), spacing=line
         )

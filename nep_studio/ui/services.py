@@ -6,6 +6,7 @@ It knows neither the window nor what stands in it.
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import cached_property
 from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QObject, Qt, Signal
@@ -135,14 +136,13 @@ class Services(QObject):
         """The project that is open."""
         return self.files.document
 
-    @property
+    @cached_property
     def running(self) -> RunControl:
         """What runs the project, made when somebody first asks."""
-        if self.made_running is None:
-            self.made_running = self._make_running()
+        self.made_running = self._make_running()
         return self.made_running
 
-    @property
+    @cached_property
     def runner(self) -> Runner:
         """The program and its nodes while they run: what is heard of them, what is told them."""
         return self.running.runner

@@ -149,7 +149,7 @@ def test_a_topic_that_lives_for_weeks_remembers_a_bounded_number_of_publishers()
     for start in range(inbox.MOST_PUBLISHERS + 10):
         backlog.put(frame(1, run=f"{start:08}"))
 
-    assert len(backlog._totals._known) == inbox.MOST_PUBLISHERS
+    assert len(backlog._known) == inbox.MOST_PUBLISHERS
 
 
 @given(st.lists(st.binary(max_size=60) | st.binary(max_size=60).map(lambda b: b"/t\0" + b)))

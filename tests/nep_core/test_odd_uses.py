@@ -18,8 +18,8 @@ from nep_core.networks.master import Master
 from nep_core.networks.network import Network
 from nep_core.networks.zmq_networks import DirectNetwork, PeerNetwork
 from nep_core.wire import frames, outbox
-from nep_core.wire.frames import Header
-from nep_core.wire.inbox import MOST_PUBLISHERS, Totals
+from nep_core.wire.frames import join, subscription
+from nep_core.wire.inbox import MOST_PUBLISHERS, Backlog
 from nep_core.wire.pubsub import Publisher, Subscriber
 
 Join = Callable[[str], PeerNetwork]
@@ -199,16 +199,16 @@ with DirectNetwork(sys.argv[1]) as network:
 
 
 def test_a_publisher_that_is_heard_is_remembered_though_another_starts_again_and_again() -> None:
-    totals = Totals()
-    totals.note(Header("lasting", 1, 0), 1)
+    backlog, topic = Backlog("/t"), subscription("/t")
+    backlog.put(join(topic, "lasting", 1, 0, "json", b"0"))
     for start in range(2 * MOST_PUBLISHERS):
-        totals.note(Header("restarting", 1, 0, "json", str(start)), 1)
+        backlog.put(join(topic, "restarting", 1, 0, "json", b"0", str(start)))
         if start % 100 == 0:
-            totals.note(Header("lasting", 2 + start // 100, 0), 1)
+            backlog.put(join(topic, "lasting", 2 + start // 100, 0, "json", b"0"))
 
-    totals.note(Header("lasting", 100, 0), 1)
+    backlog.put(join(topic, "lasting", 100, 0, "json", b"0"))
 
-    assert totals.lost == 100 - 22
+    assert backlog.lost == 100 - 22
 
 
 def test_every_public_name_is_there() -> None:

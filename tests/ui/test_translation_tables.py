@@ -49,7 +49,7 @@ NAMED = {
     "blocks/operations/wrapping.py": "LABELS",
     "ui/workbench/problems.py": "SEVERITIES",
     "ui/shell/gallery.py": "NEEDS DIFFICULTIES TAGS",
-    "ui/running/actions.py": "PACES RUN_WORDS",
+    "ui/running/actions.py": "PACES RUN_WORDS STATE_WORDS",
     "ui/shell/settings_dialog.py": "FOLDERS FOLDER_BUTTONS",
     "ui/plugins/gestures/project_gestures.py": "LABELS",
     "ui/plugins/motion/commands.py": "LOOKS",

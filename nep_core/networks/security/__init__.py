@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -41,28 +40,14 @@ def from_environment(context: zmq.Context[zmq.Socket[bytes]]) -> Security | None
         raise
 
 
-def trust_in_master() -> Callable[[zmq.Socket[bytes]], None]:
-    """What to do with a socket before it is connected to the master; raises KeyFileError."""
+def trust_master(socket: zmq.Socket[bytes]) -> None:
+    """Prepare a socket that is about to be connected to the master; raises KeyFileError."""
     path = key_file_path()
     if path is None:
-        return lambda socket: None
+        return
     from .curve import expect_key, show_keys
     from .keys import KeyFile
 
     keys = KeyFile(path).keys
-
-    def trust(socket: zmq.Socket[bytes]) -> None:
-        show_keys(socket, keys)
-        expect_key(socket, keys.master_key)
-
-    return trust
-
-
-def told_master() -> str:
-    """Where the key file says that the master is; "" without one. Raises KeyFileError."""
-    path = key_file_path()
-    if path is None:
-        return ""
-    from .keys import KeyFile
-
-    return KeyFile(path).keys.master
+    show_keys(socket, keys)
+    expect_key(socket, keys.master_key)

@@ -27,7 +27,6 @@ if TYPE_CHECKING:
     from nep_studio.ui.host import Host
 
     from .control import RunControl
-    from .runner import Runner
 
 RUN_BUTTONS = ("run", "stop", "pause", "step")
 PACES = (
@@ -43,20 +42,19 @@ WITH_A_PROJECT = ("breakpoint", "clear_breakpoints", "needs")
 def fill_run_menu(menu: QMenu, host: Host) -> None:
     """Make the actions of the Run menu."""
     add = host.actions.add
-
-    def runner() -> Runner:
-        return host.services.runner
-
-    run = add("run", "Run", lambda: runner().run(), icon_name="play", keys="F5")
+    services = host.services
+    run = add("run", "Run", lambda: services.runner.run(), icon_name="play", keys="F5")
     stop = add(
         "stop",
         "Stop",
-        lambda: host.services.running.stop(),
+        lambda: services.running.stop(),
         icon_name="square",
         keys="Shift+F5",
     )
-    pause = add("pause", "Pause", lambda: runner().pause(), icon_name="pause", keys="F6")
-    step = add("step", "One step", lambda: runner().step(), icon_name="step-forward", keys="F10")
+    pause = add("pause", "Pause", lambda: services.runner.pause(), icon_name="pause", keys="F6")
+    step = add(
+        "step", "One step", lambda: services.runner.step(), icon_name="step-forward", keys="F10"
+    )
     menu.addActions([run, stop, pause, step])
     menu.addSeparator()
     paces = menu.addMenu(icon("gauge", host.services.look.theme), "")
@@ -131,16 +129,13 @@ RUN_WORDS = {"paused": "Go on", "running": "Run again"}
 """What Run means in a state of the program, if it is not what it says."""
 
 
-def state_words(state: str) -> str:
-    """How it is going, in a word or two."""
-    words = {
-        "starting": tr("Starting…"),
-        "running": tr("Running"),
-        "paused": tr("Paused"),
-        "stopping": tr("Stopping…"),
-    }
-    return words.get(state, "")
-
+STATE_WORDS = {
+    "starting": "Starting…",
+    "running": "Running",
+    "paused": "Paused",
+    "stopping": "Stopping…",
+}
+"""How it is going, in a word or two."""
 
 STATES = {
     "idle": ("", ""),
@@ -179,7 +174,7 @@ class RunState(QWidget):
     def sizeHint(self) -> QSize:
         """Room for the usual words."""
         metrics, line = self.fontMetrics(), self.fontMetrics().height()
-        widest = max(metrics.horizontalAdvance(state_words(state)) for state in STATES)
+        widest = max(map(metrics.horizontalAdvance, map(tr, STATE_WORDS.values())))
         room = 0 if self._is_tight else widest
         return QSize(room + 3 * line, super().sizeHint().height())
 
@@ -199,7 +194,7 @@ class RunState(QWidget):
         running = self._running
         is_stale = running is not None and running.is_stale and state in ("running", "paused")
         stale = tr("Running as it was before your changes")
-        self.words.set_words(stale if is_stale else state_words(state))
+        self.words.set_words(stale if is_stale else tr(STATE_WORDS.get(state, "")))
         self.setToolTip(tr("Run again to use your changes") if is_stale else "")
         self._sign.setVisible(bool(name))
         if name:

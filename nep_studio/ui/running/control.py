@@ -61,7 +61,9 @@ class RunControl(QObject):
         """The real robots that the one on the screen stands in for."""
         self._document: Document | None = None
         self._plan: tuple[Subject, list[PlannedNode]] | None = None
-        """The nodes of the open project as it is now, once somebody has asked for them."""
+        """The nodes of the open project, as it was when it was settled or somebody asked."""
+        self._is_settled = False
+        """Whether nothing was edited since it was looked what the nodes follow from."""
         self._wanted: object = None
         """What the nodes of the open project follow from, as it was when it was last told."""
         self._told_of_end: Message | None = None
@@ -120,8 +122,10 @@ class RunControl(QObject):
         document = self._host.services.document
         if document is None:
             return []
-        subject = self._subject_of(document)
-        if self._plan is None or self._plan[0] != subject:
+        choices = Choices(virtual=self._virtual)
+        language = self._host.services.language
+        subject = Subject(document.project, language, document.folder, choices)
+        if self._plan is None or self._plan[0] != subject or not self._is_settled:
             self._plan = subject, subject.nodes()
         return list(self._plan[1])
 
@@ -157,21 +161,21 @@ class RunControl(QObject):
 
     def _subject(self) -> Subject | None:
         document = self._host.services.document
-        if document is not None:
-            checks, code = self._host.workbench.checks, self._host.workbench.code.live.program
-            subject = self._subject_of(document)
-            return replace(subject, is_in_order=checks.is_in_order, code=code)
-        self._host.services.messages.refuse(
-            "There is no project to run.", ("Open or make one first.",)
-        )
-        return None
-
-    def _subject_of(self, document: Document) -> Subject:
+        if document is None:
+            self._host.services.messages.refuse(
+                "There is no project to run.", ("Open or make one first.",)
+            )
+            return None
+        workbench, language = self._host.workbench, self._host.services.language
         choices = Choices(virtual=self._virtual)
-        return Subject(document.project, self._host.services.language, document.folder, choices)
+        subject = Subject(document.project, language, document.folder, choices)
+        is_in_order, code = workbench.checks.is_in_order, workbench.code.live.program
+        is_planned = self._plan is not None and self._plan[0] == subject and self._is_settled
+        known = self._plan[1] if self._plan is not None and is_planned and is_in_order else None
+        return replace(subject, is_in_order=is_in_order, code=code, known=known)
 
     def _on_edited(self, changes: Changes) -> None:
-        self._plan = None
+        self._is_settled = False
         self.runner.controller.edited(changes)
 
     def _on_settled(self, changes: Changes) -> None:
@@ -185,8 +189,10 @@ class RunControl(QObject):
                 robot_entries(project, language),
                 list(names_used(project, language, "gesture")),
             )
+        self._is_settled = True
         if changes.whole or changes.kept or wanted != self._wanted:
-            self._wanted = wanted
+            self._wanted, self._plan = wanted, None
+            self.planned()  # while the person looks: Run need not wait for it
             self.plan_changed.emit()
 
     def _on_watching_changed(self) -> None:
@@ -197,6 +203,7 @@ class RunControl(QObject):
     def _on_told(self, event: Event) -> None:
         match event:
             case Checked(problems, can_run):
+                self._plan = None  # files may be there now that were not when it was made
                 self._host.workbench.checks.take(problems)
                 if not can_run:
                     self.show_needs()

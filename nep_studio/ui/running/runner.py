@@ -257,7 +257,8 @@ class Runner(QObject):
         self.controller = RunController(self.local, subject, self._background.post, self._on_told)
         self._preparing = QTimer(self, interval=BETWEEN_SLICES_MS)
         self._preparing.timeout.connect(lambda: self.controller.work(SLICE_S))
-        self._shown_state: State = "idle"
+        self.state: State = "idle"
+        """What the program does; while it is only checked and written, it does nothing yet."""
         self._is_closed = False
         self._looked_s = 0.0
         self._sender = Sender()
@@ -273,12 +274,7 @@ class Runner(QObject):
     @property
     def is_connected(self) -> bool:
         """Whether messages can be sent and heard."""
-        return self.local.is_open
-
-    @property
-    def state(self) -> State:
-        """What the program does; while it is only checked and written, it does nothing yet."""
-        return "idle" if self.controller.state in PREPARING else self.controller.state
+        return self.local.network is not None
 
     def run(self) -> None:
         """Run what is open, or run it again; a paused program goes on."""
@@ -391,20 +387,22 @@ class Runner(QObject):
 
     def _on_told(self, event: Event) -> None:
         """Pass on what the controller tells; those who look hear of no state before the start."""
-        before = self._shown_state
+        before = self.state
         if isinstance(event, StateChanged):
-            self._shown_state = self.state
             if event.state in PREPARING:
+                self.state = "idle"
                 self._preparing.start()
             else:
+                self.state = event.state
                 self._preparing.stop()
-        if self._shown_state != before:
-            self.state_changed.emit(self._shown_state)
+        if self.state != before:
+            self.state_changed.emit(self.state)
         self.told.emit(event)
         if isinstance(event, Ended):
             self.ended.emit(event.ending)
 
     def _on_came_up(self) -> None:
+        self._looked_s = time.time()
         self._looking.start()
         self._monitor.start()
         for tap in self._taps:

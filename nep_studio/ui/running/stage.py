@@ -18,7 +18,7 @@ from nep_studio.ui.canvas.editing.menu import MenuEntry, MenuPlace
 from nep_studio.ui.canvas.host import CanvasHost
 from nep_studio.ui.canvas.layout.index import Rect
 from nep_studio.ui.canvas.layout.page import Placed
-from nep_studio.ui.canvas.painting.overlay import ring
+from nep_studio.ui.canvas.painting.overlay import rings
 from nep_studio.ui.words import tr
 
 from .runner import Runner
@@ -52,7 +52,14 @@ class Marks:
         """Take in what the program told."""
         match state.event:
             case "line":
-                self._lines(state.lines)
+                inner, outer = set[str](), set[str]()
+                for stack in state.lines.values():
+                    blocks = [block for line in stack if (block := self.code.block_at(line))]
+                    inner.update(blocks[-1:])
+                    outer.update(blocks[:-1])
+                self.glowing, self.around = frozenset(inner), frozenset(outer - inner)
+                for thread in [one for one in self.paused if one not in state.lines]:
+                    del self.paused[thread]
             case "value":
                 for name, text in state.values.items():
                     self._value(name, clipped(text))
@@ -94,16 +101,6 @@ class Marks:
         if block is not None and statement is not None:
             self.results.setdefault(statement, {})[block] = text
 
-    def _lines(self, lines: dict[str, list[int]]) -> None:
-        inner, outer = set[str](), set[str]()
-        for stack in lines.values():
-            blocks = [block for line in stack if (block := self.code.block_at(line))]
-            inner.update(blocks[-1:])
-            outer.update(blocks[:-1])
-        self.glowing, self.around = frozenset(inner), frozenset(outer - inner)
-        for thread in [one for one in self.paused if one not in lines]:
-            del self.paused[thread]
-
 
 def clipped(text: str) -> str:
     """A value that is not too long for a block."""
@@ -134,11 +131,11 @@ class RunOverlay:
         """Draw them."""
         marks = self.marks
         for blocks, lines in ((marks.around, AROUND), (marks.glowing, HALO)):
+            found = [placed for one in blocks if (placed := view.page_layout.placed(one))]
             for width, opacity in lines:
                 colour = QColor(view.look.theme.colour("glow"))
                 colour.setAlpha(opacity)
-                for block in blocks:
-                    ring(painter, view, block, colour, width / view.sight.camera.scale)
+                rings(painter, view, found, colour, width / view.sight.camera.scale)
         known = (marks.counts, marks.values, marks.results, marks.paused)
         if not (self.breakpoints or any(known)):
             return
@@ -327,8 +324,8 @@ class Stage(QObject):
         for block in blocks:
             placed = view.page_layout.placed(block)
             if placed is not None:
-                x, y, width, height = placed.rect
-                view.layers.update_page(Rect(x - reach, y - 16, width + 2 * reach, height + 32))
+                wide, high = placed.box.width + 2 * reach, placed.box.height + 32
+                view.layers.update_page(Rect(placed.x - reach, placed.y - 16, wide, high))
 
     def _repaint_all(self) -> None:
         if self._canvas is not None:

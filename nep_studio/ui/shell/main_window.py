@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from functools import partial
+from functools import cached_property, partial
 from importlib import import_module
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -233,7 +233,7 @@ class MainWindow(QMainWindow):
         self.look.theme_changed.connect(self._on_theme_changed)
         follow_words(self, self._say)
 
-    @property
+    @cached_property
     def workbench(self) -> Workbench:
         """Where the project is worked on; made when it is first asked for."""
         if self.lazy.made_workbench is None:
@@ -241,7 +241,7 @@ class MainWindow(QMainWindow):
         assert self.lazy.made_workbench is not None
         return self.lazy.made_workbench
 
-    @property
+    @cached_property
     def running(self) -> RunControl:
         """What runs the project; made when it is first asked for."""
         return self.services.running

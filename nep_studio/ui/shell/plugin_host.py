@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import pkgutil
 from collections.abc import Callable, Iterator, Mapping
+from functools import cached_property
 from importlib import import_module
 from typing import TYPE_CHECKING, Any, cast
 
@@ -41,12 +42,12 @@ class WindowHost:
         """What dialogs lie over."""
         return self._window
 
-    @property
+    @cached_property
     def workbench(self) -> Workbench:
         """Where the project is worked on, made now if it is not there yet."""
         return self._window.workbench
 
-    @property
+    @cached_property
     def actions(self) -> Actions:
         """All actions by name."""
         return self._window.actions_by_name

@@ -30,11 +30,8 @@ class Panel:
     action: QAction
     is_usual: bool
     """Whether it is shown as long as nobody has shown or hidden it."""
-
-    @property
-    def name(self) -> str:
-        """What it is called in the settings."""
-        return type(self.widget).__name__
+    name: str
+    """What it is called in the settings."""
 
 
 class Area(QTabWidget):
@@ -88,22 +85,19 @@ class Area(QTabWidget):
 
     def _fit_titles(self) -> None:
         """Show all titles where there is room, else the one on top: the others have their signs."""
-        room = sum(self._tab_room(widget) for widget in self._titles)
+        bar, metrics, room = self.tabBar(), self.fontMetrics(), 0
+        for widget, title in self._titles.items():  # how wide each tab is with its title
+            index = self.indexOf(widget)
+            if self.isTabVisible(index):
+                shown = bar.tabText(index)
+                more = metrics.horizontalAdvance(tr(title)) - metrics.horizontalAdvance(shown)
+                room += bar.tabRect(index).width() + more + (0 if shown else metrics.height())
         is_narrow = room > self.width() - self.close_button.sizeHint().width()
         for widget, title in self._titles.items():
             is_short = is_narrow and widget is not self.currentWidget()
             words = "" if is_short else tr(title)
             if self.tabText(self.indexOf(widget)) != words:
                 self.setTabText(self.indexOf(widget), words)
-
-    def _tab_room(self, widget: QWidget) -> int:
-        """How wide the tab of a panel is with its title; nothing when it is hidden."""
-        index, bar = self.indexOf(widget), self.tabBar()
-        if not self.isTabVisible(index):
-            return 0
-        metrics, title = self.fontMetrics(), tr(self._titles[widget])
-        more = metrics.horizontalAdvance(title) - metrics.horizontalAdvance(bar.tabText(index))
-        return bar.tabRect(index).width() + more + (0 if bar.tabText(index) else metrics.height())
 
     def _on_current_changed(self) -> None:
         self._fit_titles()
@@ -170,7 +164,7 @@ class Panels(QObject):
         place = self.areas[area]
         place.add_panel(widget, title)
         action = labelled(QAction(self, checkable=True), text=title)
-        panel = Panel(widget, title, icon_name, place, action, is_shown)
+        panel = Panel(widget, title, icon_name, place, action, is_shown, type(widget).__name__)
         self.all.append(panel)
         action.setChecked(self._settings.is_shown(panel.name, default=is_shown))
         place.show_panel(widget, action.isChecked())

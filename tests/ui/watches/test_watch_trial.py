@@ -120,13 +120,13 @@ def test_a_program_that_runs_with_the_watch_keeps_it_when_the_dialog_is_closed(
     choose(dialog, "virtual_watch", qtbot)
     runner.tell("ready")
     runner.planned = lambda: runner.started
-    runner.controller.state = "running"
+    runner.state = "running"
 
     press(qtbot, dialog.close_button)
 
     assert ("stop", "watch") not in runner.asked
     assert "watch" not in runner.told_elsewhere
-    runner.controller.state = "idle"
+    runner.state = "idle"
 
 
 def test_a_dialog_that_is_opened_again_goes_on_with_the_node_that_is_starting(

@@ -42,7 +42,7 @@ class SelectionOverlay:
         else:  # of many only those that can be seen
             seen = layout.boxes(view.sight.visible_page_rect())
             blocks = [placed for placed in seen if placed.box.block in selected]
-        _rings(painter, view, blocks, colour, 2.5 * pixel)
+        rings(painter, view, blocks, colour, 2.5 * pixel)
         placed = layout.placed(selected.cursor) if view.area.hasFocus() else None
         if placed is not None:
             painter.setPen(QPen(colour, 2 * pixel, Qt.PenStyle.DashLine))
@@ -51,7 +51,7 @@ class SelectionOverlay:
             painter.drawRoundedRect(around, 6 * pixel, 6 * pixel)
 
 
-def _rings(
+def rings(
     painter: QPainter, view: CanvasHost, blocks: list[Placed], colour: QColor, width: float
 ) -> None:
     """Lines around blocks; around very many, which are small then, plain rectangles."""
@@ -106,7 +106,7 @@ def ring(painter: QPainter, view: CanvasHost, block_id: str, colour: QColor, wid
     """A line around a block."""
     placed = view.page_layout.placed(block_id)
     if placed is not None:
-        _rings(painter, view, [placed], colour, width)
+        rings(painter, view, [placed], colour, width)
 
 
 _SIGNS = {"error": "!", "warning": "!", "info": "i"}
