@@ -49,14 +49,9 @@ class Floor(QObject):
         self._on_project_changed()
 
     @property
-    def is_open(self) -> bool:
-        """Whether there is a project that can keep things."""
-        return self._project.editor is not None
-
-    @property
     def has_room(self) -> bool:
-        """Whether one thing more can be kept."""
-        return self.is_open and len(self._kept) < MOST_THINGS
+        """Whether there is a project that can keep one thing more."""
+        return self._project.editor is not None and len(self._kept) < MOST_THINGS
 
     @property
     def things(self) -> list[Thing]:

@@ -123,16 +123,6 @@ class Placed:
         ways = np.stack([step for step in steps if np.abs(step).sum() in (1, 3)])
         return self.farthest(ways).reshape(-1, 3)
 
-    @staticmethod
-    def joined(many: Sequence[Placed]) -> Placed:
-        """The parts of several, one after the other."""
-        return Placed(
-            joined_assembly(tuple(one.assembly for one in many)),
-            np.concatenate([one.origins for one in many]),
-            np.concatenate([one.turns for one in many]),
-            {},
-        )
-
 
 class RobotFigure:
     """A robot's folder: its body with the joints, and its look with the parts."""
@@ -160,8 +150,7 @@ class RobotFigure:
         self.sensors = tuple(dict.fromkeys(p.sensor for p in self.parts if p.sensor))
         self._at = np.array([one.at for one in shaped])
         self._turn = np.array([one.turn for one in shaped])
-        self._link_names = tuple(dict.fromkeys(part.link for part in self.parts))
-        self._link = np.array([self._link_names.index(part.link) for part in self.parts])
+        self._link = np.array([links.index(part.link) for part in self.parts])
         self._hinges = [(i, part.hinge) for i, part in enumerate(self.parts) if part.hinge]
         self._resting = lru_cache(maxsize=4)(self._rest)
 
@@ -172,12 +161,22 @@ class RobotFigure:
         told = state.torso or self._resting(tuple(angles), state.base, state.posture)
         torso = np.eye(4)
         torso[:3, :3], torso[:3, 3] = turned_by(*told[3:]), told[:3]
-        links = {name: torso @ frame for name, frame in self.skeleton.frames(angles).items()}
-        placed = self._placed(links, state.joints)
+        frames = torso @ self.skeleton.transforms(angles)
+        links = dict(zip(self.skeleton.links, frames, strict=True))
+        at, turn = self._at.copy(), self._turn.copy()
+        # Joints outside of the skeleton turn parts too, such as fingers, as far as they are open.
+        for part, hinge in self._hinges:
+            opened = state.joints.get(hinge.joint, 0.5)
+            degrees = hinge.closed_deg + (hinge.open_deg - hinge.closed_deg) * opened
+            spin, about = rotation(np.array(hinge.axis), math.radians(degrees)), np.array(hinge.at)
+            at[part] = about + spin @ (at[part] - about)
+            turn[part] = spin @ turn[part]
+        ours = frames[self._link]
+        origins = ours[:, :3, 3] + np.einsum("pij,pj->pi", ours[:, :3, :3], at)
+        placed = Placed(self.assembly, origins, ours[:, :3, :3] @ turn, links)
         if state.torso is None:
             low = np.array([0.0, 0.0, placed.farthest(-UP[None])[..., 2].min()])
-            for frame in links.values():
-                frame[:3, 3] -= low
+            frames[:, :3, 3] -= low  # also where the links are
             placed = replace(placed, origins=placed.origins - low)
         return placed
 
@@ -188,21 +187,6 @@ class RobotFigure:
         down = UPRIGHT if known is None else known.down
         return self.skeleton.torso_over_floor(np.array(angles), base, down)
 
-    def _placed(self, links: Mapping[str, Array], joints: Mapping[str, float]) -> Placed:
-        frames = np.stack([links[name] for name in self._link_names])[self._link]
-        at, turn = self._at.copy(), self._turn.copy()
-        # Joints outside of the skeleton turn parts too, such as fingers, as far as they are open.
-        for part, hinge in self._hinges:
-            opened = joints.get(hinge.joint, 0.5)
-            degrees = hinge.closed_deg + (hinge.open_deg - hinge.closed_deg) * opened
-            spin, about = rotation(np.array(hinge.axis), math.radians(degrees)), np.array(hinge.at)
-            at[part] = about + spin @ (at[part] - about)
-            turn[part] = spin @ turn[part]
-        origins = frames[:, :3, 3] + np.einsum("pij,pj->pi", frames[:, :3, :3], at)
-        return Placed(self.assembly, origins, frames[:, :3, :3] @ turn, links)
 
-
-@cache
-def load_figure(folder: Path) -> RobotFigure:
-    """The figure of a robot's folder, read once. Raises NodeStartError when it cannot be used."""
-    return RobotFigure(folder)
+load_figure = cache(RobotFigure)
+"""The figure of a robot's folder, read once. Raises NodeStartError when it cannot be used."""

@@ -14,6 +14,7 @@ from msgspec import Meta
 from numpy.typing import NDArray
 
 from nep_core.errors import NodeStartError
+from robots.body.kinematics import rotation as turned_by
 
 # Rounded convex shapes in numpy: how far they reach in any direction.
 #
@@ -307,6 +308,7 @@ LATHE_THIN = 0.12
 
 def _shape(part: Part) -> tuple[Array, list[Blob]]:
     """The turn (3, 3) of a part in its link, and its blobs along its own axes."""
+    turn = turned_by(*np.radians(part.turn))
     match part.shape:
         case "rod":
             way, (start, end) = np.array(part.to) - np.array(part.at), part.radii
@@ -319,9 +321,8 @@ def _shape(part: Part) -> tuple[Array, list[Blob]]:
             ]
         case "hull":
             slices = part.slices
-            return turned(part.turn), [Blob(s.at, s.size, (s.across, s.along)) for s in slices]
+            return turn, [Blob(s.at, s.size, (s.across, s.along)) for s in slices]
     across, along = {"ball": (2.0, 2.0), "box": (4.0, 4.0), "disc": (2.0, 4.0)}[part.shape]
-    turn = turned(part.turn)
     if part.shape == "disc":
         turn = facing(np.array(part.facing)) @ turn
     return turn, [Blob(size=part.size, powers=(part.across or across, part.along or along))]
@@ -332,14 +333,6 @@ def rotation(axis: Array, angle: float) -> Array:
     x, y, z = axis / np.linalg.norm(axis)
     cross = np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
     turn: Array = np.eye(3) + math.sin(angle) * cross + (1 - math.cos(angle)) * cross @ cross
-    return turn
-
-
-def turned(degrees: Triple) -> Array:
-    """The matrix of turns about x, then y, then z of the link."""
-    turn = np.eye(3)
-    for axis, angle in zip(np.eye(3), degrees, strict=True):
-        turn = rotation(axis, math.radians(angle)) @ turn
     return turn
 
 

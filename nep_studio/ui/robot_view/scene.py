@@ -66,13 +66,18 @@ UNSEEN = ("time", "battery", "sees", "settings", "listening", "sensors", "moving
 """What of a state does not change the picture of it, but for the sensors that are felt."""
 
 
-class Motion:
-    """The way of one robot from the state that is seen to the last one that was told."""
+class RobotHere:
+    """One robot of a room, on its way from the state that is seen to the last one that was told."""
 
-    def __init__(self, state: RobotState, at_s: float) -> None:
+    def __init__(self, name: str, figure: RobotFigure, state: RobotState, now_s: float) -> None:
+        self.name, self.figure = name, figure
         self.goal = self.shown = self._start = state
-        self._told_s = self._heard_s = at_s
+        self._told_s = self._heard_s = now_s
         self._lasts_s = 0.0
+        self.is_pale = self.can_touch = False
+        self.last: RobotState | None = None
+        self.path: list[FloorPlace] = []
+        self.picture: SceneRobot | None = None
 
     def go(self, state: RobotState, now_s: float) -> bool:
         """Take in a new state; whether anything is seen of it."""
@@ -92,11 +97,27 @@ class Motion:
         share = 1.0 if self._lasts_s <= 0 else (now_s - self._told_s) / self._lasts_s
         start, goal = self._start, self.goal
         moves = (start.joints, start.base, start.torso) != (goal.joints, goal.base, goal.torso)
-        if share >= 1.0 or not moves:
-            self.shown = goal
-            return False
-        self.shown = between(start, goal, max(share, 0.0))
-        return True
+        is_there = share >= 1.0 or not moves
+        self.shown = goal if is_there else between(start, goal, max(share, 0.0))
+        # Remember where it has come to.
+        here = self.shown.base[:2]
+        far = math.dist(self.path[-1], here) if self.path else math.inf
+        if far > STEP_M:
+            self.path = [*(self.path[-LONGEST_PATH:] if far <= JUMP_M else []), here]
+        return not is_there
+
+    def seen(self) -> SceneRobot:
+        """The robot as it is shown now; the same object until it moves on."""
+        state, before = self.shown, self.picture
+        if before is not None and before.state is state:
+            return before
+        # When only lights or words have changed its parts are where they were.
+        moving = attrgetter("joints", "base", "torso", "posture")
+        is_still = before is not None and moving(before.state) == moving(state)
+        placed = before.placed if before and is_still else self.figure.pose(state)
+        path = tuple(self.path)
+        self.picture = SceneRobot(self.name, self.figure, state, placed, self.is_pale, path)
+        return self.picture
 
 
 def visible_state(state: RobotState) -> tuple[object, ...]:
@@ -137,53 +158,16 @@ Base = tuple[float, float, float]
 ORIGIN: Base = (0.0, 0.0, 0.0)
 
 
-class _RobotHere:
-    """One robot of the room."""
-
-    def __init__(self, name: str, figure: RobotFigure, state: RobotState, now_s: float) -> None:
-        self.name, self.figure = name, figure
-        self.motion = Motion(state, now_s)
-        self.is_pale = self.can_touch = False
-        self.last: RobotState | None = None
-        self.path: list[FloorPlace] = []
-        self.picture: SceneRobot | None = None
-
-    def seen(self) -> SceneRobot:
-        """The robot as it is shown now; the same object until it moves on."""
-        state, before = self.motion.shown, self.picture
-        if before is not None and before.state is state:
-            return before
-        # When only lights or words have changed its parts are where they were.
-        moving = attrgetter("joints", "base", "torso", "posture")
-        is_still = before is not None and moving(before.state) == moving(state)
-        placed = before.placed if before and is_still else self.figure.pose(state)
-        path = tuple(self.path)
-        self.picture = SceneRobot(self.name, self.figure, state, placed, self.is_pale, path)
-        return self.picture
-
-    def walk(self) -> None:
-        """Remember where it has come to."""
-        here = self.motion.shown.base[:2]
-        far = math.dist(self.path[-1], here) if self.path else math.inf
-        if far > STEP_M:
-            self.path = [*(self.path[-LONGEST_PATH:] if far <= JUMP_M else []), here]
-
-
 class Room:
     """The robots and things that a view shows."""
 
     def __init__(self) -> None:
-        self._robots: dict[str, _RobotHere] = {}
+        self.robots: dict[str, RobotHere] = {}
         self.things: tuple[Thing, ...] = ()
         """What stands on the floor."""
         self._scene: Scene | None = None
         self.marked = Marked()
         self.has_floor = self.has_bubbles = True
-
-    @property
-    def names(self) -> tuple[str, ...]:
-        """The robots' names."""
-        return tuple(self._robots)
 
     def show_robot(
         self,
@@ -195,17 +179,17 @@ class Room:
         start: Base = ORIGIN,
     ) -> tuple[bool, bool]:
         """Take in a robot's state; whether the robot is new, and whether anything is seen of it."""
-        here = self._robots.get(name)
+        here = self.robots.get(name)
         is_new = here is None or here.figure is not figure
         last = here.last if here is not None and not is_new else None
         told = state or last or _standing(name, figure, start)
         if here is None or is_new:
-            here = self._robots[name] = _RobotHere(name, figure, told, now_s)
+            here = self.robots[name] = RobotHere(name, figure, told, now_s)
         if state is not None:
             here.last = msgspec.structs.replace(state, saying="", leds={})
         was = (here.is_pale, here.can_touch)
         here.is_pale, here.can_touch = state is None, can_touch and state is not None
-        is_seen = here.motion.go(told, now_s) or is_new or was != (here.is_pale, here.can_touch)
+        is_seen = here.go(told, now_s) or is_new or was != (here.is_pale, here.can_touch)
         if was != (here.is_pale, here.can_touch):
             here.picture = None
         self._scene = None
@@ -214,7 +198,7 @@ class Room:
     def remove_robot(self, name: str) -> bool:
         """Take a robot away; whether it was there."""
         self._scene = None
-        return self._robots.pop(name, None) is not None
+        return self.robots.pop(name, None) is not None
 
     def show_things(self, things: Sequence[Thing]) -> bool:
         """Have these things; whether they are others than before."""
@@ -232,31 +216,24 @@ class Room:
 
     def clear_paths(self) -> None:
         """Forget the ways that were walked."""
-        for robot in self._robots.values():
+        for robot in self.robots.values():
             robot.path, robot.picture = [], None
         self._scene = None
 
     def step(self, now_s: float) -> bool:
         """Move all robots on; whether some will move on further."""
-        more = [robot.motion.step(now_s) for robot in self._robots.values()]
-        for robot in self._robots.values():
-            robot.walk()
+        more = [robot.step(now_s) for robot in self.robots.values()]
         self._scene = None
         return any(more)
 
     def can_touch(self, name: str) -> bool:
         """Whether a robot feels it when it is touched here."""
-        return name in self._robots and self._robots[name].can_touch
-
-    def goal(self, name: str) -> RobotState | None:
-        """The last state that a robot told; None for one that is not there."""
-        here = self._robots.get(name)
-        return None if here is None or here.is_pale else here.motion.goal
+        return name in self.robots and self.robots[name].can_touch
 
     def scene(self) -> Scene:
         """What is painted; the same object until something changes."""
         if self._scene is None:
-            robots = tuple(robot.seen() for robot in self._robots.values())
+            robots = tuple(robot.seen() for robot in self.robots.values())
             self._scene = Scene(robots, self.things, self.marked, self.has_floor, self.has_bubbles)
         return self._scene
 
@@ -265,8 +242,7 @@ def _standing(name: str, figure: RobotFigure, start: Base) -> RobotState:
     """A robot of which nothing is known stands where it will begin."""
     postures = figure.body.postures
     posture = UPRIGHT if UPRIGHT in postures else next(iter(postures))
-    angles = figure.body.posture_angles(posture).tolist()
-    joints = dict(zip(figure.body.names, angles, strict=True))
+    joints = dict(zip(figure.body.names, postures[posture].angles, strict=True))
     return RobotState(robot=name, joints=joints, posture=posture, base=start)
 
 

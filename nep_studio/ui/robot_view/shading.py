@@ -173,8 +173,15 @@ def cast_shadow(placed: Placed, camera: Camera, depth: float = 1.0) -> Shadow | 
     unit = SIDE_PX / side
     soft = _blurred(_filled(pixels), max(1, round(0.034 * unit)))
     firm = _blurred(_filled(pixels[lowest < LOW_M]), max(1, round(0.012 * unit)))
-    dark = depth * np.minimum(SOFT * soft + FIRM * firm, 0.8)
-    return Shadow(_sheet(dark), (float(low[0]), float(low[1])), side)
+    # Darkness as a picture of a dark colour that lets more or less through
+    dark = 255 * (depth * np.minimum(SOFT * soft + FIRM * firm, 0.8))
+    dark_px = np.empty((SIDE_PX, SIDE_PX, 4), np.uint8)
+    dark_px[..., 3] = dark
+    for channel, share in zip((2, 1, 0), TONE, strict=True):
+        dark_px[..., channel] = dark * share
+    form = QImage.Format.Format_ARGB32_Premultiplied
+    image = QImage(dark_px.tobytes(), SIDE_PX, SIDE_PX, 4 * SIDE_PX, form).copy()
+    return Shadow(image, (float(low[0]), float(low[1])), side)
 
 
 def _filled(outlines: Array) -> Array:
@@ -202,13 +209,3 @@ def _blurred(sheet: Array, reach: int) -> Array:
         means: Array = (sums[width:] - sums[:-width]) / width
         sheet = means.T
     return sheet
-
-
-def _sheet(dark: Array) -> QImage:
-    """Darkness as a picture of a dark colour that lets more or less through."""
-    pixels = np.empty((SIDE_PX, SIDE_PX, 4), np.uint8)
-    pixels[..., 3] = 255 * dark
-    for channel, share in zip((2, 1, 0), TONE, strict=True):
-        pixels[..., channel] = 255 * dark * share
-    form = QImage.Format.Format_ARGB32_Premultiplied
-    return QImage(pixels.tobytes(), SIDE_PX, SIDE_PX, 4 * SIDE_PX, form).copy()

@@ -91,16 +91,14 @@ class InLines(QWidget):
 
     def sizeHint(self) -> QSize:
         """What it would like."""
-        return self._pixels(self.usual_lines)
+        (wide, high), line = self.usual_lines, self.fontMetrics().height()
+        return QSize(round(line * wide), round(line * high))
 
     def minimumSizeHint(self) -> QSize:
         """Less is of no use."""
-        least = self.least_lines
-        return self._pixels(least) if any(least) else super().minimumSizeHint()
-
-    def _pixels(self, lines: tuple[float, float]) -> QSize:
-        line = self.fontMetrics().height()
-        return QSize(round(line * lines[0]), round(line * lines[1]))
+        (wide, high), line = self.least_lines, self.fontMetrics().height()
+        least = QSize(round(line * wide), round(line * high))
+        return super().minimumSizeHint() if least.isNull() else least
 
 
 Page = TypeVar("Page", bound=QWidget)
