@@ -61,12 +61,14 @@ class Bodies:
         if not groups:
             return None
         many = [one for one, _ in groups]
-        placed = Placed(
-            joined_assembly(tuple(one.assembly for one in many)),
-            np.concatenate([one.origins for one in many]),
-            np.concatenate([one.turns for one in many]),
-            {},
-        )
+        placed = many[0]
+        if len(many) > 1:
+            placed = Placed(
+                joined_assembly(tuple(one.assembly for one in many)),
+                np.concatenate([one.origins for one in many]),
+                np.concatenate([one.turns for one in many]),
+                {},
+            )
         whose = np.repeat(np.arange(len(many)), [len(one.origins) for one in many])
         seen = silhouettes(placed, lens)
         # Parts that lie on others come right after these, where they face the eye.

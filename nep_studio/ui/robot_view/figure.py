@@ -69,7 +69,12 @@ class Assembly:
         thick = self.solids.extent.min(axis=1) > THIN_M
         numbers = self.bare[thick[self.bare]]
         parts = tuple(self.parts[number] for number in numbers.tolist())
-        return numbers, Assembly(parts, self.solids.only(numbers), self.normals[numbers], ())
+        solids = self.solids
+        kept = np.isin(solids.owner, numbers)
+        owner = np.searchsorted(numbers, solids.owner[kept]).astype(np.intp)
+        blobs = solids.centre[kept], solids.size[kept], solids.powers[kept]
+        alone = Solids.boxed(owner, *blobs, len(numbers))
+        return numbers, Assembly(parts, alone, self.normals[numbers], ())
 
 
 @lru_cache(maxsize=32)

@@ -141,15 +141,13 @@ void main() {{
 """
 
 
-def _stops() -> str:
-    """The steps of the gradient from the light, as nested mixes of white and shade."""
-    lines = []
-    for (start, white, shade), (end, more_white, more_shade) in pairwise(STOPS):
-        share = f"clamp((d - {start:.3f}) / {end - start:.3f}, 0.0, 1.0)"
-        one, other = f"vec2({white:.3f}, {shade:.3f})", f"vec2({more_white:.3f}, {more_shade:.3f})"
-        lines.append(f"    if (d >= {start:.3f}) tone = mix({one}, {other}, {share});")
-    return "\n".join(lines)
-
+STEPS = "\n".join(
+    f"    if (d >= {start:.3f}) tone = mix(vec2({white:.3f}, {shade:.3f}), "
+    f"vec2({more_white:.3f}, {more_shade:.3f}), "
+    f"clamp((d - {start:.3f}) / {end - start:.3f}, 0.0, 1.0));"
+    for (start, white, shade), (end, more_white, more_shade) in pairwise(STOPS)
+)
+"""The steps of the gradient from the light, as nested mixes of white and shade."""
 
 BODY_FRAGMENT = f"""
 #version 330 core
@@ -166,7 +164,7 @@ void main() {{
     vec2 p = vec2(n.x, -n.y);
     float d = clamp(length(p - vec2({LIGHT_AT.x():.3f}, {LIGHT_AT.y():.3f})) / {REACH:.3f}, 0., 1.);
     vec2 tone = vec2({STOPS[0][1]:.3f}, {STOPS[0][2]:.3f});
-{_stops()}
+{STEPS}
     tone *= finish.x;
     vec3 lit = mix(mix(colour, vec3(1.0), tone.x), SHADE, tone.y);
     vec2 q = p - vec2(-0.4, -0.52);

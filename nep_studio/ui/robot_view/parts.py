@@ -60,7 +60,7 @@ class Solids:
         centre = np.array([blob.at for blob in blobs], dtype=np.float64).reshape(-1, 3)
         size = np.array([blob.size for blob in blobs], dtype=np.float64).reshape(-1, 3)
         powers = np.array([blob.powers for blob in blobs], dtype=np.float64).reshape(-1, 2)
-        return cls._boxed(owner, centre, size, powers, len(parts))
+        return cls.boxed(owner, centre, size, powers, len(parts))
 
     @classmethod
     def joined(cls, many: Sequence[Solids]) -> Solids:
@@ -73,24 +73,16 @@ class Solids:
             np.concatenate([getattr(one, name) for one in many])
             for name in ("centre", "size", "powers")
         )
-        return cls._boxed(owner, centre, size, powers, int(starts[-1]))
-
-    def only(self, numbers: Indices) -> Solids:
-        """Some of the parts, in the order of their numbers."""
-        kept = np.isin(self.owner, numbers)
-        owner = np.searchsorted(numbers, self.owner[kept])
-        parts = (self.centre[kept], self.size[kept], self.powers[kept])
-        return self._boxed(owner.astype(np.intp), *parts, len(numbers))
+        return cls.boxed(owner, centre, size, powers, int(starts[-1]))
 
     def scaled(self, scale: Array) -> Solids:
         """The shapes longer by these factors (3,) along their axes."""
         parts = (self.centre * scale, self.size * scale, self.powers)
-        return self._boxed(self.owner, *parts, len(self.middle))
+        return self.boxed(self.owner, *parts, len(self.middle))
 
     @classmethod
-    def _boxed(
-        cls, owner: Indices, centre: Array, size: Array, powers: Array, count: int
-    ) -> Solids:
+    def boxed(cls, owner: Indices, centre: Array, size: Array, powers: Array, count: int) -> Solids:
+        """Put so many parts that are in arrays already into their boxes."""
         first = np.searchsorted(owner, np.arange(count))
         counts = np.bincount(owner, minlength=count)
         most = int(counts.max(initial=1))

@@ -182,7 +182,12 @@ class Room:
         here = self.robots.get(name)
         is_new = here is None or here.figure is not figure
         last = here.last if here is not None and not is_new else None
-        told = state or last or _standing(name, figure, start)
+        told = state or last
+        if told is None:  # it stands where it will begin
+            postures = figure.body.postures
+            posture = UPRIGHT if UPRIGHT in postures else next(iter(postures))
+            joints = dict(zip(figure.body.names, postures[posture].angles, strict=True))
+            told = RobotState(robot=name, joints=joints, posture=posture, base=start)
         if here is None or is_new:
             here = self.robots[name] = RobotHere(name, figure, told, now_s)
         if state is not None:
@@ -236,14 +241,6 @@ class Room:
             robots = tuple(robot.seen() for robot in self.robots.values())
             self._scene = Scene(robots, self.things, self.marked, self.has_floor, self.has_bubbles)
         return self._scene
-
-
-def _standing(name: str, figure: RobotFigure, start: Base) -> RobotState:
-    """A robot of which nothing is known stands where it will begin."""
-    postures = figure.body.postures
-    posture = UPRIGHT if UPRIGHT in postures else next(iter(postures))
-    joints = dict(zip(figure.body.names, postures[posture].angles, strict=True))
-    return RobotState(robot=name, joints=joints, posture=posture, base=start)
 
 
 def moved(things: Sequence[Thing], thing: str, x: float, y: float) -> list[Thing]:

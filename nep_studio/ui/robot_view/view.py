@@ -6,6 +6,7 @@ import math
 import time
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
+from functools import cache
 from pathlib import Path
 
 from PySide6.QtCore import QEvent, QPointF, QRect, QSize, Qt, QTimer, Signal
@@ -114,10 +115,14 @@ def nao_folder() -> Path:
     return paths.resources() / "robots" / "nao"
 
 
-def folder_of(state: RobotState | None) -> Path:
-    """The folder of the robot that a state is of; NAO's where there is none that can be drawn."""
+@cache
+def folder_of(model: str) -> Path:
+    """The folder of a robot's model; NAO's where there is none that can be drawn.
+
+    It is looked for once: robots tell their model thirty times a second.
+    """
     nao = nao_folder()
-    folder = nao.parent / ((state.model if state is not None else "") or nao)
+    folder = nao.parent / (model or nao)
     return folder if (folder / VIEW_FILE).is_file() else nao  # a path of one's own stays as it is
 
 
@@ -146,6 +151,8 @@ class RoomPicture(InLines):
         self.camera = Camera()
         self.follows = True
         self.frames = 0
+        self._told: dict[str, tuple[str, str] | None] = {}
+        """What was said of each robot: posture and words; None: that it is not there."""
         self._cost_ms = 0.0
         self._timer = QTimer(self, interval=FRAME_MS, timerType=Qt.TimerType.PreciseTimer)
         self._timer.timeout.connect(self._on_frame)
@@ -167,14 +174,17 @@ class RoomPicture(InLines):
         start: Base = ORIGIN,
     ) -> None:
         """Show a robot as it is now; None: nothing is known, so it is pale where it was last."""
-        figure = load_figure(folder or folder_of(state))
+        figure = load_figure(folder or folder_of(state.model if state is not None else ""))
         is_new, is_seen = self.room.show_robot(
             name, figure, state, time.monotonic(), can_touch, start
         )
         if is_new and self.follows:
             self.fit()
         if is_seen:
-            self._describe()
+            words = None if state is None else (state.posture, state.saying)
+            if is_new or words != self._told.get(name):
+                self._told[name] = words
+                self._describe()
             # Paint soon, as often as it takes for the robots to come to where they are.
             if self.isVisible() and not self._timer.isActive():
                 self._timer.start()

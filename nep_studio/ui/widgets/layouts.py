@@ -129,7 +129,7 @@ class LatePanel(InLines, Generic[Page]):
 class Flow(QLayout):
     """Items beside each other, in the next row where there is no room for them."""
 
-    def __init__(self, parent: QWidget | None = None, *, spacing: int = 6) -> None:
+    def __init__(self, parent: QWidget | None = None, spacing: int = 6) -> None:
         super().__init__(parent)
         self._items: list[QLayoutItem] = []
         self._heights: dict[int, int] = {}
@@ -237,9 +237,6 @@ class ReadingLabel(QLabel):
 
 class FlowLayout(Flow):
     """Asks for no more width than its widest widget: a panel may be narrow."""
-
-    def __init__(self, parent: QWidget | None = None, gap: int = 4) -> None:
-        super().__init__(parent, spacing=gap)
 
     def sizeHint(self) -> QSize:
         """As narrow as the widest of them."""

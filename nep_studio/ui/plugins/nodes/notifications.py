@@ -99,7 +99,7 @@ class NodeNotifier(QObject):
                     self._gathering.start()
                 self._was_ready.add(name)
                 self._restarted.discard(name)
-            if not is_running(after):
+            if name in self._asked and not is_running(after):
                 self._asked.discard(name)
 
     def _circumstances(self, status: NodeStatus) -> Circumstances:

@@ -210,6 +210,7 @@ class RobotsPanel(InLines):
         for name in [*self._heard, *there]:
             plans.setdefault(name, RobotPlan(name))
         for name in self.cards.keys() - plans.keys():
+            self.stage.remove_robot(name)
             gone = self.cards.pop(name)
             gone.hide()
             gone.deleteLater()
@@ -224,7 +225,6 @@ class RobotsPanel(InLines):
                 card.show_plan(plan)
             self._cards_box.insertWidget(place, card)
             self._show_robot(plan.name)
-        self.stage.keep_robots(list(plans))
         self._give_room()
         self.hint.setVisible(not self.cards)
 

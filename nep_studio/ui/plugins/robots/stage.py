@@ -252,10 +252,9 @@ class RobotStage(InLines):
             if self._sight is not None and not self._sight.soon.isActive():
                 self._sight.soon.start()  # it may have moved
 
-    def keep_robots(self, names: list[str]) -> None:
-        """Show only these robots."""
-        for name in self._shown.keys() - set(names):
-            del self._shown[name]
+    def remove_robot(self, name: str) -> None:
+        """Show a robot no more."""
+        if self._shown.pop(name, None) is not None:
             self.view.remove_robot(name)
 
     # Things
