@@ -7,7 +7,6 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cache, lru_cache
 from operator import attrgetter
-from typing import Any
 
 import msgspec
 import numpy as np
@@ -63,7 +62,12 @@ SHORTEST_S, LONGEST_S = 0.02, 0.12
 JUMP_M = 0.4
 """A robot that is suddenly so far away has been put there; it did not walk."""
 UNSEEN = ("time", "battery", "sees", "settings", "listening", "sensors", "moving")
-"""What of a state does not change the picture of it, but for the sensors that are felt."""
+SEEN = tuple(name for name in RobotState.__struct_fields__ if name not in UNSEEN)
+"""What of a state changes the picture of it, beside the sensors that are felt."""
+
+
+MOVING = attrgetter("joints", "base", "torso", "posture")
+"""What of a state says where the parts are."""
 
 
 class RobotHere:
@@ -82,7 +86,11 @@ class RobotHere:
     def go(self, state: RobotState, now_s: float) -> bool:
         """Take in a new state; whether anything is seen of it."""
         since, self._heard_s = now_s - self._heard_s, now_s
-        if visible_state(state) == visible_state(self.goal):
+        looks = [
+            (*(getattr(one, name) for name in SEEN), {n for n, x in one.sensors.items() if x > 0})
+            for one in (state, self.goal)
+        ]
+        if looks[0] == looks[1]:
             self.shown = state if self.shown is self.goal else self.shown
             self.goal = state
             return False
@@ -106,26 +114,6 @@ class RobotHere:
             self.path = [*(self.path[-LONGEST_PATH:] if far <= JUMP_M else []), here]
         return not is_there
 
-    def seen(self) -> SceneRobot:
-        """The robot as it is shown now; the same object until it moves on."""
-        state, before = self.shown, self.picture
-        if before is not None and before.state is state:
-            return before
-        # When only lights or words have changed its parts are where they were.
-        moving = attrgetter("joints", "base", "torso", "posture")
-        is_still = before is not None and moving(before.state) == moving(state)
-        placed = before.placed if before and is_still else self.figure.pose(state)
-        path = tuple(self.path)
-        self.picture = SceneRobot(self.name, self.figure, state, placed, self.is_pale, path)
-        return self.picture
-
-
-def visible_state(state: RobotState) -> tuple[object, ...]:
-    """All of a state that is seen; equal for states that look the same."""
-    felt = tuple(sorted(name for name, value in state.sensors.items() if value > 0))
-    names = (name for name in state.__struct_fields__ if name not in UNSEEN)
-    return (felt, *(getattr(state, name) for name in names))
-
 
 def between(start: RobotState, goal: RobotState, share: float) -> RobotState:
     """The state on the way from one to another; what cannot be halved is as in the goal."""
@@ -133,19 +121,15 @@ def between(start: RobotState, goal: RobotState, share: float) -> RobotState:
         name: angle + (goal.joints.get(name, angle) - angle) * share
         for name, angle in start.joints.items()
     }
-    base, torso = _mixed(start.base, goal.base, share, turns_from=2), goal.torso
-    if start.torso is not None and goal.torso is not None:
-        torso = _mixed(start.torso, goal.torso, share, turns_from=3)
-    return msgspec.structs.replace(goal, joints=goal.joints | joints, base=base, torso=torso)
-
-
-def _mixed(
-    start: tuple[float, ...], goal: tuple[float, ...], share: float, *, turns_from: int
-) -> Any:
-    """As many numbers on the way; the later ones are angles, which take the shorter way round."""
-    ways = [b - a for a, b in zip(start, goal, strict=True)]
-    ways[turns_from:] = [math.remainder(way, 2 * math.pi) for way in ways[turns_from:]]
-    return tuple(a + way * share for a, way in zip(start, ways, strict=True))
+    moved: dict[str, tuple[float, ...]] = {}
+    for key, turns_from in (("base", 2), ("torso", 3)):
+        if getattr(start, key) is not None and getattr(goal, key) is not None:
+            ways = [b - a for a, b in zip(getattr(start, key), getattr(goal, key), strict=True)]
+            # The later ones are angles, which take the shorter way round.
+            ways[turns_from:] = [math.remainder(way, 2 * math.pi) for way in ways[turns_from:]]
+            there = zip(getattr(start, key), ways, strict=True)
+            moved[key] = tuple(a + way * share for a, way in there)
+    return msgspec.structs.replace(goal, joints=goal.joints | joints, **moved)
 
 
 # What is in a robot view at the moment, and how it moves on from one told state to the next.
@@ -238,7 +222,15 @@ class Room:
     def scene(self) -> Scene:
         """What is painted; the same object until something changes."""
         if self._scene is None:
-            robots = tuple(robot.seen() for robot in self.robots.values())
+            for robot in self.robots.values():
+                state, before = robot.shown, robot.picture
+                if before is None or before.state is not state:
+                    # When only lights or words have changed its parts are where they were.
+                    is_still = before is not None and MOVING(before.state) == MOVING(state)
+                    placed = before.placed if before and is_still else robot.figure.pose(state)
+                    kept = robot.is_pale, tuple(robot.path)
+                    robot.picture = SceneRobot(robot.name, robot.figure, state, placed, *kept)
+            robots = tuple(one.picture for one in self.robots.values() if one.picture is not None)
             self._scene = Scene(robots, self.things, self.marked, self.has_floor, self.has_bubbles)
         return self._scene
 
