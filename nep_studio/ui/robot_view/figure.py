@@ -39,6 +39,8 @@ class Assembly:
     """Where the parts (parts, 3) face, along their own axes."""
     riders: tuple[tuple[int, int], ...]
     """The numbers of the parts that lie on others, each with that of its carrier."""
+    bare: Indices
+    """The numbers of the parts that lie on no other."""
 
     @classmethod
     def of(cls, shaped: Sequence[Shaped]) -> Assembly:
@@ -47,12 +49,8 @@ class Assembly:
         numbers = {part.name: number for number, part in enumerate(parts)}
         riders = tuple((number, numbers[part.on]) for number, part in enumerate(parts) if part.on)
         solids = Solids.of([one.blobs for one in shaped])
-        return cls(parts, solids, np.array([one.normal for one in shaped]), riders)
-
-    @cached_property
-    def bare(self) -> Indices:
-        """The numbers of the parts that lie on no other."""
-        return np.flatnonzero([not part.on for part in self.parts])
+        bare = np.flatnonzero([not part.on for part in parts])
+        return cls(parts, solids, np.array([one.normal for one in shaped]), riders, bare)
 
     @cached_property
     def layers(self) -> Array:
@@ -74,7 +72,7 @@ class Assembly:
         owner = np.searchsorted(numbers, solids.owner[kept]).astype(np.intp)
         blobs = solids.centre[kept], solids.size[kept], solids.powers[kept]
         alone = Solids.boxed(owner, *blobs, len(numbers))
-        return numbers, Assembly(parts, alone, self.normals[numbers], ())
+        return numbers, Assembly(parts, alone, self.normals[numbers], (), np.arange(len(parts)))
 
 
 @lru_cache(maxsize=32)
@@ -90,6 +88,7 @@ def joined_assembly(many: tuple[Assembly, ...]) -> Assembly:
             for start, one in zip(starts, many, strict=False)
             for number, carrier in one.riders
         ),
+        np.concatenate([start + one.bare for start, one in zip(starts, many, strict=False)]),
     )
 
 

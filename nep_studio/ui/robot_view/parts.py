@@ -101,7 +101,17 @@ class Solids:
         length = np.sqrt(np.einsum("mkc,mkc->mk", stretched, stretched))
         points[is_round] = stretched * size / np.maximum(length, 1e-12)[..., None]
         edged = ~is_round
-        points[edged] = _farthest_of_boxes(self.size[edged], self.powers[edged], ways[edged])
+        # Superellipsoids |(|x/a|^p + |y/b|^p)^(1/p)|^r + |z/c|^r = 1; p, r are the powers.
+        powers, size = self.powers[edged], self.size[edged][:, None]
+        across, along = np.moveaxis(powers / (powers - 1), 1, 0)[..., None]
+        x, y, z = np.moveaxis(np.abs(ways[edged]) * size + 1e-12, 2, 0)
+        part_x, part_y, part_z = x**across, y**across, z**along
+        both = part_x + part_y
+        flat = both ** (along / across)
+        whole = (flat + part_z) ** (1 - 1 / along)
+        shared = flat / (both * whole)
+        point = np.stack([part_x * shared / x, part_y * shared / y, part_z / (whole * z)], axis=2)
+        points[edged] = point * np.sign(ways[edged]) * size
         points += self.centre[:, None]
         if self.table.shape[1] == 1:
             return points
@@ -109,20 +119,6 @@ class Solids:
         best = np.argmax(reach[self.table], axis=1)
         chosen = np.take_along_axis(self.table, best, axis=1)
         return points[chosen, np.arange(ways.shape[1])]
-
-
-def _farthest_of_boxes(size: Array, powers: Array, ways: Array) -> Array:
-    """Superellipsoids |(|x/a|^p + |y/b|^p)^(1/p)|^r + |z/c|^r = 1; p, r are the powers."""
-    across, along = np.moveaxis(powers / (powers - 1), 1, 0)[..., None]
-    x, y, z = np.moveaxis(np.abs(ways) * size[:, None] + 1e-12, 2, 0)
-    part_x, part_y = x**across, y**across
-    both = part_x + part_y
-    flat = both ** (along / across)
-    part_z = z**along
-    whole = (flat + part_z) ** (1 - 1 / along)
-    shared = flat / (both * whole)
-    point = np.stack([part_x * shared / x, part_y * shared / y, part_z / (whole * z)], axis=2)
-    return point * np.sign(ways) * size[:, None]
 
 
 Triple = tuple[float, float, float]

@@ -40,6 +40,9 @@ from .participants import RobotPlan
 LOW_BATTERY = 0.2
 FACTS = ("posture", "moving", "battery", "saying", "listening", "doing")
 LONG = ("doing", "saying", "listening")
+WRAPPED = QSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Preferred)
+"""How words take room that are as wide as there is room, and as high as that makes them."""
+WRAPPED.setHeightForWidth(True)
 
 
 class Facts(QWidget):
@@ -76,7 +79,7 @@ class Facts(QWidget):
             row.addWidget(label, 1)
             if name in LONG:
                 label.setWordWrap(True)
-                label.setSizePolicy(wrapped())
+                label.setSizePolicy(WRAPPED)
                 self._box.addWidget(part)
             else:
                 self._flow.addWidget(part)
@@ -102,13 +105,6 @@ class Facts(QWidget):
         self._parts[name][1].setPixmap(pixmap)
 
 
-def wrapped() -> QSizePolicy:
-    """How words take room that are as wide as there is room, and as high as that makes them."""
-    policy = QSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Preferred)
-    policy.setHeightForWidth(True)
-    return policy
-
-
 def posture_words(posture: str, language: Language) -> str:
     """A posture, as the robot names it, in words: "LyingBack" is “lying on the back”."""
     if not posture:
@@ -131,7 +127,7 @@ class FallenBar(QFrame):
         self.sign = QLabel()
         self.words = labelled(QLabel(), text="It has fallen.")
         self.words.setWordWrap(True)
-        self.words.setSizePolicy(wrapped())
+        self.words.setSizePolicy(WRAPPED)
         self.help_button = labelled(QPushButton(), text="Help it up", tip="Let it stand up again")
         row = QHBoxLayout(self)
         line = self.fontMetrics().height()
