@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cache
 from itertools import pairwise
 
 from PySide6.QtCore import QSize
@@ -42,8 +43,9 @@ class GlContext:
         return not any(name in self.renderer.lower() for name in SLOW)
 
     @classmethod
+    @cache
     def made(cls) -> GlContext:
-        """Make a context of OpenGL 3.3. Raises NoContext."""
+        """Make a context of OpenGL 3.3, one for all. Raises NoContext."""
         if QGuiApplication.platformName() in WITHOUT:
             raise NoContext(f"the platform {QGuiApplication.platformName()} has no OpenGL")
         if safe_mode.is_on():

@@ -121,9 +121,8 @@ def folder_of(model: str) -> Path:
 
     It is looked for once: robots tell their model thirty times a second.
     """
-    nao = nao_folder()
-    folder = nao.parent / (model or nao)
-    return folder if (folder / VIEW_FILE).is_file() else nao  # a path of one's own stays as it is
+    folder = paths.resources() / "robots" / (model or "nao")  # a path of one's own stays as it is
+    return folder if (folder / VIEW_FILE).is_file() else nao_folder()
 
 
 class RoomPicture(InLines):
