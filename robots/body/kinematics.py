@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .body import Angles, Body, Link, Vector
-from .settling import settled, tilt_for
+from .settling import tilt_for, tipped
 
 Frames = NDArray[np.float64]
 """Homogeneous transforms (..., 4, 4) from a link's frame to the torso's."""
@@ -135,7 +135,7 @@ class Skeleton:
         if not len(self._points):
             return tilt_for(np.array(down))
         points = self.outline(frames) - self.mass_centre(frames)
-        return settled(points, tilt_for(np.array(down)))
+        return tipped(points, tilt_for(np.array(down)), math.inf)[0]  # until it is steady
 
     def torso_over_floor(
         self,

@@ -20,11 +20,6 @@ STEADY_M = 1e-6
 MOST_TIPPINGS = 60
 
 
-def settled(points: Points, turn: Rotation) -> Rotation:
-    """Return how a body is turned once it has tipped until it is steady."""
-    return tipped(points, turn, math.inf)[0]
-
-
 def tipped(points: Points, turn: Rotation, at_most_rad: float) -> tuple[Rotation, float]:
     """Let a body tip by at most an angle (inf: until it is steady).
 

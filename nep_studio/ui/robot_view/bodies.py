@@ -12,7 +12,7 @@ from PySide6.QtCore import Qt
 from PySide6.QtGui import QBrush, QPainter, QTransform
 
 from .camera import Lens
-from .figure import Placed
+from .figure import Placed, joined_assembly
 from .parts import Part
 from .shading import Shades
 from .silhouettes import Silhouettes, drawing_order, fitting_polygons, silhouettes
@@ -60,8 +60,16 @@ class Bodies:
         """See the parts of some robots and things through a lens; None when there are none."""
         if not groups:
             return None
-        placed = Placed.joined([one for one, _ in groups])
-        whose = np.repeat(np.arange(len(groups)), [len(one.parts) for one, _ in groups])
+        many = [one for one, _ in groups]
+        placed = many[0]
+        if len(many) > 1:
+            placed = Placed(
+                joined_assembly(tuple(one.assembly for one in many)),
+                np.concatenate([one.origins for one in many]),
+                np.concatenate([one.turns for one in many]),
+                {},
+            )
+        whose = np.repeat(np.arange(len(many)), [len(one.origins) for one in many])
         seen = silhouettes(placed, lens)
         # Parts that lie on others come right after these, where they face the eye.
         to_eye = lens.eye - placed.origins
@@ -83,7 +91,8 @@ class Bodies:
         rims = fitting_polygons(self.seen.outlines + OUTLINE_PX * self.seen.ways, sizes)
         faces = fitting_polygons(self.seen.outlines, sizes)
         has_rim = (sizes > RIM_FROM_PX).tolist()
-        glowing = self._glowing()
+        glowing, parts = self._glowing(), self.placed.assembly.parts
+        plain = QTransform(painter.transform())
         # From the unit circle to the ellipses of the parts.
         shapes = [
             QTransform(a, b, b, d, *middle)
@@ -92,7 +101,7 @@ class Bodies:
             )
         ]
         for number in self.order:
-            part, dress = self.placed.parts[number], self.dresses[self.whose[number]]
+            part, dress = parts[number], self.dresses[self.whose[number]]
             colour, light = dress.colours[part.colour], dress.light_of(part)
             if has_rim[number] and part.finish != "flat":
                 painter.setBrush(shades.outline(colour, dress.is_pale))
@@ -102,11 +111,15 @@ class Bodies:
             brush.setTransform(shapes[number])
             painter.setBrush(brush)
             painter.drawConvexPolygon(faces[number])
+            spots = [(_HALO * shapes[i], shades.glow(lamp)) for i, lamp in glowing.get(number, ())]
             if part.gloss and not dress.is_pale:
-                _shed(painter, [(_SPOT * shapes[number], shades.gloss(part.gloss))])
-            if number in glowing:
-                lamps = glowing[number]
-                _shed(painter, [(_HALO * shapes[i], shades.glow(light)) for i, light in lamps])
+                spots.insert(0, (_SPOT * shapes[number], shades.gloss(part.gloss)))
+            for shape, shed in spots:  # light, each a brush on the unit circle
+                painter.setTransform(shape * plain)
+                painter.setBrush(shed)
+                painter.drawEllipse(-1, -1, 2, 2)
+            if spots:
+                painter.setTransform(plain)
 
     def _glowing(self) -> dict[int, list[tuple[int, int]]]:
         """The lights that are on, with their colours, by what they lie on and shed their light on.
@@ -114,9 +127,9 @@ class Bodies:
         That is painted before them and all else that lies there, so that eyes stay clear.
         """
         glowing: dict[int, list[tuple[int, int]]] = {}
-        carrier = -1
+        carrier, parts = -1, self.placed.assembly.parts
         for number in self.order:
-            part, dress = self.placed.parts[number], self.dresses[self.whose[number]]
+            part, dress = parts[number], self.dresses[self.whose[number]]
             carrier = carrier if part.on else number
             light = dress.light_of(part)
             if light:
@@ -135,16 +148,6 @@ class Bodies:
 
 _SPOT = QTransform.fromTranslate(-0.4, -0.52).rotate(-38).scale(0.3, 0.2)
 _HALO = QTransform.fromScale(GLOW_GROWTH, GLOW_GROWTH)
-
-
-def _shed(painter: QPainter, spots: list[tuple[QTransform, QBrush]]) -> None:
-    """Paint spots of light, each a brush on the unit circle."""
-    plain = QTransform(painter.transform())
-    for shape, brush in spots:
-        painter.setTransform(shape * plain)
-        painter.setBrush(brush)
-        painter.drawEllipse(-1, -1, 2, 2)
-    painter.setTransform(plain)
 
 
 def _holds(outline: NDArray[np.float64], x: float, y: float) -> bool:

@@ -11,7 +11,6 @@ from .figure import Placed
 
 if TYPE_CHECKING:
     from .gl_bodies import GlBodies
-    from .gl_context import GlContext
 
 log = logging.getLogger(__name__)
 
@@ -29,25 +28,18 @@ def gl_bodies(drawing: Drawing) -> GlBodies | None:
     if drawing == "painter":
         return None
     try:
-        is_wanted = drawing == "opengl" or _context().is_fast
+        from .gl_context import GlContext  # Qt's part for it needs libraries of the system
+
+        is_wanted = drawing == "opengl" or GlContext.made().is_fast
         return _bodies() if is_wanted else None
-    except NoContext as error:
+    except (ImportError, NoContext) as error:
         log.info("Robots are painted without OpenGL: %s", error)
         return None
 
 
 @cache
-def _context() -> GlContext:
-    try:
-        from .gl_context import GlContext  # Qt's part for it needs libraries of the system
-    except ImportError as error:
-        raise NoContext(str(error)) from error
-    return GlContext.made()
-
-
-@cache
 def _bodies() -> GlBodies:
-    context = _context()
     from .gl_bodies import GlBodies
+    from .gl_context import GlContext
 
-    return GlBodies(context)
+    return GlBodies(GlContext.made())

@@ -39,6 +39,8 @@ class Assembly:
     """Where the parts (parts, 3) face, along their own axes."""
     riders: tuple[tuple[int, int], ...]
     """The numbers of the parts that lie on others, each with that of its carrier."""
+    bare: Indices
+    """The numbers of the parts that lie on no other."""
 
     @classmethod
     def of(cls, shaped: Sequence[Shaped]) -> Assembly:
@@ -47,12 +49,8 @@ class Assembly:
         numbers = {part.name: number for number, part in enumerate(parts)}
         riders = tuple((number, numbers[part.on]) for number, part in enumerate(parts) if part.on)
         solids = Solids.of([one.blobs for one in shaped])
-        return cls(parts, solids, np.array([one.normal for one in shaped]), riders)
-
-    @cached_property
-    def bare(self) -> Indices:
-        """The numbers of the parts that lie on no other."""
-        return np.flatnonzero([not part.on for part in self.parts])
+        bare = np.flatnonzero([not part.on for part in parts])
+        return cls(parts, solids, np.array([one.normal for one in shaped]), riders, bare)
 
     @cached_property
     def layers(self) -> Array:
@@ -69,7 +67,12 @@ class Assembly:
         thick = self.solids.extent.min(axis=1) > THIN_M
         numbers = self.bare[thick[self.bare]]
         parts = tuple(self.parts[number] for number in numbers.tolist())
-        return numbers, Assembly(parts, self.solids.only(numbers), self.normals[numbers], ())
+        solids = self.solids
+        kept = np.isin(solids.owner, numbers)
+        owner = np.searchsorted(numbers, solids.owner[kept]).astype(np.intp)
+        blobs = solids.centre[kept], solids.size[kept], solids.powers[kept]
+        alone = Solids.boxed(owner, *blobs, len(numbers))
+        return numbers, Assembly(parts, alone, self.normals[numbers], (), np.arange(len(parts)))
 
 
 @lru_cache(maxsize=32)
@@ -85,6 +88,7 @@ def joined_assembly(many: tuple[Assembly, ...]) -> Assembly:
             for start, one in zip(starts, many, strict=False)
             for number, carrier in one.riders
         ),
+        np.concatenate([start + one.bare for start, one in zip(starts, many, strict=False)]),
     )
 
 
@@ -123,16 +127,6 @@ class Placed:
         ways = np.stack([step for step in steps if np.abs(step).sum() in (1, 3)])
         return self.farthest(ways).reshape(-1, 3)
 
-    @staticmethod
-    def joined(many: Sequence[Placed]) -> Placed:
-        """The parts of several, one after the other."""
-        return Placed(
-            joined_assembly(tuple(one.assembly for one in many)),
-            np.concatenate([one.origins for one in many]),
-            np.concatenate([one.turns for one in many]),
-            {},
-        )
-
 
 class RobotFigure:
     """A robot's folder: its body with the joints, and its look with the parts."""
@@ -160,8 +154,7 @@ class RobotFigure:
         self.sensors = tuple(dict.fromkeys(p.sensor for p in self.parts if p.sensor))
         self._at = np.array([one.at for one in shaped])
         self._turn = np.array([one.turn for one in shaped])
-        self._link_names = tuple(dict.fromkeys(part.link for part in self.parts))
-        self._link = np.array([self._link_names.index(part.link) for part in self.parts])
+        self._link = np.array([links.index(part.link) for part in self.parts])
         self._hinges = [(i, part.hinge) for i, part in enumerate(self.parts) if part.hinge]
         self._resting = lru_cache(maxsize=4)(self._rest)
 
@@ -172,12 +165,22 @@ class RobotFigure:
         told = state.torso or self._resting(tuple(angles), state.base, state.posture)
         torso = np.eye(4)
         torso[:3, :3], torso[:3, 3] = turned_by(*told[3:]), told[:3]
-        links = {name: torso @ frame for name, frame in self.skeleton.frames(angles).items()}
-        placed = self._placed(links, state.joints)
+        frames = torso @ self.skeleton.transforms(angles)
+        links = dict(zip(self.skeleton.links, frames, strict=True))
+        at, turn = self._at.copy(), self._turn.copy()
+        # Joints outside of the skeleton turn parts too, such as fingers, as far as they are open.
+        for part, hinge in self._hinges:
+            opened = state.joints.get(hinge.joint, 0.5)
+            degrees = hinge.closed_deg + (hinge.open_deg - hinge.closed_deg) * opened
+            spin, about = rotation(np.array(hinge.axis), math.radians(degrees)), np.array(hinge.at)
+            at[part] = about + spin @ (at[part] - about)
+            turn[part] = spin @ turn[part]
+        ours = frames[self._link]
+        origins = ours[:, :3, 3] + np.einsum("pij,pj->pi", ours[:, :3, :3], at)
+        placed = Placed(self.assembly, origins, ours[:, :3, :3] @ turn, links)
         if state.torso is None:
             low = np.array([0.0, 0.0, placed.farthest(-UP[None])[..., 2].min()])
-            for frame in links.values():
-                frame[:3, 3] -= low
+            frames[:, :3, 3] -= low  # also where the links are
             placed = replace(placed, origins=placed.origins - low)
         return placed
 
@@ -188,21 +191,6 @@ class RobotFigure:
         down = UPRIGHT if known is None else known.down
         return self.skeleton.torso_over_floor(np.array(angles), base, down)
 
-    def _placed(self, links: Mapping[str, Array], joints: Mapping[str, float]) -> Placed:
-        frames = np.stack([links[name] for name in self._link_names])[self._link]
-        at, turn = self._at.copy(), self._turn.copy()
-        # Joints outside of the skeleton turn parts too, such as fingers, as far as they are open.
-        for part, hinge in self._hinges:
-            opened = joints.get(hinge.joint, 0.5)
-            degrees = hinge.closed_deg + (hinge.open_deg - hinge.closed_deg) * opened
-            spin, about = rotation(np.array(hinge.axis), math.radians(degrees)), np.array(hinge.at)
-            at[part] = about + spin @ (at[part] - about)
-            turn[part] = spin @ turn[part]
-        origins = frames[:, :3, 3] + np.einsum("pij,pj->pi", frames[:, :3, :3], at)
-        return Placed(self.assembly, origins, frames[:, :3, :3] @ turn, links)
 
-
-@cache
-def load_figure(folder: Path) -> RobotFigure:
-    """The figure of a robot's folder, read once. Raises NodeStartError when it cannot be used."""
-    return RobotFigure(folder)
+load_figure = cache(RobotFigure)
+"""The figure of a robot's folder, read once. Raises NodeStartError when it cannot be used."""

@@ -14,7 +14,7 @@ from PySide6.QtGui import QMouseEvent
 from .bodies import Bodies
 from .camera import Camera, Frame, Place, fitted
 from .parts import Part
-from .scene import FloorPlace, Scene, SceneRobot, placed_thing
+from .scene import Scene, SceneRobot, placed_thing
 
 if TYPE_CHECKING:
     from .view import RobotView
@@ -152,7 +152,7 @@ class Pan(Gesture):
         way, self._last = at - self._last, at
         camera = self._view.camera
         m_per_px = camera.distance / self._view.lens.scale
-        self._view.follows = False
+        self._view.stay()
         self._view.look_through(camera.panned(-way.x() * m_per_px, way.y() * m_per_px))
 
 
@@ -246,11 +246,6 @@ def ahead_of(scene: Scene) -> float:
         return 0.0
     torso = scene.robots[0].placed.links["torso"]
     return math.atan2(torso[1, 0], torso[0, 0])
-
-
-def at_floor_of(scene: Scene) -> FloorPlace:
-    """Where a robot that is alone stands."""
-    return scene.robots[0].state.base[:2] if len(scene.robots) == 1 else (0.0, 0.0)
 
 
 def head_of(robot: SceneRobot) -> Array:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cache
 from itertools import pairwise
 
 from PySide6.QtCore import QSize
@@ -42,8 +43,9 @@ class GlContext:
         return not any(name in self.renderer.lower() for name in SLOW)
 
     @classmethod
+    @cache
     def made(cls) -> GlContext:
-        """Make a context of OpenGL 3.3. Raises NoContext."""
+        """Make a context of OpenGL 3.3, one for all. Raises NoContext."""
         if QGuiApplication.platformName() in WITHOUT:
             raise NoContext(f"the platform {QGuiApplication.platformName()} has no OpenGL")
         if safe_mode.is_on():
@@ -141,15 +143,13 @@ void main() {{
 """
 
 
-def _stops() -> str:
-    """The steps of the gradient from the light, as nested mixes of white and shade."""
-    lines = []
-    for (start, white, shade), (end, more_white, more_shade) in pairwise(STOPS):
-        share = f"clamp((d - {start:.3f}) / {end - start:.3f}, 0.0, 1.0)"
-        one, other = f"vec2({white:.3f}, {shade:.3f})", f"vec2({more_white:.3f}, {more_shade:.3f})"
-        lines.append(f"    if (d >= {start:.3f}) tone = mix({one}, {other}, {share});")
-    return "\n".join(lines)
-
+STEPS = "\n".join(
+    f"    if (d >= {start:.3f}) tone = mix(vec2({white:.3f}, {shade:.3f}), "
+    f"vec2({more_white:.3f}, {more_shade:.3f}), "
+    f"clamp((d - {start:.3f}) / {end - start:.3f}, 0.0, 1.0));"
+    for (start, white, shade), (end, more_white, more_shade) in pairwise(STOPS)
+)
+"""The steps of the gradient from the light, as nested mixes of white and shade."""
 
 BODY_FRAGMENT = f"""
 #version 330 core
@@ -166,7 +166,7 @@ void main() {{
     vec2 p = vec2(n.x, -n.y);
     float d = clamp(length(p - vec2({LIGHT_AT.x():.3f}, {LIGHT_AT.y():.3f})) / {REACH:.3f}, 0., 1.);
     vec2 tone = vec2({STOPS[0][1]:.3f}, {STOPS[0][2]:.3f});
-{_stops()}
+{STEPS}
     tone *= finish.x;
     vec3 lit = mix(mix(colour, vec3(1.0), tone.x), SHADE, tone.y);
     vec2 q = p - vec2(-0.4, -0.52);

@@ -30,7 +30,7 @@ from .camera import Lens
 from .drawing import NoContext
 from .figure import Placed
 from .gestures import head_of
-from .scene import FloorPlace, Scene, placed_thing, thing_colours
+from .scene import FloorPlace, Marked, Scene, placed_thing, thing_colours
 from .shading import Shades, Shadow, cast_shadow, fading
 from .silhouettes import polygons
 
@@ -170,16 +170,25 @@ def paint_grid(painter: QPainter, lens: Lens, theme: Theme) -> None:
     half = np.sqrt(np.maximum(reach * reach - steps * steps, 0))
     along_x = [((x - h, y + s, 0.0), (x + h, y + s, 0.0)) for s, h in zip(steps, half, strict=True)]
     along_y = [((x + s, y - h, 0.0), (x + s, y + h, 0.0)) for s, h in zip(steps, half, strict=True)]
-    ends = _before_eye(np.array(along_x + along_y), lens)
+    ends = np.array(along_x + along_y)
+    # The lines (n, 2, 3) as far as they are before the eye
+    depths = lens.depths(ends)
+    is_ahead = (depths > NEAR_M).any(axis=1)
+    ends, depths = ends[is_ahead], depths[is_ahead]
     if not len(ends):
         return
+    for one, other in ((0, 1), (1, 0)):
+        behind = depths[:, one] < NEAR_M
+        share = (NEAR_M - depths[behind, one]) / (depths[behind, other] - depths[behind, one])
+        ends[behind, one] += share[:, None] * (ends[behind, other] - ends[behind, one])
+    lines = lens.project(ends).reshape(-1, 4).tolist()
     middle = np.array([x, y, 0.0])
     depth = max(float(lens.depths(middle)), NEAR_M)
     at = QPointF(*lens.project(middle).tolist())
     stops = ((0.0, 1.0), (0.45, 0.7), (1.0, 0.0))
     brush = fading(theme.colour("canvas_dot"), stops, lens.scale * reach / depth, at)
     painter.setPen(QPen(brush, 1.0))
-    painter.drawLines([QLineF(a, b, c, d) for a, b, c, d in ends.tolist()])
+    painter.drawLines([QLineF(a, b, c, d) for a, b, c, d in lines])
 
 
 def _paint_pool(painter: QPainter, lens: Lens, theme: Theme) -> None:
@@ -207,21 +216,8 @@ def _paint_pool(painter: QPainter, lens: Lens, theme: Theme) -> None:
     painter.setTransform(plain)
 
 
-def _before_eye(ends: Array, lens: Lens) -> Array:
-    """The lines (n, 2, 3) as pixels (m, 4), as far as they are before the eye."""
-    depths = lens.depths(ends)
-    ends, depths = ends[(depths > NEAR_M).any(axis=1)], depths[(depths > NEAR_M).any(axis=1)]
-    for one, other in ((0, 1), (1, 0)):
-        behind = depths[:, one] < NEAR_M
-        share = (NEAR_M - depths[behind, one]) / (depths[behind, other] - depths[behind, one])
-        ends[behind, one] += share[:, None] * (ends[behind, other] - ends[behind, one])
-    return lens.project(ends).reshape(-1, 4)
-
-
 def paint_path(painter: QPainter, lens: Lens, theme: Theme, path: Sequence[FloorPlace]) -> None:
     """Paint the way that a robot has walked: dots on the floor, and where it began."""
-    if len(path) < 2:
-        return
     places = np.array([(x, y, 0.001) for x, y in path])
     places = places[lens.depths(places) > NEAR_M]
     if len(places) < 2:
@@ -270,7 +266,8 @@ class ScenePainter:
             ratio = painter.device().devicePixelRatioF()
             painter.drawPixmap(0, 0, self._grid(lens, ratio))
         for robot in scene.robots:
-            paint_path(painter, lens, self.shades.theme, robot.path)
+            if len(robot.path) > 1:
+                paint_path(painter, lens, self.shades.theme, robot.path)
         groups = groups_of(scene)
         kept: dict[object, tuple[Placed, Shadow | None]] = {}
         for placed, dress in groups:
@@ -287,7 +284,13 @@ class ScenePainter:
             bodies = self.bodies_of(scene, lens)
             if bodies is not None:
                 bodies.paint(painter, self.shades)
-        self._paint_marks(painter, scene, lens)
+        is_felt = any(
+            robot.state.sensors.get(sensor, 0) > 0
+            for robot in scene.robots
+            for sensor in robot.figure.sensors
+        )
+        if is_felt or scene.marked != Marked():
+            self._paint_marks(painter, scene, lens)
         self.bubbles = _bubbles(scene, lens, font) if scene.has_bubbles else []
         for bubble in self.bubbles:
             paint_bubble(painter, bubble, self.shades.theme, font)
@@ -356,12 +359,13 @@ def _marked_parts(scene: Scene) -> set[int]:
     for robot in scene.robots:
         felt = {name for name, value in robot.state.sensors.items() if value > 0}
         is_marked = robot.name == marked.robot
-        for number, part in enumerate(robot.placed.parts, start=start):
+        parts = robot.placed.assembly.parts
+        for number, part in enumerate(parts, start=start):
             is_touched = part.sensor in felt or (is_marked and part.sensor == marked.sensor)
             is_limb = is_marked and bool(marked.link) and part.link == marked.link and not part.on
             if (part.sensor and is_touched) or is_limb:
                 numbers.add(number)
-        start += len(robot.placed.parts)
+        start += len(parts)
     for thing in scene.things:
         count = len(placed_thing(thing).parts)
         if thing.id == marked.thing:
@@ -373,9 +377,11 @@ def _marked_parts(scene: Scene) -> set[int]:
 def _bubbles(scene: Scene, lens: Lens, font: QFont) -> list[Bubble]:
     said = []
     for robot in scene.robots:
+        if not robot.state.saying:
+            continue
         head = head_of(robot)
         depth = float(lens.depths(head))
-        if robot.state.saying and depth >= 0.05:
+        if depth >= 0.05:
             size = robot.figure.top_m * lens.scale / depth
             at = QPointF(*lens.project(head).tolist())
             said.append(Said(robot.state.saying, at, size * 0.55))

@@ -14,6 +14,7 @@ from msgspec import Meta
 from numpy.typing import NDArray
 
 from nep_core.errors import NodeStartError
+from robots.body.kinematics import rotation as turned_by
 
 # Rounded convex shapes in numpy: how far they reach in any direction.
 #
@@ -59,7 +60,7 @@ class Solids:
         centre = np.array([blob.at for blob in blobs], dtype=np.float64).reshape(-1, 3)
         size = np.array([blob.size for blob in blobs], dtype=np.float64).reshape(-1, 3)
         powers = np.array([blob.powers for blob in blobs], dtype=np.float64).reshape(-1, 2)
-        return cls._boxed(owner, centre, size, powers, len(parts))
+        return cls.boxed(owner, centre, size, powers, len(parts))
 
     @classmethod
     def joined(cls, many: Sequence[Solids]) -> Solids:
@@ -72,24 +73,16 @@ class Solids:
             np.concatenate([getattr(one, name) for one in many])
             for name in ("centre", "size", "powers")
         )
-        return cls._boxed(owner, centre, size, powers, int(starts[-1]))
-
-    def only(self, numbers: Indices) -> Solids:
-        """Some of the parts, in the order of their numbers."""
-        kept = np.isin(self.owner, numbers)
-        owner = np.searchsorted(numbers, self.owner[kept])
-        parts = (self.centre[kept], self.size[kept], self.powers[kept])
-        return self._boxed(owner.astype(np.intp), *parts, len(numbers))
+        return cls.boxed(owner, centre, size, powers, int(starts[-1]))
 
     def scaled(self, scale: Array) -> Solids:
         """The shapes longer by these factors (3,) along their axes."""
         parts = (self.centre * scale, self.size * scale, self.powers)
-        return self._boxed(self.owner, *parts, len(self.middle))
+        return self.boxed(self.owner, *parts, len(self.middle))
 
     @classmethod
-    def _boxed(
-        cls, owner: Indices, centre: Array, size: Array, powers: Array, count: int
-    ) -> Solids:
+    def boxed(cls, owner: Indices, centre: Array, size: Array, powers: Array, count: int) -> Solids:
+        """Put so many parts that are in arrays already into their boxes."""
         first = np.searchsorted(owner, np.arange(count))
         counts = np.bincount(owner, minlength=count)
         most = int(counts.max(initial=1))
@@ -108,7 +101,17 @@ class Solids:
         length = np.sqrt(np.einsum("mkc,mkc->mk", stretched, stretched))
         points[is_round] = stretched * size / np.maximum(length, 1e-12)[..., None]
         edged = ~is_round
-        points[edged] = _farthest_of_boxes(self.size[edged], self.powers[edged], ways[edged])
+        # Superellipsoids |(|x/a|^p + |y/b|^p)^(1/p)|^r + |z/c|^r = 1; p, r are the powers.
+        powers, size = self.powers[edged], self.size[edged][:, None]
+        across, along = np.moveaxis(powers / (powers - 1), 1, 0)[..., None]
+        x, y, z = np.moveaxis(np.abs(ways[edged]) * size + 1e-12, 2, 0)
+        part_x, part_y, part_z = x**across, y**across, z**along
+        both = part_x + part_y
+        flat = both ** (along / across)
+        whole = (flat + part_z) ** (1 - 1 / along)
+        shared = flat / (both * whole)
+        point = np.stack([part_x * shared / x, part_y * shared / y, part_z / (whole * z)], axis=2)
+        points[edged] = point * np.sign(ways[edged]) * size
         points += self.centre[:, None]
         if self.table.shape[1] == 1:
             return points
@@ -116,20 +119,6 @@ class Solids:
         best = np.argmax(reach[self.table], axis=1)
         chosen = np.take_along_axis(self.table, best, axis=1)
         return points[chosen, np.arange(ways.shape[1])]
-
-
-def _farthest_of_boxes(size: Array, powers: Array, ways: Array) -> Array:
-    """Superellipsoids |(|x/a|^p + |y/b|^p)^(1/p)|^r + |z/c|^r = 1; p, r are the powers."""
-    across, along = np.moveaxis(powers / (powers - 1), 1, 0)[..., None]
-    x, y, z = np.moveaxis(np.abs(ways) * size[:, None] + 1e-12, 2, 0)
-    part_x, part_y = x**across, y**across
-    both = part_x + part_y
-    flat = both ** (along / across)
-    part_z = z**along
-    whole = (flat + part_z) ** (1 - 1 / along)
-    shared = flat / (both * whole)
-    point = np.stack([part_x * shared / x, part_y * shared / y, part_z / (whole * z)], axis=2)
-    return point * np.sign(ways) * size[:, None]
 
 
 Triple = tuple[float, float, float]
@@ -307,6 +296,7 @@ LATHE_THIN = 0.12
 
 def _shape(part: Part) -> tuple[Array, list[Blob]]:
     """The turn (3, 3) of a part in its link, and its blobs along its own axes."""
+    turn = turned_by(*np.radians(part.turn))
     match part.shape:
         case "rod":
             way, (start, end) = np.array(part.to) - np.array(part.at), part.radii
@@ -319,9 +309,8 @@ def _shape(part: Part) -> tuple[Array, list[Blob]]:
             ]
         case "hull":
             slices = part.slices
-            return turned(part.turn), [Blob(s.at, s.size, (s.across, s.along)) for s in slices]
+            return turn, [Blob(s.at, s.size, (s.across, s.along)) for s in slices]
     across, along = {"ball": (2.0, 2.0), "box": (4.0, 4.0), "disc": (2.0, 4.0)}[part.shape]
-    turn = turned(part.turn)
     if part.shape == "disc":
         turn = facing(np.array(part.facing)) @ turn
     return turn, [Blob(size=part.size, powers=(part.across or across, part.along or along))]
@@ -332,14 +321,6 @@ def rotation(axis: Array, angle: float) -> Array:
     x, y, z = axis / np.linalg.norm(axis)
     cross = np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
     turn: Array = np.eye(3) + math.sin(angle) * cross + (1 - math.cos(angle)) * cross @ cross
-    return turn
-
-
-def turned(degrees: Triple) -> Array:
-    """The matrix of turns about x, then y, then z of the link."""
-    turn = np.eye(3)
-    for axis, angle in zip(np.eye(3), degrees, strict=True):
-        turn = rotation(axis, math.radians(angle)) @ turn
     return turn
 
 

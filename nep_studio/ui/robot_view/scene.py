@@ -7,7 +7,6 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cache, lru_cache
 from operator import attrgetter
-from typing import Any
 
 import msgspec
 import numpy as np
@@ -63,21 +62,35 @@ SHORTEST_S, LONGEST_S = 0.02, 0.12
 JUMP_M = 0.4
 """A robot that is suddenly so far away has been put there; it did not walk."""
 UNSEEN = ("time", "battery", "sees", "settings", "listening", "sensors", "moving")
-"""What of a state does not change the picture of it, but for the sensors that are felt."""
+SEEN = tuple(name for name in RobotState.__struct_fields__ if name not in UNSEEN)
+"""What of a state changes the picture of it, beside the sensors that are felt."""
 
 
-class Motion:
-    """The way of one robot from the state that is seen to the last one that was told."""
+MOVING = attrgetter("joints", "base", "torso", "posture")
+"""What of a state says where the parts are."""
 
-    def __init__(self, state: RobotState, at_s: float) -> None:
+
+class RobotHere:
+    """One robot of a room, on its way from the state that is seen to the last one that was told."""
+
+    def __init__(self, name: str, figure: RobotFigure, state: RobotState, now_s: float) -> None:
+        self.name, self.figure = name, figure
         self.goal = self.shown = self._start = state
-        self._told_s = self._heard_s = at_s
+        self._told_s = self._heard_s = now_s
         self._lasts_s = 0.0
+        self.is_pale = self.can_touch = False
+        self.last: RobotState | None = None
+        self.path: list[FloorPlace] = []
+        self.picture: SceneRobot | None = None
 
     def go(self, state: RobotState, now_s: float) -> bool:
         """Take in a new state; whether anything is seen of it."""
         since, self._heard_s = now_s - self._heard_s, now_s
-        if visible_state(state) == visible_state(self.goal):
+        looks = [
+            (*(getattr(one, name) for name in SEEN), {n for n, x in one.sensors.items() if x > 0})
+            for one in (state, self.goal)
+        ]
+        if looks[0] == looks[1]:
             self.shown = state if self.shown is self.goal else self.shown
             self.goal = state
             return False
@@ -92,18 +105,14 @@ class Motion:
         share = 1.0 if self._lasts_s <= 0 else (now_s - self._told_s) / self._lasts_s
         start, goal = self._start, self.goal
         moves = (start.joints, start.base, start.torso) != (goal.joints, goal.base, goal.torso)
-        if share >= 1.0 or not moves:
-            self.shown = goal
-            return False
-        self.shown = between(start, goal, max(share, 0.0))
-        return True
-
-
-def visible_state(state: RobotState) -> tuple[object, ...]:
-    """All of a state that is seen; equal for states that look the same."""
-    felt = tuple(sorted(name for name, value in state.sensors.items() if value > 0))
-    names = (name for name in state.__struct_fields__ if name not in UNSEEN)
-    return (felt, *(getattr(state, name) for name in names))
+        is_there = share >= 1.0 or not moves
+        self.shown = goal if is_there else between(start, goal, max(share, 0.0))
+        # Remember where it has come to.
+        here = self.shown.base[:2]
+        far = math.dist(self.path[-1], here) if self.path else math.inf
+        if far > STEP_M:
+            self.path = [*(self.path[-LONGEST_PATH:] if far <= JUMP_M else []), here]
+        return not is_there
 
 
 def between(start: RobotState, goal: RobotState, share: float) -> RobotState:
@@ -112,19 +121,15 @@ def between(start: RobotState, goal: RobotState, share: float) -> RobotState:
         name: angle + (goal.joints.get(name, angle) - angle) * share
         for name, angle in start.joints.items()
     }
-    base, torso = _mixed(start.base, goal.base, share, turns_from=2), goal.torso
-    if start.torso is not None and goal.torso is not None:
-        torso = _mixed(start.torso, goal.torso, share, turns_from=3)
-    return msgspec.structs.replace(goal, joints=goal.joints | joints, base=base, torso=torso)
-
-
-def _mixed(
-    start: tuple[float, ...], goal: tuple[float, ...], share: float, *, turns_from: int
-) -> Any:
-    """As many numbers on the way; the later ones are angles, which take the shorter way round."""
-    ways = [b - a for a, b in zip(start, goal, strict=True)]
-    ways[turns_from:] = [math.remainder(way, 2 * math.pi) for way in ways[turns_from:]]
-    return tuple(a + way * share for a, way in zip(start, ways, strict=True))
+    moved: dict[str, tuple[float, ...]] = {}
+    for key, turns_from in (("base", 2), ("torso", 3)):
+        if getattr(start, key) is not None and getattr(goal, key) is not None:
+            ways = [b - a for a, b in zip(getattr(start, key), getattr(goal, key), strict=True)]
+            # The later ones are angles, which take the shorter way round.
+            ways[turns_from:] = [math.remainder(way, 2 * math.pi) for way in ways[turns_from:]]
+            there = zip(getattr(start, key), ways, strict=True)
+            moved[key] = tuple(a + way * share for a, way in there)
+    return msgspec.structs.replace(goal, joints=goal.joints | joints, **moved)
 
 
 # What is in a robot view at the moment, and how it moves on from one told state to the next.
@@ -137,53 +142,16 @@ Base = tuple[float, float, float]
 ORIGIN: Base = (0.0, 0.0, 0.0)
 
 
-class _RobotHere:
-    """One robot of the room."""
-
-    def __init__(self, name: str, figure: RobotFigure, state: RobotState, now_s: float) -> None:
-        self.name, self.figure = name, figure
-        self.motion = Motion(state, now_s)
-        self.is_pale = self.can_touch = False
-        self.last: RobotState | None = None
-        self.path: list[FloorPlace] = []
-        self.picture: SceneRobot | None = None
-
-    def seen(self) -> SceneRobot:
-        """The robot as it is shown now; the same object until it moves on."""
-        state, before = self.motion.shown, self.picture
-        if before is not None and before.state is state:
-            return before
-        # When only lights or words have changed its parts are where they were.
-        moving = attrgetter("joints", "base", "torso", "posture")
-        is_still = before is not None and moving(before.state) == moving(state)
-        placed = before.placed if before and is_still else self.figure.pose(state)
-        path = tuple(self.path)
-        self.picture = SceneRobot(self.name, self.figure, state, placed, self.is_pale, path)
-        return self.picture
-
-    def walk(self) -> None:
-        """Remember where it has come to."""
-        here = self.motion.shown.base[:2]
-        far = math.dist(self.path[-1], here) if self.path else math.inf
-        if far > STEP_M:
-            self.path = [*(self.path[-LONGEST_PATH:] if far <= JUMP_M else []), here]
-
-
 class Room:
     """The robots and things that a view shows."""
 
     def __init__(self) -> None:
-        self._robots: dict[str, _RobotHere] = {}
+        self.robots: dict[str, RobotHere] = {}
         self.things: tuple[Thing, ...] = ()
         """What stands on the floor."""
         self._scene: Scene | None = None
         self.marked = Marked()
         self.has_floor = self.has_bubbles = True
-
-    @property
-    def names(self) -> tuple[str, ...]:
-        """The robots' names."""
-        return tuple(self._robots)
 
     def show_robot(
         self,
@@ -195,17 +163,22 @@ class Room:
         start: Base = ORIGIN,
     ) -> tuple[bool, bool]:
         """Take in a robot's state; whether the robot is new, and whether anything is seen of it."""
-        here = self._robots.get(name)
+        here = self.robots.get(name)
         is_new = here is None or here.figure is not figure
         last = here.last if here is not None and not is_new else None
-        told = state or last or _standing(name, figure, start)
+        told = state or last
+        if told is None:  # it stands where it will begin
+            postures = figure.body.postures
+            posture = UPRIGHT if UPRIGHT in postures else next(iter(postures))
+            joints = dict(zip(figure.body.names, postures[posture].angles, strict=True))
+            told = RobotState(robot=name, joints=joints, posture=posture, base=start)
         if here is None or is_new:
-            here = self._robots[name] = _RobotHere(name, figure, told, now_s)
+            here = self.robots[name] = RobotHere(name, figure, told, now_s)
         if state is not None:
             here.last = msgspec.structs.replace(state, saying="", leds={})
         was = (here.is_pale, here.can_touch)
         here.is_pale, here.can_touch = state is None, can_touch and state is not None
-        is_seen = here.motion.go(told, now_s) or is_new or was != (here.is_pale, here.can_touch)
+        is_seen = here.go(told, now_s) or is_new or was != (here.is_pale, here.can_touch)
         if was != (here.is_pale, here.can_touch):
             here.picture = None
         self._scene = None
@@ -214,7 +187,7 @@ class Room:
     def remove_robot(self, name: str) -> bool:
         """Take a robot away; whether it was there."""
         self._scene = None
-        return self._robots.pop(name, None) is not None
+        return self.robots.pop(name, None) is not None
 
     def show_things(self, things: Sequence[Thing]) -> bool:
         """Have these things; whether they are others than before."""
@@ -232,42 +205,34 @@ class Room:
 
     def clear_paths(self) -> None:
         """Forget the ways that were walked."""
-        for robot in self._robots.values():
+        for robot in self.robots.values():
             robot.path, robot.picture = [], None
         self._scene = None
 
     def step(self, now_s: float) -> bool:
         """Move all robots on; whether some will move on further."""
-        more = [robot.motion.step(now_s) for robot in self._robots.values()]
-        for robot in self._robots.values():
-            robot.walk()
+        more = [robot.step(now_s) for robot in self.robots.values()]
         self._scene = None
         return any(more)
 
     def can_touch(self, name: str) -> bool:
         """Whether a robot feels it when it is touched here."""
-        return name in self._robots and self._robots[name].can_touch
-
-    def goal(self, name: str) -> RobotState | None:
-        """The last state that a robot told; None for one that is not there."""
-        here = self._robots.get(name)
-        return None if here is None or here.is_pale else here.motion.goal
+        return name in self.robots and self.robots[name].can_touch
 
     def scene(self) -> Scene:
         """What is painted; the same object until something changes."""
         if self._scene is None:
-            robots = tuple(robot.seen() for robot in self._robots.values())
+            for robot in self.robots.values():
+                state, before = robot.shown, robot.picture
+                if before is None or before.state is not state:
+                    # When only lights or words have changed its parts are where they were.
+                    is_still = before is not None and MOVING(before.state) == MOVING(state)
+                    placed = before.placed if before and is_still else robot.figure.pose(state)
+                    kept = robot.is_pale, tuple(robot.path)
+                    robot.picture = SceneRobot(robot.name, robot.figure, state, placed, *kept)
+            robots = tuple(one.picture for one in self.robots.values() if one.picture is not None)
             self._scene = Scene(robots, self.things, self.marked, self.has_floor, self.has_bubbles)
         return self._scene
-
-
-def _standing(name: str, figure: RobotFigure, start: Base) -> RobotState:
-    """A robot of which nothing is known stands where it will begin."""
-    postures = figure.body.postures
-    posture = UPRIGHT if UPRIGHT in postures else next(iter(postures))
-    angles = figure.body.posture_angles(posture).tolist()
-    joints = dict(zip(figure.body.names, angles, strict=True))
-    return RobotState(robot=name, joints=joints, posture=posture, base=start)
 
 
 def moved(things: Sequence[Thing], thing: str, x: float, y: float) -> list[Thing]:

@@ -171,14 +171,21 @@ def cast_shadow(placed: Placed, camera: Camera, depth: float = 1.0) -> Shadow | 
     pixels = (outlines - low) * (SIDE_PX / side)
     lowest = placed.farthest(-UP[None])[:, 0, 2]
     unit = SIDE_PX / side
-    soft = _blurred(_filled(pixels), max(1, round(0.034 * unit)))
-    firm = _blurred(_filled(pixels[lowest < LOW_M]), max(1, round(0.012 * unit)))
-    dark = depth * np.minimum(SOFT * soft + FIRM * firm, 0.8)
-    return Shadow(_sheet(dark), (float(low[0]), float(low[1])), side)
+    soft = _soft_shadow(pixels, max(1, round(0.034 * unit)))
+    firm = _soft_shadow(pixels[lowest < LOW_M], max(1, round(0.012 * unit)))
+    # Darkness as a picture of a dark colour that lets more or less through
+    dark = 255 * (depth * np.minimum(SOFT * soft + FIRM * firm, 0.8))
+    dark_px = np.empty((SIDE_PX, SIDE_PX, 4), np.uint8)
+    dark_px[..., 3] = dark
+    for channel, share in zip((2, 1, 0), TONE, strict=True):
+        dark_px[..., channel] = dark * share
+    form = QImage.Format.Format_ARGB32_Premultiplied
+    image = QImage(dark_px.tobytes(), SIDE_PX, SIDE_PX, 4 * SIDE_PX, form).copy()
+    return Shadow(image, (float(low[0]), float(low[1])), side)
 
 
-def _filled(outlines: Array) -> Array:
-    """How much of each pixel of the sheet is in one of the outlines, 0 to 1."""
+def _soft_shadow(outlines: Array, reach: int) -> Array:
+    """How much of each pixel of the sheet is in one of the outlines, 0 to 1, blurred."""
     image = QImage(SIDE_PX, SIDE_PX, QImage.Format.Format_Grayscale8)
     image.fill(0)
     painter = QPainter(image)
@@ -188,27 +195,12 @@ def _filled(outlines: Array) -> Array:
         painter.drawConvexPolygon(polygon)
     painter.end()
     rows = np.frombuffer(image.constBits(), np.uint8).reshape(SIDE_PX, image.bytesPerLine())
-    return rows[:, :SIDE_PX] / 255.0
-
-
-def _blurred(sheet: Array, reach: int) -> Array:
-    """Two means over a box each way, which come near to a bell."""
+    sheet: Array = rows[:, :SIDE_PX] / 255.0
+    width = 2 * reach + 1
+    # Two means over a box each way, of as many pixels before and after, come near to a bell.
     for _ in range(4):
-        # The means of columns over as many rows before and after
-        width = 2 * reach + 1
         sums = np.zeros((SIDE_PX + width, SIDE_PX))
         np.cumsum(sheet, axis=0, out=sums[reach + 1 : reach + 1 + SIDE_PX])
         sums[reach + 1 + SIDE_PX :] = sums[reach + SIDE_PX]
-        means: Array = (sums[width:] - sums[:-width]) / width
-        sheet = means.T
+        sheet = ((sums[width:] - sums[:-width]) / width).T
     return sheet
-
-
-def _sheet(dark: Array) -> QImage:
-    """Darkness as a picture of a dark colour that lets more or less through."""
-    pixels = np.empty((SIDE_PX, SIDE_PX, 4), np.uint8)
-    pixels[..., 3] = 255 * dark
-    for channel, share in zip((2, 1, 0), TONE, strict=True):
-        pixels[..., channel] = 255 * dark * share
-    form = QImage.Format.Format_ARGB32_Premultiplied
-    return QImage(pixels.tobytes(), SIDE_PX, SIDE_PX, 4 * SIDE_PX, form).copy()

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import math
 import time
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
+from functools import cache
 from pathlib import Path
 
 from PySide6.QtCore import QEvent, QPointF, QRect, QSize, Qt, QTimer, Signal
@@ -23,13 +24,14 @@ from PySide6.QtGui import (
     QShowEvent,
     QWheelEvent,
 )
-from PySide6.QtWidgets import QGestureEvent, QPinchGesture, QSizePolicy, QToolTip, QWidget
+from PySide6.QtWidgets import QGestureEvent, QPinchGesture, QSizePolicy, QToolTip
 
 from nep_core.wire.messages import RobotState, Thing
 from nep_studio import paths
 from nep_studio.ui.labels import follow_words, labelled
 from nep_studio.ui.theme.colours import Theme
 from nep_studio.ui.theme.look import Look
+from nep_studio.ui.widgets.layouts import InLines
 from nep_studio.ui.words import tr
 
 from .camera import PRESETS, Camera, Frame, Lens
@@ -40,7 +42,6 @@ from .gestures import (
     Gesture,
     ahead_of,
     at_face,
-    at_floor_of,
     begun,
     find_at,
     place_of_sensor,
@@ -48,7 +49,7 @@ from .gestures import (
 )
 from .painter import ScenePainter
 from .parts import VIEW_FILE
-from .scene import ORIGIN, Base, Marked, Room, moved
+from .scene import ORIGIN, Base, Marked, Room, Scene, moved
 
 # What a robot view says in words, and how it shows what is under the pointer.
 
@@ -75,23 +76,6 @@ def tip_words(view: RobotView, found: Found) -> str:
     return found.robot
 
 
-def room_words(room: Room, touch_names: Mapping[str, str]) -> str:
-    """All that is in the room, in sentences."""
-    sentences = []
-    for name in room.names:
-        state = room.goal(name)
-        if state is None:
-            sentences.append(tr("{robot} is not there.", robot=name))
-            continue
-        sentences.append(f"{name}: {state.posture}." if state.posture else f"{name}.")
-        if state.saying:
-            sentences.append(tr("Says “{text}”", text=state.saying))
-    marked = room.marked
-    if marked.sensor:
-        sentences.append(tr("Touch {part}", part=touch_names.get(marked.sensor, marked.sensor)))
-    return " ".join(sentences)
-
-
 def paint_focus(painter: QPainter, frame: QRect, theme: Theme) -> None:
     """Paint a frame: keys go to this view."""
     painter.setPen(QPen(theme.colour("focus"), 2.0))
@@ -99,12 +83,16 @@ def paint_focus(painter: QPainter, frame: QRect, theme: Theme) -> None:
     painter.drawRoundedRect(frame.toRectF().adjusted(1.5, 1.5, -1.5, -1.5), 4, 4)
 
 
+PINCHES = (QEvent.Type.NativeGesture, QEvent.Type.Gesture)
+"""The events of two fingers, and of other gestures."""
+
+
 def pinched(event: QEvent) -> float | None:
     """How much nearer two fingers on a pad or a screen want to come; None for other events."""
     if isinstance(event, QNativeGestureEvent):
         is_zoom = event.gestureType() == Qt.NativeGestureType.ZoomNativeGesture
         return 1 + event.value() if is_zoom else None
-    if event.type() == QEvent.Type.Gesture and isinstance(event, QGestureEvent):
+    if isinstance(event, QGestureEvent):
         pinch = event.gesture(Qt.GestureType.PinchGesture)
         return pinch.scaleFactor() if isinstance(pinch, QPinchGesture) else None
     return None
@@ -116,6 +104,8 @@ FRAME_MS, SLOWEST_MS, PACE = 16, 66, 2.4
 """Between frames while something moves, or this many times as long as painting takes."""
 WORDS_ABOVE, WORDS_BESIDE, MOST_WORDS = 3.4, 0.6, 0.27
 """So many lines are free over the heads, at most this share of the height."""
+See = Callable[[Camera, Scene, Frame], Camera]
+"""How a camera is moved so that it sees what is wanted."""
 WIDE = 1.5
 """In a picture so much wider than high, words have room beside a head."""
 
@@ -125,21 +115,27 @@ def nao_folder() -> Path:
     return paths.resources() / "robots" / "nao"
 
 
-def folder_of(state: RobotState | None) -> Path:
-    """The folder of the robot that a state is of; NAO's where there is none that can be drawn."""
-    model = Path(state.model) if state is not None and state.model else nao_folder()
-    folder = nao_folder().parent / model  # a path of one's own stays as it is
+@cache
+def folder_of(model: str) -> Path:
+    """The folder of a robot's model; NAO's where there is none that can be drawn.
+
+    It is looked for once: robots tell their model thirty times a second.
+    """
+    folder = paths.resources() / "robots" / (model or "nao")  # a path of one's own stays as it is
     return folder if (folder / VIEW_FILE).is_file() else nao_folder()
 
 
-class RoomPicture(QWidget):
+class RoomPicture(InLines):
     """A room with robots, to look at.
 
     ``follows``: the camera goes along with a robot that is alone, and keeps seeing all robots,
-    until a person chooses what to see. ``frames`` counts how often it was painted.
+    until a person chooses what to see, of which ``follows_changed`` tells. ``frames`` counts how
+    often it was painted.
     """
 
-    camera_changed = Signal()
+    follows_changed = Signal(bool)
+    usual_lines, least_lines = (18, 18), (8, 8)
+    """Room for a robot that can be touched; one is known at the lesser size, too."""
 
     def __init__(
         self,
@@ -154,6 +150,8 @@ class RoomPicture(QWidget):
         self.camera = Camera()
         self.follows = True
         self.frames = 0
+        self._told: dict[str, tuple[str, str] | None] = {}
+        """What was said of each robot: posture and words; None: that it is not there."""
         self._cost_ms = 0.0
         self._timer = QTimer(self, interval=FRAME_MS, timerType=Qt.TimerType.PreciseTimer)
         self._timer.timeout.connect(self._on_frame)
@@ -162,16 +160,6 @@ class RoomPicture(QWidget):
         labelled(self, name="The robots' room")
         follow_words(self, self._describe)
         look.theme_changed.connect(self._on_theme_changed)
-
-    def sizeHint(self) -> QSize:
-        """Room for a robot that can be touched."""
-        line = self.fontMetrics().height()
-        return QSize(line * 18, line * 18)
-
-    def minimumSizeHint(self) -> QSize:
-        """A robot is known at this size, too."""
-        line = self.fontMetrics().height()
-        return QSize(line * 8, line * 8)
 
     # What is shown
 
@@ -185,14 +173,17 @@ class RoomPicture(QWidget):
         start: Base = ORIGIN,
     ) -> None:
         """Show a robot as it is now; None: nothing is known, so it is pale where it was last."""
-        figure = load_figure(folder or folder_of(state))
+        figure = load_figure(folder or folder_of(state.model if state is not None else ""))
         is_new, is_seen = self.room.show_robot(
             name, figure, state, time.monotonic(), can_touch, start
         )
         if is_new and self.follows:
             self.fit()
         if is_seen:
-            self._describe()
+            words = None if state is None else (state.posture, state.saying)
+            if is_new or words != self._told.get(name):
+                self._told[name] = words
+                self._describe()
             # Paint soon, as often as it takes for the robots to come to where they are.
             if self.isVisible() and not self._timer.isActive():
                 self._timer.start()
@@ -233,32 +224,35 @@ class RoomPicture(QWidget):
         """Look through another camera."""
         if camera != self.camera:
             self.camera = camera
-            self.camera_changed.emit()
             self.update()
 
     def look_from(self, preset: str) -> None:
         """Look from the front, side, back or top, or into the face, of the first robot."""
-        scene, (yaw, pitch) = self.room.scene(), PRESETS[preset]
-        self.follows = True
-        camera = replace(self.camera, yaw=ahead_of(scene) + yaw, pitch=pitch)
-        see = at_face if preset == "face" else seeing_all
-        self.look_through(see(camera, scene, self._frame()))
-
-    def _frame(self) -> Frame:
-        """Where in the widget robots are; there is always room for words, so that nothing jumps."""
-        width, height, line = self.width(), self.height(), self.fontMetrics().height()
-        lines = WORDS_ABOVE if width < WIDE * height else WORDS_BESIDE
-        return Frame(width, height, min(lines * line, MOST_WORDS * height))
+        yaw, pitch = PRESETS[preset]
+        camera = replace(self.camera, yaw=ahead_of(self.room.scene()) + yaw, pitch=pitch)
+        self.fit(camera, at_face if preset == "face" else seeing_all)
 
     def zoom(self, factor: float) -> None:
         """Come nearer by a factor."""
-        self.follows = False
+        self.stay()
         self.look_through(self.camera.zoomed(factor))
 
-    def fit(self) -> None:
-        """See all robots and what stands near."""
-        self.follows = True
-        self.look_through(seeing_all(self.camera, self.room.scene(), self._frame()))
+    def stay(self) -> None:
+        """Follow robots no more: a person has chosen what to see."""
+        if self.follows:
+            self.follows = False
+            self.follows_changed.emit(False)
+
+    def fit(self, camera: Camera | None = None, see: See = seeing_all) -> None:
+        """See all robots and what stands near, through this camera or another one."""
+        if not self.follows:
+            self.follows = True
+            self.follows_changed.emit(True)
+        # There is always room for words over the robots, so that nothing jumps.
+        width, height, line = self.width(), self.height(), self.fontMetrics().height()
+        lines = WORDS_ABOVE if width < WIDE * height else WORDS_BESIDE
+        frame = Frame(width, height, min(lines * line, MOST_WORDS * height))
+        self.look_through(see(camera or self.camera, self.room.scene(), frame))
 
     # Painting
 
@@ -295,11 +289,13 @@ class RoomPicture(QWidget):
         ScenePainter(self.look.theme).paint(painter, scene, lens, self.font())
 
     def _on_frame(self) -> None:
-        before = at_floor_of(self.room.scene())
+        robots = list(self.room.robots.values())
+        alone = robots[0] if self.follows and len(robots) == 1 else None
+        before = alone.shown.base if alone is not None else ORIGIN
         if not self.room.step(time.monotonic()):
             self._timer.stop()
-        if self.follows:
-            now, (x, y, z) = at_floor_of(self.room.scene()), self.camera.target
+        if alone is not None:
+            now, (x, y, z) = alone.shown.base, self.camera.target
             there = (x + now[0] - before[0], y + now[1] - before[1], z)
             self.look_through(replace(self.camera, target=there))
         self.update()
@@ -310,7 +306,18 @@ class RoomPicture(QWidget):
 
     def _describe(self) -> None:
         """Say in words what is seen, for those who do not see it."""
-        words = room_words(self.room, self.touch_names)
+        sentences = []
+        for name, robot in self.room.robots.items():
+            if robot.is_pale:
+                sentences.append(tr("{robot} is not there.", robot=name))
+                continue
+            state = robot.goal
+            sentences.append(f"{name}: {state.posture}." if state.posture else f"{name}.")
+            if state.saying:
+                sentences.append(tr("Says “{text}”", text=state.saying))
+        if sensor := self.room.marked.sensor:
+            sentences.append(tr("Touch {part}", part=self.touch_names.get(sensor, sensor)))
+        words = " ".join(sentences)
         if words != self.accessibleDescription():
             self.setAccessibleDescription(words)
 
@@ -510,8 +517,7 @@ class RobotView(RoomPicture):
             words = tip_words(self, self.found_at(event.pos().toPointF()))
             QToolTip.showText(event.globalPos(), words, self)
             return True
-        factor = pinched(event)
-        if factor is not None:
+        if event.type() in PINCHES and (factor := pinched(event)) is not None:
             self.zoom(factor)
             return True
         if event.type() == QEvent.Type.FocusOut or (

@@ -62,7 +62,7 @@ class Sound(QObject):
 
     def _follow(self) -> None:
         """Listen while there is something to hear and somebody wants to."""
-        is_wanted = self.is_on and self._runner.is_connected
+        is_wanted = self._settings.has_sound and self._runner.is_connected
         if is_wanted and self._tap is None:
             self._tap = self._runner.tap(m.ROBOT_STATE, kind=m.RobotState, parent=self)
             self._tap.arrived.connect(self._on_states)

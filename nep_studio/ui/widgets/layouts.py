@@ -91,16 +91,14 @@ class InLines(QWidget):
 
     def sizeHint(self) -> QSize:
         """What it would like."""
-        return self._pixels(self.usual_lines)
+        (wide, high), line = self.usual_lines, self.fontMetrics().height()
+        return QSize(round(line * wide), round(line * high))
 
     def minimumSizeHint(self) -> QSize:
         """Less is of no use."""
-        least = self.least_lines
-        return self._pixels(least) if any(least) else super().minimumSizeHint()
-
-    def _pixels(self, lines: tuple[float, float]) -> QSize:
-        line = self.fontMetrics().height()
-        return QSize(round(line * lines[0]), round(line * lines[1]))
+        (wide, high), line = self.least_lines, self.fontMetrics().height()
+        least = QSize(round(line * wide), round(line * high))
+        return super().minimumSizeHint() if least.isNull() else least
 
 
 Page = TypeVar("Page", bound=QWidget)
@@ -131,7 +129,7 @@ class LatePanel(InLines, Generic[Page]):
 class Flow(QLayout):
     """Items beside each other, in the next row where there is no room for them."""
 
-    def __init__(self, parent: QWidget | None = None, *, spacing: int = 6) -> None:
+    def __init__(self, parent: QWidget | None = None, spacing: int = 6) -> None:
         super().__init__(parent)
         self._items: list[QLayoutItem] = []
         self._heights: dict[int, int] = {}
@@ -181,27 +179,26 @@ class Flow(QLayout):
 
     def sizeHint(self) -> QSize:
         """All items in one row."""
-        sizes = [item.sizeHint() for item in self._shown()]
+        sizes = [item.sizeHint() for item in self._items if not item.isEmpty()]
         wide = sum(size.width() for size in sizes) + self.spacing() * max(0, len(sizes) - 1)
         return QSize(wide, max((size.height() for size in sizes), default=0))
 
     def minimumSize(self) -> QSize:
         """The widest item alone."""
-        sizes = [item.minimumSize() for item in self._shown()]
+        sizes = [item.minimumSize() for item in self._items if not item.isEmpty()]
         return QSize(
             max((size.width() for size in sizes), default=0),
             max((size.height() for size in sizes), default=0),
         )
-
-    def _shown(self) -> list[QLayoutItem]:
-        return [item for item in self._items if not item.isEmpty()]
 
     def _place(self, room: QRect, *, is_real: bool) -> int:
         """Go through the rows; gives how high they are together."""
         owner = self.parentWidget()
         direction = owner.layoutDirection() if owner else Qt.LayoutDirection.LeftToRight
         x, y, row = room.x(), room.y(), 0
-        for item in self._shown():
+        for item in self._items:
+            if item.isEmpty():
+                continue
             size = item.sizeHint()
             size.setWidth(min(size.width(), max(room.width(), item.minimumSize().width())))
             if x > room.x() and x + size.width() > room.right() + 1:
@@ -239,9 +236,6 @@ class ReadingLabel(QLabel):
 
 class FlowLayout(Flow):
     """Asks for no more width than its widest widget: a panel may be narrow."""
-
-    def __init__(self, parent: QWidget | None = None, gap: int = 4) -> None:
-        super().__init__(parent, spacing=gap)
 
     def sizeHint(self) -> QSize:
         """As narrow as the widest of them."""

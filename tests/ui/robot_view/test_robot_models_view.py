@@ -25,10 +25,10 @@ def test_a_state_names_the_folder_that_its_robot_is_drawn_from(tmp_path: Path) -
     own = tmp_path / "own"
     shutil.copytree(PEPPER, own)
 
-    assert folder_of(None) == folder_of(standing("")) == nao_folder()
-    assert folder_of(standing("pepper")) == PEPPER
-    assert folder_of(standing(str(own))) == own
-    assert folder_of(standing("zora")) == nao_folder()
+    assert folder_of("") == nao_folder()
+    assert folder_of("pepper") == PEPPER
+    assert folder_of(str(own)) == own
+    assert folder_of("zora") == nao_folder()
 
 
 def test_pepper_stands_on_its_wheels_as_high_as_it_is() -> None:

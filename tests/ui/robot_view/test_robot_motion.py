@@ -7,15 +7,16 @@ import math
 import pytest
 
 from nep_core.wire.messages import RobotState
-from nep_studio.ui.robot_view.scene import Motion, between
+from nep_studio.ui.robot_view.figure import RobotFigure
+from nep_studio.ui.robot_view.scene import RobotHere, between
 
 
 def told(angle: float, **more: object) -> RobotState:
     return RobotState(robot="nao", joints={"HeadYaw": angle}, **more)
 
 
-def test_a_robot_is_half_way_in_half_the_time() -> None:
-    motion = Motion(told(0.0), 0.0)
+def test_a_robot_is_half_way_in_half_the_time(figure: RobotFigure) -> None:
+    motion = RobotHere("nao", figure, told(0.0), 0.0)
     motion.go(told(0.0), 1.0)
     motion.go(told(1.0), 1.04)
 
@@ -27,8 +28,8 @@ def test_a_robot_is_half_way_in_half_the_time() -> None:
     assert motion.shown.joints["HeadYaw"] == 1.0
 
 
-def test_news_that_is_not_seen_moves_nothing() -> None:
-    motion = Motion(told(0.5, battery=0.9), 0.0)
+def test_news_that_is_not_seen_moves_nothing(figure: RobotFigure) -> None:
+    motion = RobotHere("nao", figure, told(0.5, battery=0.9), 0.0)
 
     is_seen = motion.go(told(0.5, battery=0.8, sensors={"sonar_left": 0.0}), 0.1)
 
@@ -40,8 +41,10 @@ def test_news_that_is_not_seen_moves_nothing() -> None:
     "change",
     [{"saying": "Hello"}, {"leds": {"ChestLeds": 255}}, {"sensors": {"head_front": 1.0}}],
 )
-def test_words_lights_and_touches_are_seen_at_once(change: dict[str, object]) -> None:
-    motion = Motion(told(0.5), 0.0)
+def test_words_lights_and_touches_are_seen_at_once(
+    figure: RobotFigure, change: dict[str, object]
+) -> None:
+    motion = RobotHere("nao", figure, told(0.5), 0.0)
 
     is_seen = motion.go(told(0.5, **change), 0.1)
     more = motion.step(0.1)

@@ -191,7 +191,7 @@ class GestureCard(QFrame):
         self.count.setProperty("role", "hint")
         labelled(self.menu, tip="More", name="More")
         above = in_row((self.title, 1), self.count, self.menu)
-        between = FlowLayout(gap=line // 3)
+        between = FlowLayout(spacing=line // 3)
         for widget in (self.record, self.chip):
             between.addWidget(widget)
         box = QVBoxLayout(self)

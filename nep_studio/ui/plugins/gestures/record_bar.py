@@ -209,7 +209,7 @@ class RecordBar(QWidget):
         self.words.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Preferred)
         self.progress.setRange(0, 100)
         labelled(self.progress, name="How much is recorded")
-        row = FlowLayout(gap=self.fontMetrics().height() // 3)
+        row = FlowLayout(spacing=self.fontMetrics().height() // 3)
         wearer = (self.wearer.who, self.wearer.where)
         for widget in (self.button, self.cancel, self.play, self.back, *wearer, self.everyday):
             row.addWidget(widget)

@@ -169,7 +169,12 @@ class WhatHappens(QWidget):
 
     def _on_arrived(self, batch: list[tuple[str, msgspec.Struct]]) -> None:
         elapsed_s = max(0.0, time.time() - self._started_s)
-        self._waiting.extend((elapsed_s, message) for _, message in batch if _is_told(message))
+        for _, message in batch:
+            match message:
+                case m.ProgramState(event="line" | "value") | m.NodeState(event="alive"):
+                    pass  # it is never told
+                case _:
+                    self._waiting.append((elapsed_s, message))
         if self.isVisible():
             self._take_waiting()
 
@@ -247,14 +252,6 @@ def _parts() -> dict[object, str]:
         "action": tr("The robots"),
         "sensory": tr("The sensors"),
     }
-
-
-def _is_told(message: msgspec.Struct) -> bool:
-    """Whether a message may become a line: lines of code, values and heartbeats never do."""
-    match message:
-        case m.ProgramState(event="line" | "value") | m.NodeState(event="alive"):
-            return False
-    return True
 
 
 # All that the window has told since it was opened, to read again and to copy for support.

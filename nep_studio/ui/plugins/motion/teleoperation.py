@@ -297,7 +297,7 @@ class TeleoperationWindow(QDialog):
         self.start_button.setVisible(bool(waiting))
         if waiting:
             labelled(self.start_button, text=text_of("Start {robot}", robot=waiting[0].name))
-        for name in set(self.view.room.names) - {self.pilot.robot}:
+        for name in set(self.view.room.robots) - {self.pilot.robot}:
             self.view.remove_robot(name)
         if self.pilot.robot:
             state = self.states.get(self.pilot.robot)

@@ -37,6 +37,8 @@ Fix = Literal[
 
 BAD = frozenset({"warning", "frozen", "crashed"})
 WELL = frozenset({"ready", "busy"})
+BAD = frozenset({"frozen", "warning", "crashed", "stopped"})
+"""What may have to be told."""
 
 
 @dataclass(frozen=True)

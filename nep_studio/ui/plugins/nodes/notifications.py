@@ -19,6 +19,7 @@ from nep_studio.ui.node_style import is_running
 from nep_studio.ui.words import count_words, tr
 
 from .notices import (
+    BAD,
     WELL,
     Circumstances,
     NodeFixes,
@@ -85,10 +86,10 @@ class NodeNotifier(QObject):
                 self._before.pop(name, None)
                 continue
             self._before[name] = after
-            if is_recovered(before, after):
+            if name in self._told and is_recovered(before, after):
                 self._recover(name)
-            notice = notice_of(before, after, self._circumstances(after))
-            if notice is not None:
+            is_bad = after.health in BAD or after.event == "connection_failed"
+            if is_bad and (notice := notice_of(before, after, self._circumstances(after))):
                 self.tell(notice)
             # The next change is judged by this
             if after.health in WELL:
@@ -98,7 +99,7 @@ class NodeNotifier(QObject):
                     self._gathering.start()
                 self._was_ready.add(name)
                 self._restarted.discard(name)
-            if not is_running(after):
+            if name in self._asked and not is_running(after):
                 self._asked.discard(name)
 
     def _circumstances(self, status: NodeStatus) -> Circumstances:
@@ -133,7 +134,8 @@ class NodeNotifier(QObject):
         told = self._told.get(notice.node)
         if told is not None and told[0] == notice.key:
             return
-        self._take_back(notice.node)
+        if told is not None:
+            self._take_back(notice.node)
         problem = notice.problem
         answers = tuple(self.fixes.answer(fix, notice.node) for fix in notice.fixes)
         message = Message(

@@ -38,7 +38,11 @@ from .participants import RobotPlan
 # What is known of a robot: short facts beside each other, long ones in lines.
 
 LOW_BATTERY = 0.2
+FACTS = ("posture", "moving", "battery", "saying", "listening", "doing")
 LONG = ("doing", "saying", "listening")
+WRAPPED = QSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Preferred)
+"""How words take room that are as wide as there is room, and as high as that makes them."""
+WRAPPED.setHeightForWidth(True)
 
 
 class Facts(QWidget):
@@ -49,7 +53,8 @@ class Facts(QWidget):
         self._look = look
         self._parts: dict[str, tuple[QWidget, QLabel, QLabel]] = {}
         """Of each fact its place, its sign and its words."""
-        self._shown: dict[str, tuple[str, str, str]] = {}
+        self.shown: dict[str, tuple[str, str, str]] = {}
+        """The icon, the words and the colour of each."""
         line = self.fontMetrics().height()
         self._short = QWidget()
         self._flow = FlowLayout(self._short, line // 2)
@@ -61,56 +66,43 @@ class Facts(QWidget):
 
     def show_fact(self, name: str, icon_name: str, words: str, colour: str = "muted") -> None:
         """Show a fact; ``name`` is the same each time that it is told anew."""
-        if self._shown.get(name) == (icon_name, words, colour):
+        if self.shown.get(name) == (icon_name, words, colour):
             return
-        self._shown[name] = (icon_name, words, colour)
-        part, _sign, label = self._parts.get(name) or self._add(name)
+        self.shown[name] = (icon_name, words, colour)
+        if name not in self._parts:
+            part, sign, label = self._parts[name] = QWidget(), QLabel(), QLabel()
+            label.setTextFormat(Qt.TextFormat.PlainText)
+            row = QHBoxLayout(part)
+            row.setContentsMargins(0, 0, 0, 0)
+            row.setSpacing(self.fontMetrics().height() // 4)
+            row.addWidget(sign, 0, Qt.AlignmentFlag.AlignTop)
+            row.addWidget(label, 1)
+            if name in LONG:
+                label.setWordWrap(True)
+                label.setSizePolicy(WRAPPED)
+                self._box.addWidget(part)
+            else:
+                self._flow.addWidget(part)
+        part, _sign, label = self._parts[name]
         part.setVisible(bool(words))
         label.setText(words)
-        self._short.setVisible(any(self.words(one) for one in self._shown if one not in LONG))
+        shown = self.shown.items()
+        self._short.setVisible(any(told for one, (_, told, _) in shown if one not in LONG))
         self._dress_part(name)
-
-    def words(self, name: str) -> str:
-        """What a fact says; "" when it says nothing."""
-        return self._shown.get(name, ("", "", ""))[1]
 
     def text(self) -> str:
         """All facts as sentences, for screen readers."""
-        return " ".join(f"{words}." for _, words, _ in self._shown.values() if words)
-
-    def _add(self, name: str) -> tuple[QWidget, QLabel, QLabel]:
-        """A place for a sign and words."""
-        part, sign, label = self._parts[name] = QWidget(), QLabel(), QLabel()
-        label.setTextFormat(Qt.TextFormat.PlainText)
-        row = QHBoxLayout(part)
-        row.setContentsMargins(0, 0, 0, 0)
-        row.setSpacing(self.fontMetrics().height() // 4)
-        row.addWidget(sign, 0, Qt.AlignmentFlag.AlignTop)
-        row.addWidget(label, 1)
-        if name in LONG:
-            label.setWordWrap(True)
-            label.setSizePolicy(wrapped())
-            self._box.addWidget(part)
-        else:
-            self._flow.addWidget(part)
-        return part, sign, label
+        return " ".join(f"{words}." for _, words, _ in self.shown.values() if words)
 
     def _dress(self) -> None:
         for name in self._parts:
             self._dress_part(name)
 
     def _dress_part(self, name: str) -> None:
-        icon_name, _, colour = self._shown[name]
+        icon_name, _, colour = self.shown[name]
         side, ratio = self.fontMetrics().height(), self.devicePixelRatioF()
         pixmap = icon_pixmap(icon_name, self._look.theme.colour(colour), side, ratio)
         self._parts[name][1].setPixmap(pixmap)
-
-
-def wrapped() -> QSizePolicy:
-    """How words take room that are as wide as there is room, and as high as that makes them."""
-    policy = QSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Preferred)
-    policy.setHeightForWidth(True)
-    return policy
 
 
 def posture_words(posture: str, language: Language) -> str:
@@ -135,7 +127,7 @@ class FallenBar(QFrame):
         self.sign = QLabel()
         self.words = labelled(QLabel(), text="It has fallen.")
         self.words.setWordWrap(True)
-        self.words.setSizePolicy(wrapped())
+        self.words.setSizePolicy(WRAPPED)
         self.help_button = labelled(QPushButton(), text="Help it up", tip="Let it stand up again")
         row = QHBoxLayout(self)
         line = self.fontMetrics().height()
@@ -176,6 +168,9 @@ class RobotCard(QFrame):
         self.plan = plan
         self._language, self._look = language, look
         self._health: StateLook | None = None
+        self._known: tuple[object, ...] = ()
+        """What of the robot is shown."""
+        self._told: tuple[RobotState | None, Sequence[str]] | None = None
         self.name, self.kind = ElidedLabel(), ElidedLabel()
         self.kind_sign, self.sign, self.health = QLabel(), QLabel(), QLabel()
         self.facts = Facts(look)
@@ -230,64 +225,68 @@ class RobotCard(QFrame):
 
     def show_plan(self, plan: RobotPlan) -> None:
         """Say which kind of robot it is."""
-        if plan != self.plan:
-            self.plan = plan
-            self._say()
-            self._dress()
+        self.plan = plan
+        self._say()
+        self._dress()
 
     def _say(self) -> None:
         self.name.set_words(self.plan.name)
-        self.kind.set_words(self.plan.words)
+        address = self.plan.address or "?"
+        is_real = self.plan.is_real
+        real = tr("A real NAO at {address}", address=address)
+        self.kind.set_words(real if is_real else tr("On this screen"))
         names, menu = touch_names(self._language()), self.touch.menu()
         for action in menu.actions() if menu is not None else ():
             action.setText(names.get(action.data(), action.data()))
+        if self._told is not None:  # its facts in the words that are used now
+            self._show_facts(*self._told)
 
-    def show_health(self, look: StateLook, *, is_there: bool) -> None:
-        """Show how its node is; of a robot that is not there nothing more is known."""
-        if not is_there:
-            for fact in ("posture", "moving", "battery", "saying", "listening"):
-                self.facts.show_fact(fact, "circle-dashed", "")
-            self.show_doings(())
-            self.fallen.setVisible(False)
-        self._buttons.setVisible(is_there and not self.plan.is_real)
+    def show_state(self, look: StateLook, state: RobotState | None, doings: Sequence[str]) -> None:
+        """Show how its node is, and what it does; None: it is not there, no more is known of it."""
         if look != self._health:
             self._health = look
             self._dress()
+        self._buttons.setVisible(state is not None and not self.plan.is_real)
+        known: tuple[object, ...] = ()
+        if state is not None:
+            battery = f"{state.battery:.0%}", state.battery < LOW_BATTERY
+            says, does = (state.saying, state.listening), tuple(doings)
+            known = state.posture, state.moving, state.fallen, battery, says, does
+        if known != self._known or self._told is None:
+            self._known, self._told = known, (state, doings)
+            self._show_facts(state, doings)
 
-    def show_state(self, state: RobotState) -> None:
-        """Show posture, movement, battery, and what it says and listens for."""
-        facts, percent = self.facts, f"{state.battery:.0%}"
-        facts.show_fact(
-            "posture", "person-standing", posture_words(state.posture, self._language())
-        )
-        moves = tr("Moves") if state.moving else tr("At rest")
-        facts.show_fact("moving", "footprints" if state.moving else "pause", moves)
-        is_low = state.battery < LOW_BATTERY
-        battery = tr("Battery {percent}", percent=percent)
-        if is_low:
-            battery = tr("Battery {percent}: charge it soon", percent=percent)
-        facts.show_fact("battery", "battery-medium", battery, "warning" if is_low else "muted")
-        says = tr("Says “{text}”", text=state.saying) if state.saying else ""
-        facts.show_fact("saying", "message-square", says)
-        heard = tr(" or ").join(f"“{word}”" for word in state.listening)
-        facts.show_fact("listening", "ear", tr("Listens for {words}", words=heard) if heard else "")
-        self.fallen.setVisible(state.fallen)
-        self._describe()
-
-    def show_doings(self, doings: Sequence[str]) -> None:
-        """Say what it does."""
-        said = self.facts.words("saying").casefold()
-        others = [one for one in doings if not said or not one.casefold().startswith(said)]
-        shown = "\n".join(others[:DOINGS_SHOWN])
-        self.facts.show_fact("doing", "play", shown, "success")
-        self._describe()
-
-    def _describe(self) -> None:
-        fell = self.fallen.words.text() if not self.fallen.isHidden() else ""
-        words = " ".join(filter(None, [self.plan.name, fell, self.facts.text()]))
-        if words != self.accessibleDescription():
-            self.setAccessibleName(self.plan.name)
-            self.setAccessibleDescription(words)
+    def _show_facts(self, state: RobotState | None, doings: Sequence[str]) -> None:
+        """Show posture, movement, battery, what it says and listens for, and what it does."""
+        facts = self.facts
+        if state is None:
+            for fact in FACTS:
+                facts.show_fact(fact, "circle-dashed", "")
+        else:
+            posture = posture_words(state.posture, self._language())
+            facts.show_fact("posture", "person-standing", posture)
+            moves = tr("Moves") if state.moving else tr("At rest")
+            facts.show_fact("moving", "footprints" if state.moving else "pause", moves)
+            battery, colour = tr("Battery {percent}", percent=f"{state.battery:.0%}"), "muted"
+            if state.battery < LOW_BATTERY:
+                colour = "warning"
+                percent = f"{state.battery:.0%}"
+                battery = tr("Battery {percent}: charge it soon", percent=percent)
+            facts.show_fact("battery", "battery-medium", battery, colour)
+            says = tr("Says “{text}”", text=state.saying) if state.saying else ""
+            facts.show_fact("saying", "message-square", says)
+            heard = tr(" or ").join(f"“{word}”" for word in state.listening)
+            listens = tr("Listens for {words}", words=heard) if heard else ""
+            facts.show_fact("listening", "ear", listens)
+            said = says.casefold()
+            others = [one for one in doings if not said or not one.casefold().startswith(said)]
+            facts.show_fact("doing", "play", "\n".join(others[:DOINGS_SHOWN]), "success")
+        is_fallen = state is not None and state.fallen
+        self.fallen.setVisible(is_fallen)
+        fell = self.fallen.words.text() if is_fallen else ""
+        words = " ".join(filter(None, [self.plan.name, fell, facts.text()]))
+        self.setAccessibleName(self.plan.name)
+        self.setAccessibleDescription(words)
 
     def _touch_for_a_moment(self, sensor: str) -> None:
         self.touched.emit(sensor, True)

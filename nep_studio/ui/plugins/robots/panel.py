@@ -7,7 +7,7 @@ from functools import partial
 from typing import TYPE_CHECKING
 
 import msgspec
-from PySide6.QtCore import QEvent, QObject, QSize, Qt, Signal
+from PySide6.QtCore import QEvent, QObject, Qt, Signal
 from PySide6.QtGui import QCloseEvent, QHideEvent, QKeyEvent, QResizeEvent, QShowEvent
 from PySide6.QtWidgets import (
     QFrame,
@@ -30,9 +30,10 @@ from nep_studio.ui.running.runner import Heard, Runner, Tap
 from nep_studio.ui.speech import Sound
 from nep_studio.ui.theme.look import Look
 from nep_studio.ui.widgets.forms import room_around
+from nep_studio.ui.widgets.layouts import InLines
 from nep_studio.ui.words import tr
 
-from .card import Asking, RobotCard, touch_names
+from .card import Asking, RobotCard
 from .participants import ORIGIN, Base, RobotPlan, Starts, look_of, robots_of, start_places
 from .stage import RobotStage
 
@@ -125,8 +126,11 @@ MOST_FOR_CARDS = 0.45
 """Never is more of the panel's height given to the cards by itself."""
 
 
-class RobotsPanel(QWidget):
+class RobotsPanel(InLines):
     """Shows the robots; it listens to them only while it, or its large window, is seen."""
+
+    usual_lines = (18, 26)
+    """Room for the scene and one card."""
 
     def __init__(
         self,
@@ -147,7 +151,7 @@ class RobotsPanel(QWidget):
         self._begin_at: dict[str, Base] = {}
         self.cards: dict[str, RobotCard] = {}
         self.large: LargeWindow | None = None
-        self.stage = RobotStage(look, floor, sound, lambda: touch_names(language()))
+        self.stage = RobotStage(look, floor, sound, language)
         self.hint, self.elsewhere = QLabel(), labelled(QPushButton(), text="Back into the panel")
         self._lay_out()
         self.stage.touched.connect(self._asking.touch)
@@ -192,21 +196,11 @@ class RobotsPanel(QWidget):
         box.addWidget(self.elsewhere)
         box.addWidget(self.split)
 
-    def sizeHint(self) -> QSize:
-        """Room for the scene and one card."""
-        line = self.fontMetrics().height()
-        return QSize(line * 18, line * 26)
-
     # What is shown
 
-    @property
-    def is_seen(self) -> bool:
-        """Whether somebody can look at robots here, or in the large window."""
-        return self.isVisible() or (self.large is not None and self.large.isVisible())
-
     def refresh(self) -> None:
-        """Take the robots of the project as it is now; does nothing while it is hidden."""
-        if not self.is_seen:
+        """Take the robots of the project as it is now; does nothing while nobody looks."""
+        if self._tap is None:
             return
         planned = self._runner.planned()
         plans = {plan.name: plan for plan in robots_of(planned)}
@@ -216,6 +210,7 @@ class RobotsPanel(QWidget):
         for name in [*self._heard, *there]:
             plans.setdefault(name, RobotPlan(name))
         for name in self.cards.keys() - plans.keys():
+            self.stage.remove_robot(name)
             gone = self.cards.pop(name)
             gone.hide()
             gone.deleteLater()
@@ -226,10 +221,10 @@ class RobotsPanel(QWidget):
                 card.touched.connect(partial(self._asking.touch, plan.name))
                 card.help_asked.connect(partial(self._asking.help_up, plan.name))
                 card.start_asked.connect(partial(self._on_start_asked, plan.name))
-            card.show_plan(plan)
+            if plan != card.plan:
+                card.show_plan(plan)
             self._cards_box.insertWidget(place, card)
             self._show_robot(plan.name)
-        self.stage.keep_robots(list(plans))
         self._give_room()
         self.hint.setVisible(not self.cards)
 
@@ -267,12 +262,9 @@ class RobotsPanel(QWidget):
             look, is_there = state_look(status), status.is_there
         else:
             look, is_there = look_of(state), state is not None
-        card.show_health(look, is_there=is_there)
         shown = state if is_there else None
         self.stage.show_robot(card.plan, shown, self._begin_at.get(name, ORIGIN))
-        if shown is not None:
-            card.show_state(shown)
-            card.show_doings(self._doings.words(name))
+        card.show_state(look, shown, self._doings.words(name) if is_there else ())
 
     # What happens
 
@@ -288,7 +280,7 @@ class RobotsPanel(QWidget):
             self._show_robot(name)
 
     def _on_arrived(self, batch: list[tuple[str, msgspec.Struct]]) -> None:
-        if not self.is_seen:
+        if self._tap is None:
             return
         told = [message for _, message in batch if self._doings.hear(message)]
         names = {one.robot for one in told if isinstance(one, m.ActionResult)}
@@ -341,11 +333,12 @@ class RobotsPanel(QWidget):
 
     def _listen(self) -> None:
         """Hear where robots are while somebody looks; what they did meanwhile is not known."""
-        if self.is_seen and self._tap is None:
+        is_seen = self.isVisible() or (self.large is not None and self.large.isVisible())
+        if is_seen and self._tap is None:
             self._tap = self._runner.tap(m.ROBOT_STATE, kind=m.RobotState, parent=self)
             self._tap.arrived.connect(self._on_states)
             self.refresh()
-        elif not self.is_seen and self._tap is not None:
+        elif not is_seen and self._tap is not None:
             self._tap.close()
             self._tap = None
             self._doings.clear()
@@ -355,7 +348,6 @@ class RobotsPanel(QWidget):
         super().showEvent(event)
         self.stage.view.show()
         self._listen()
-        self.refresh()
 
     def hideEvent(self, event: QHideEvent) -> None:
         """Listen no more, unless the large window is seen."""

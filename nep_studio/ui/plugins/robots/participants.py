@@ -98,36 +98,22 @@ class RobotPlan:
     address: str = ""
     folder: Path | None = None
 
-    @property
-    def words(self) -> str:
-        """Which kind of robot it is."""
-        if not self.is_real:
-            return tr("On this screen")
-        return tr("A real NAO at {address}", address=self.address or "?")
-
 
 def robots_of(planned: Iterable[PlannedNode]) -> list[RobotPlan]:
     """The robots among the nodes that a project needs."""
-    return [
-        RobotPlan(
-            str(node.parameters.get("robot", node.name)),
-            node.parameters.get("driver") == "naoqi",
-            str(node.parameters.get("address", "")),
-            _folder(node),
-        )
-        for node in planned
-        if node.node.startswith(ACTION)
-    ]
-
-
-def _folder(node: PlannedNode) -> Path | None:
-    """The folder of a kind of robot that can be drawn: one of ours, or one of the person's."""
-    driver = str(node.parameters.get("driver", ""))
-    model = str(node.parameters.get("model", "")) or driver.partition("_")[2]
-    for folder in (paths.resources() / "robots" / model, Path(model)):
-        if model and (folder / "view.toml").is_file():
-            return folder
-    return None
+    found = []
+    for node in planned:
+        if not node.node.startswith(ACTION):
+            continue
+        told = {key: str(value) for key, value in node.parameters.items()}
+        driver = told.get("driver", "")
+        # The folder of a kind of robot that can be drawn: one of ours, or one of the person's
+        model = told.get("model", "") or driver.partition("_")[2]
+        folders = (paths.resources() / "robots" / model, Path(model)) if model else ()
+        folder = next((one for one in folders if (one / "view.toml").is_file()), None)
+        name, address = told.get("robot", node.name), told.get("address", "")
+        found.append(RobotPlan(name, driver == "naoqi", address, folder))
+    return found
 
 
 def look_of(state: RobotState | None) -> StateLook:

@@ -3,22 +3,25 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from PySide6.QtCore import QEvent, QObject, QSize, Qt, QTimer, Signal
+from PySide6.QtCore import QEvent, QObject, Qt, QTimer, Signal
 from PySide6.QtGui import QKeyEvent
-from PySide6.QtWidgets import QPushButton, QSizePolicy, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QPushButton, QSizePolicy, QVBoxLayout
 
 from nep_core.wire.messages import RobotState, Thing, ThingKind
+from nep_studio.blocks.language import Language
 from nep_studio.project.surroundings import moved, named, new_thing, turned
 from nep_studio.ui.floor import Floor
 from nep_studio.ui.labels import follow_words, labelled
 from nep_studio.ui.speech import Sound
 from nep_studio.ui.theme.look import Look
+from nep_studio.ui.widgets.layouts import InLines
 from nep_studio.ui.words import tr
 
+from .card import touch_names
 from .participants import ORIGIN, Base, RobotPlan
 from .stage_tools import StageTools, ThingBar, thing_words
 
@@ -120,13 +123,8 @@ class Sight(QObject):
         super().__init__(view)
         self._view = view
         self._seen_by: Looking | None = None
-        self._timer = QTimer(self, singleShot=True, interval=LOOK_MS)
-        self._timer.timeout.connect(self.look)
-
-    def look_soon(self) -> None:
-        """Something may have moved."""
-        if not self._timer.isActive():
-            self._timer.start()
+        self.soon = QTimer(self, singleShot=True, interval=LOOK_MS)
+        self.soon.timeout.connect(self.look)
 
     def look(self) -> None:
         """See all again if a robot has left the picture by itself."""
@@ -154,7 +152,7 @@ class Sight(QObject):
 ASIDE_RAD = math.radians(65)
 
 
-class RobotStage(QWidget):
+class RobotStage(InLines):
     """Shows robots and what stands around them; the view is made when it is first looked at.
 
     ``touched`` gives a robot, its sensor, and whether it is pressed or let go; ``chosen`` a robot.
@@ -163,13 +161,15 @@ class RobotStage(QWidget):
     touched = Signal(str, str, bool)
     chosen = Signal(str)
     large_switched = Signal(bool)
+    usual_lines = (16, 18)
+    """Room for a robot that stands."""
 
     def __init__(
-        self, look: Look, floor: Floor, sound: Sound, touch_names: Callable[[], Mapping[str, str]]
+        self, look: Look, floor: Floor, sound: Sound, language: Callable[[], Language]
     ) -> None:
         super().__init__()
         self._look, self.floor, self._sound = look, floor, sound
-        self._touch_names = touch_names
+        self._language = language
         self._view: RobotView | None = None
         self._keys: StageKeys | None = None
         self._chosen_id = ""
@@ -214,7 +214,7 @@ class RobotStage(QWidget):
     def _tell_names(self) -> None:
         """Call the places that can be touched as they are called now."""
         if self._view is not None:
-            self._view.touch_names = self._touch_names()
+            self._view.touch_names = touch_names(self._language())
 
     @property
     def view(self) -> RobotView:
@@ -222,7 +222,7 @@ class RobotStage(QWidget):
         if self._view is None:
             from nep_studio.ui.robot_view.view import RobotView
 
-            view = self._view = RobotView(self._look, self._touch_names())
+            view = self._view = RobotView(self._look, touch_names(self._language()))
             view.setMinimumHeight(self.fontMetrics().height() * 8)
             self._box.insertWidget(1, view, 1)
             self._sight, keys = Sight(view), StageKeys(view)
@@ -231,18 +231,14 @@ class RobotStage(QWidget):
             view.robot_chosen.connect(self.chosen)
             view.thing_chosen.connect(self.choose)
             view.thing_moved.connect(self._on_thing_moved)
-            view.camera_changed.connect(self._on_camera_changed)
+            view.follows_changed.connect(self.tools.show_follow)
             keys.changed.connect(self.floor.change)
             keys.removed.connect(self.remove)
             keys.left.connect(lambda: self.choose(""))
             keys.put_down.connect(self._on_put_down)
-            self._on_floor_changed()
+            if self.floor.things:
+                self._on_floor_changed()
         return self._view
-
-    def sizeHint(self) -> QSize:
-        """Room for a robot that stands."""
-        line = self.fontMetrics().height()
-        return QSize(line * 16, line * 18)
 
     # Robots
 
@@ -253,13 +249,12 @@ class RobotStage(QWidget):
             self._shown[plan.name] = shown
             is_ours = not plan.is_real
             self.view.show_robot(plan.name, state, plan.folder, can_touch=is_ours, start=start)
-            if self._sight is not None:
-                self._sight.look_soon()
+            if self._sight is not None and not self._sight.soon.isActive():
+                self._sight.soon.start()  # it may have moved
 
-    def keep_robots(self, names: list[str]) -> None:
-        """Show only these robots."""
-        for name in self._shown.keys() - set(names):
-            del self._shown[name]
+    def remove_robot(self, name: str) -> None:
+        """Show a robot no more."""
+        if self._shown.pop(name, None) is not None:
             self.view.remove_robot(name)
 
     # Things
@@ -335,9 +330,6 @@ class RobotStage(QWidget):
                 if abs(math.remainder(view.camera.yaw - heading, math.tau)) < ASIDE_RAD:
                     view.look_through(replace(view.camera, yaw=heading + ASIDE_RAD))
                     view.fit()
-
-    def _on_camera_changed(self) -> None:
-        self.tools.show_follow(self.view.follows)
 
     def _on_follow_switched(self, is_on: bool) -> None:
         self.view.follows = is_on

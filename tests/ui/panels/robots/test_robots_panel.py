@@ -26,7 +26,7 @@ def test_robots_of_the_project_are_there_before_they_run(panel: RobotsPanel) -> 
     assert nao.health.text() == "Not started"
     assert not nao.touch.isVisible()
     assert not panel.hint.isVisible()
-    assert panel.stage.view.room.names == ("NAO", "Anna")
+    assert tuple(panel.stage.view.room.robots) == ("NAO", "Anna")
 
 
 def test_a_project_without_robots_says_how_one_takes_part(
@@ -37,7 +37,7 @@ def test_a_project_without_robots_says_how_one_takes_part(
     panel.refresh()
 
     assert panel.cards == {}
-    assert panel.stage.view.room.names == ()
+    assert not panel.stage.view.room.robots
     assert panel.hint.isVisible()
     assert "Robots page" in panel.hint.text()
 
@@ -81,7 +81,7 @@ def test_a_real_robot_is_in_the_scene_but_cannot_be_touched_from_here(panel: Rob
     card = panel.cards["Anna"]
     assert not card.touch.isVisible()
     assert not panel.stage.view.room.can_touch("Anna")
-    assert panel.stage.view.room.goal("Anna") is not None
+    assert not panel.stage.view.room.robots["Anna"].is_pale
     assert card.kind.words.startswith("A real NAO")
 
 
@@ -175,8 +175,8 @@ def test_a_running_robot_is_shown_touched_put_back_and_gone_when_it_stops(
     assert place is not None
 
     def felt() -> float:
-        goal = view.room.goal("NAO")
-        return goal.sensors.get("head_front", 0.0) if goal is not None else 0.0
+        robot = view.room.robots["NAO"]
+        return 0.0 if robot.is_pale else robot.goal.sensors.get("head_front", 0.0)
 
     qtbot.mousePress(view, Qt.MouseButton.LeftButton, pos=place.toPoint())
     qtbot.waitUntil(lambda: felt() > 0)
@@ -186,7 +186,7 @@ def test_a_running_robot_is_shown_touched_put_back_and_gone_when_it_stops(
 
     qtbot.waitUntil(lambda: card.health.text() == "Stopped", timeout=NODE_START_MS)
     assert card.facts.text() == ""
-    assert view.room.goal("NAO") is None
+    assert view.room.robots["NAO"].is_pale
 
 
 def test_a_running_robot_that_is_pushed_falls_and_is_helped_up(

@@ -450,7 +450,7 @@ class AdviceRow(QWidget):
         self.show_takes.setAccessibleDescription(advice.words)
         self.show_takes.clicked.connect(lambda: of.takes_asked.emit(advice.takes))
         self.show_takes.setVisible(bool(advice.takes) and advice.what != "takes")
-        buttons = FlowLayout()
+        buttons = FlowLayout(spacing=4)
         buttons.addWidget(self.button)
         buttons.addWidget(self.show_takes)
         words = in_column(self.words, buttons, spacing=0)

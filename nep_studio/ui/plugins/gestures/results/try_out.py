@@ -94,7 +94,7 @@ class CorrectionBar(QWidget):
         self.menu.aboutToShow.connect(self.fill_menu)
         self.missed.setMenu(self.menu)
         self.false_alarm.clicked.connect(self.keep_false_alarm)
-        row = FlowLayout(self)
+        row = FlowLayout(self, 4)
         row.addWidget(self.missed)
         row.addWidget(self.false_alarm)
 
