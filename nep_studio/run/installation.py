@@ -57,7 +57,19 @@ def problem_steps(
         *(yield from check_steps(project, language, known.chains)),
         *known.of_nodes(nodes, known.gestures, folder),
         *(
-            _no_address(entry)
+            (
+                Diagnostic(
+                    "error",
+                    "robot_address",
+                    "robots",
+                    entry.block_id,
+                    text_of("Where is {name}? A real robot needs its address.", name=entry.name),
+                    (
+                        "Press the robot's chest button once: it says its address. Write it here.",
+                        "Or choose the robot on this screen.",
+                    ),
+                )
+            )
             for entry in robots
             if entry.driver == "naoqi" and not entry.address.strip()
         ),
@@ -143,20 +155,6 @@ def _wrong(entry: NodeEntry, sentence: Text, checklist: tuple[Words, ...]) -> Di
         "The node “{name}” cannot start. {sentence}", name=entry.name, sentence=sentence
     )
     return Diagnostic("error", "node_settings", "nodes", entry.block_id, words, checklist)
-
-
-def _no_address(entry: RobotEntry) -> Diagnostic:
-    return Diagnostic(
-        "error",
-        "robot_address",
-        "robots",
-        entry.block_id,
-        text_of("Where is {name}? A real robot needs its address.", name=entry.name),
-        (
-            "Press the robot's chest button once: it says its address. Write it here.",
-            "Or choose the robot on this screen.",
-        ),
-    )
 
 
 def _reserved(page: str, entry: RobotEntry | NodeEntry) -> Diagnostic:

@@ -87,7 +87,9 @@ def plan(project: Project, language: Language, choices: Choices, folder: Path) -
     ]
     if (files := animation_files(project)) is not None:
         nodes = [_with_animations(node, files, language.profile.node) for node in nodes]
-    gestures = _known_gestures(project, language)
+    # The gestures that rules wait for and somebody has taught
+    known = {*language.choices.get("gestures", {})} | {*trained_gestures(project)}
+    gestures = [gesture for gesture in names_used(project, language, "gesture") if gesture in known]
     nodes += _missing_gestures(project, language, listed, gestures, {node.name for node in nodes})
     nodes = _with_a_watch(nodes, choices, gestures)
     nodes = [with_takes(node, project) for node in nodes]
@@ -143,12 +145,6 @@ def _listed(entry: NodeEntry, folder: Path, project: Project) -> PlannedNode:
     own, named = trained_gestures(project), named_gestures(entry)
     is_own = all(gesture in own for gesture in named) if named else bool(own)
     return _of_project(node, project) if is_own else node
-
-
-def _known_gestures(project: Project, language: Language) -> list[str]:
-    """The gestures that rules wait for and somebody has taught."""
-    known = {*language.choices.get("gestures", {})} | {*trained_gestures(project)}
-    return [gesture for gesture in names_used(project, language, "gesture") if gesture in known]
 
 
 def _missing_gestures(

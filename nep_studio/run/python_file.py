@@ -27,7 +27,18 @@ def python_file(
     code = generate_program(project, language).text
     kept = _kept_folder(file_name)
     nodes = [_moved(node, kept) for node in plan(project, language, Choices(), folder)]
-    return "\n".join([*_how_to_run(nodes, file_name), "", code])
+    # The comment: commands that can be copied, each for a terminal of its own
+    file = _word(file_name)
+    sensors = [node for node in nodes if node.is_sensory]  # last: nothing they say is missed
+    others = [node for node in nodes if not node.is_sensory]
+    program = f"nep-studio exec {file}"
+    commands = ["nep-studio master", *map(_command, others), program, *map(_command, sensors)]
+    told = [
+        "To run this program, give each of these commands in a terminal of its own:",
+        *(f"  {command}" for command in commands),
+        f"Instead of nep-studio exec, any Python that has nep_core will do: python {file}",
+    ]
+    return "\n".join([*[f"# {on_one_line(line)}" for line in told], "", code])
 
 
 def write_kept(project: Project, language: Language, path: Path) -> None:
@@ -55,21 +66,6 @@ def _elsewhere(value: Setting, old: Path, kept: Path) -> Setting:
     if not isinstance(value, str) or not value or not Path(value).is_relative_to(old):
         return value
     return str(kept / old.name / Path(value).relative_to(old))
-
-
-def _how_to_run(nodes: list[PlannedNode], file_name: str) -> list[str]:
-    """The comment: commands that can be copied, each for a terminal of its own."""
-    file = _word(file_name)
-    sensors = [node for node in nodes if node.is_sensory]  # last: nothing they say is missed
-    others = [node for node in nodes if not node.is_sensory]
-    program = f"nep-studio exec {file}"
-    commands = ["nep-studio master", *map(_command, others), program, *map(_command, sensors)]
-    told = [
-        "To run this program, give each of these commands in a terminal of its own:",
-        *(f"  {command}" for command in commands),
-        f"Instead of nep-studio exec, any Python that has nep_core will do: python {file}",
-    ]
-    return [f"# {on_one_line(line)}" for line in told]
 
 
 def _command(node: PlannedNode) -> str:

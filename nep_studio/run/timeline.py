@@ -236,7 +236,11 @@ class Timeline:
                 action.request = message
                 return self._result_lines(message, list(action.results.values()))
             case m.ActionResult():
-                return self._answered(message)
+                action = self._action(message.id)
+                if (message.robot, message.state) in action.results:
+                    return []  # a result comes again each time it is asked for
+                action.results[message.robot, message.state] = message
+                return self._result_lines(action.request, [message])
         line = self._line(message)
         return [line] if line else []
 
@@ -267,13 +271,6 @@ class Timeline:
         has_stopped = state.node in self._stopped
         self._stopped.add(state.node)
         return has_stopped
-
-    def _answered(self, result: m.ActionResult) -> list[Line]:
-        action = self._action(result.id)
-        if (result.robot, result.state) in action.results:
-            return []  # a result comes again each time it is asked for
-        action.results[result.robot, result.state] = result
-        return self._result_lines(action.request, [result])
 
     def _result_lines(
         self, request: m.ActionRequest | None, results: list[m.ActionResult]

@@ -162,7 +162,10 @@ class _Path:
             heading = frames[:, skeleton.index[link], :3, 0] @ lean.T
             turned = yaw + np.arctan2(heading[:, 1], heading[:, 0])
             self.yaws[link[0]] = self.yaws[link[0]] - (turned - feet.yaws[link[0]])
-        self.torso = self.torso - _from_rest(there - wanted)
+        # Return a correction that is 0 at the beginning and at the end
+        correction = there - wanted
+        at_rest = _fading(len(correction))
+        self.torso = self.torso - (correction * np.minimum(1.0 - at_rest, 1.0 - at_rest[::-1]))
 
 
 def _fastest_part(body: Body, standing: Angles, angles: Angles) -> float:
@@ -185,18 +188,7 @@ def _feet(step: Angles, steps: int, step_s: float, hip_left_m: float) -> _Feet:
         places[side], yaws[side] = _foot(gone, step, sign * hip_left_m, height), gone * step[2]
         middle, _ = _foot(gone, step, sign * (hip_left_m - INWARD_M), height), None
         stands[side] = middle[:, :2] + SOLE_MIDDLE_M * _heading(yaws[side])
-    return _Feet(places, yaws, _weight(times_s, stands, swings, step_s))
-
-
-def _foot(gone: Angles, step: Angles, left_m: float, height: Angles) -> Points:
-    """Return where a foot is that has gone so many steps, ``left_m`` beside the way."""
-    yaw = gone * step[2]
-    x, y = gone * step[0] - left_m * np.sin(yaw), gone * step[1] + left_m * np.cos(yaw)
-    return np.column_stack([x, y, height])
-
-
-def _weight(times_s: Angles, stands: dict[str, Points], swings: int, step_s: float) -> Points:
-    """Return where the weight is carried: between the feet, then on each standing one in turn."""
+    # Return where the weight is carried: between the feet, then on each standing one in turn
     changing_s = np.full(swings + 1, step_s * BOTH_FEET_PART)
     ends_s = LEAVING_S + step_s * np.arange(swings + 1.0)
     ends_s[-1] += changing_s[-1]
@@ -205,7 +197,14 @@ def _weight(times_s: Angles, stands: dict[str, Points], swings: int, step_s: flo
     on_left, _ = _in_turn(times_s, ends_s - changing_s, changing_s, feet)
     share = on_left[:, None]
     weight: Points = share * stands["L"] + (1.0 - share) * stands["R"]
-    return weight
+    return _Feet(places, yaws, weight)
+
+
+def _foot(gone: Angles, step: Angles, left_m: float, height: Angles) -> Points:
+    """Return where a foot is that has gone so many steps, ``left_m`` beside the way."""
+    yaw = gone * step[2]
+    x, y = gone * step[0] - left_m * np.sin(yaw), gone * step[1] + left_m * np.cos(yaw)
+    return np.column_stack([x, y, height])
 
 
 def _in_turn(
@@ -246,12 +245,6 @@ def _fading(count: int) -> Points:
     """Return rows (count, 1) that begin with 1 and soon become 0."""
     part: Points = 1.0 - minimum_jerk(np.clip(np.arange(count) * TICK_S / SETTLING_S, 0.0, 1.0))
     return part[:, None]
-
-
-def _from_rest(correction: Points) -> Points:
-    """Return a correction that is 0 at the beginning and at the end."""
-    at_rest = _fading(len(correction))
-    return correction * np.minimum(1.0 - at_rest, 1.0 - at_rest[::-1])
 
 
 def _pose_legs(

@@ -90,7 +90,9 @@ class Keyframes:
         """Return the movement as seen in a mirror: left is right and right is left."""
         return Keyframes(
             {
-                _other_side(name): track.negated() if _turns_sideways(name) else track
+                ({"L": "R", "R": "L"}.get(name[0], name[0]) + name[1:]): track.negated()
+                if _turns_sideways(name)
+                else track
                 for name, track in self.tracks.items()
             }
         )
@@ -123,10 +125,6 @@ class Keyframes:
 def mirror_angle(name: str, angle: float) -> float:
     """Return the angle of the joint of this name on the other side, as seen in a mirror."""
     return -angle if _turns_sideways(name) else angle
-
-
-def _other_side(name: str) -> str:
-    return {"L": "R", "R": "L"}.get(name[0], name[0]) + name[1:]
 
 
 def _turns_sideways(name: str) -> bool:
@@ -173,7 +171,13 @@ def track_angles(track: Track, start_rad: float, times_s: Angles, fastest: float
     x, y = control_points(track, start_rad, fastest)
     piece = np.clip(np.searchsorted(x[0], times_s, side="right") - 1, 0, len(x[0]) - 1)
     t = np.clip(times_s, 0.0, track.times[-1])
-    return _bezier(y[:, piece], _parameter(x[:, piece], t))
+    # Return where on each Bezier piece (0 to 1) its time is ``t``, by bisection
+    powers = _powers(x[:, piece])
+    u, step = np.full_like(t, 0.5), 0.25
+    for _ in range(BISECTIONS):
+        u += np.where(_polynomial(powers, u) < t, step, -step)
+        step /= 2.0
+    return _bezier(y[:, piece], u)
 
 
 def peak_speed(track: Track, start_rad: float, fastest: float) -> float:
@@ -245,16 +249,6 @@ def _possible(handles: Angles, steps: Angles, fastest: float) -> Angles:
     part = np.divide(shorter, times, out=np.zeros_like(times), where=times > 0.0)
     angles = np.clip(handles[1], -fastest * times, fastest * times)
     return np.vstack([shorter, part * angles])
-
-
-def _parameter(x: Angles, t: Angles) -> Angles:
-    """Return where on each Bezier piece (0 to 1) its time is ``t``, by bisection."""
-    powers = _powers(x)
-    u, step = np.full_like(t, 0.5), 0.25
-    for _ in range(BISECTIONS):
-        u += np.where(_polynomial(powers, u) < t, step, -step)
-        step /= 2.0
-    return u
 
 
 def _bezier(points: Angles, u: Angles) -> Angles:

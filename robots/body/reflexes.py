@@ -171,7 +171,11 @@ class Sagging:
             axis = frame[:3, :3] @ self._robot.body.joints[column].axis
             # the pull of all links together: numpy's cross product is slow for single vectors
             arm = masses[carried] @ (centres[carried] - frame[:3, 3])
-            torques[column] = GRAVITY_M_S2 * _triple(axis, arm, down)
+            # Return how much of the cross product of b and c is along a
+            (ax, ay, az), (bx, by, bz), (cx, cy, cz) = axis.tolist(), arm.tolist(), down.tolist()
+            torques[column] = GRAVITY_M_S2 * float(
+                ax * (by * cz - bz * cy) + ay * (bz * cx - bx * cz) + az * (bx * cy - by * cx)
+            )
         torque = torques[columns]
         pulled = np.sign(torque) * np.maximum(np.abs(torque) - STICKING_NM, 0.0)
         fastest = FASTEST_PART * robot.body.max_speed[columns]
@@ -181,12 +185,6 @@ class Sagging:
         moved = np.abs(allowed[columns] - robot.angles[columns]).max(initial=0.0)
         robot.angles[columns] = allowed[columns]
         self._rested = loose if moved < 1e-5 else None
-
-
-def _triple(a: Angles, b: Angles, c: Angles) -> float:
-    """Return how much of the cross product of b and c is along a."""
-    (ax, ay, az), (bx, by, bz), (cx, cy, cz) = a.tolist(), b.tolist(), c.tolist()
-    return float(ax * (by * cz - bz * cy) + ay * (bz * cx - bx * cz) + az * (bx * cy - by * cx))
 
 
 # What a virtual robot does by itself with limbs that nothing uses: breathe, look at people.

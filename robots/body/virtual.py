@@ -387,13 +387,17 @@ class VirtualDriver:
         if not self._braking:
             self._running |= self._held_up
             self._held_up.clear()
-        self._idling.step(self._used_limbs(), self._clock_s)
+        # Return the limbs that move for a command, or come to rest
+        running = [*self._running.values(), *self._held_up.values(), *self._braking]
+        self._idling.step(frozenset(limb for one in running for limb in one.limbs), self._clock_s)
         self._sagging.step()
         self._ticks_since_look += 1
         self._follow(must=bool(ended))
         self._joint_speed = (self.robot.angles - angles) / TICK_S
         if self.robot.stance.has_lost_balance and not self.robot.fallen:
-            ended += self._fall()
+            # Fall down; what moved the body has failed
+            self._noticed.append(FELL)
+            ended += self._instead(fall(self.robot), fallen_sentence(self.robot), MOVING)
         elif gives_way(self.robot):
             sentence = sunk_sentence(self.robot)
             ended += self._instead(sink(self.robot), sentence, frozenset({Limb.LEGS}))
@@ -408,11 +412,6 @@ class VirtualDriver:
             self._turning = turning_rad_s(before, self.robot.stance.turn, seconds)
             self._ticks_since_look = 0
 
-    def _used_limbs(self) -> frozenset[Limb]:
-        """Return the limbs that move for a command, or come to rest."""
-        running = [*self._running.values(), *self._held_up.values(), *self._braking]
-        return frozenset(limb for one in running for limb in one.limbs)
-
     def _look_around(self, now_s: float) -> None:
         """Notice what is in sight, some times a second."""
         if now_s >= self._next_look_s:
@@ -421,11 +420,6 @@ class VirtualDriver:
 
     def _use_battery(self, seconds: float) -> None:
         self.robot.battery = max(0.0, self.robot.battery - seconds / BATTERY_S)
-
-    def _fall(self) -> list[Ended]:
-        """Fall down; what moved the body has failed."""
-        self._noticed.append(FELL)
-        return self._instead(fall(self.robot), fallen_sentence(self.robot), MOVING)
 
     def _instead(self, task: Task, why: Text, limbs: frozenset[Limb]) -> list[Ended]:
         """Do something instead of all that uses some limbs, which has failed."""

@@ -201,7 +201,10 @@ class ServiceVoice:
         """Tell of something that a person should look at."""
         log.warning("%s", fault)
         try:
-            self._publisher().send(
+            if self._states is None:
+                self._network = self._network or self._join()
+                self._states = Publisher(NODE_STATE, network=self._network)
+            self._states.send(
                 NodeState(
                     node=self._name,
                     type="cognitive",  # the four types are of nodes, which this is not
@@ -218,9 +221,3 @@ class ServiceVoice:
         """Leave the network, before the service ends."""
         if self._network is not None:
             self._network.close()
-
-    def _publisher(self) -> Publisher:
-        if self._states is None:
-            self._network = self._network or self._join()
-            self._states = Publisher(NODE_STATE, network=self._network)
-        return self._states

@@ -35,7 +35,10 @@ class RobotVoices(QObject):
         before = self._saying.get(state.robot, "")
         self._saying[state.robot] = state.saying
         if state.saying and state.saying != before:
-            self._mouth(state.robot).say(spoken_as(utterance_of(state), self._asked(state)))
+            robot = state.robot
+            if robot not in self._mouths:
+                self._mouths[robot] = _Mouth(self._make_voice(self))
+            self._mouths[robot].say(spoken_as(utterance_of(state), self._asked(state)))
 
     def _asked(self, state: m.RobotState) -> m.ActionRequest | None:
         """The last request to say what a robot says now, which may tell how."""
@@ -75,11 +78,6 @@ class RobotVoices(QObject):
     def speaking(self) -> list[str]:
         """The robots that are heard now."""
         return [name for name, mouth in self._mouths.items() if mouth.is_speaking]
-
-    def _mouth(self, robot: str) -> _Mouth:
-        if robot not in self._mouths:
-            self._mouths[robot] = _Mouth(self._make_voice(self))
-        return self._mouths[robot]
 
 
 class _Mouth:
