@@ -111,7 +111,7 @@ def begin(child: subprocess.Popen[bytes]) -> None:
 def lookups(endpoint: str) -> list[dict[str, Any]]:
     """How long the master takes to say who publishes a topic."""
     times_ms = []
-    with MasterProbe(endpoint) as probe:
+    with contextlib.closing(MasterProbe(endpoint)) as probe:
         for i in range(LOOKUPS):
             began_s = time.perf_counter()
             found = probe.ask(says.Find(topic=f"/bench/{i % NODES}/0"), says.Found)

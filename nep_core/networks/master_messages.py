@@ -8,7 +8,6 @@ from typing import Any, TypeVar
 import msgspec
 import zmq
 
-from nep_core.closing import Closing
 from nep_core.errors import MasterNotFound
 
 from . import security
@@ -205,7 +204,7 @@ encode = msgspec.json.Encoder().encode
 A = TypeVar("A", bound=Answer)
 
 
-class MasterProbe(Closing):
+class MasterProbe:
     """A connection for questions; raises NetworkError when ``endpoint`` is not one."""
 
     def __init__(self, endpoint: str) -> None:
@@ -240,13 +239,13 @@ def ask_master(endpoint: str, timeout_s: float = 2.0) -> Listing | None:
 
     Raises NetworkError when ``endpoint`` is not one.
     """
-    with MasterProbe(endpoint) as probe:
+    with contextlib.closing(MasterProbe(endpoint)) as probe:
         return probe.ask(List(), Listing, timeout_s)
 
 
 def ask_to_stop(endpoint: str, node: str, timeout_s: float = 2.0) -> bool | None:
     """Ask a node to stop; whether there is one, None when no NEP master answers."""
-    with MasterProbe(endpoint) as probe:
+    with contextlib.closing(MasterProbe(endpoint)) as probe:
         answer = probe.ask(Stop(node=node), Passed, timeout_s)
     return None if answer is None else answer.known
 

@@ -167,8 +167,9 @@ class Monitor(QThread):
         self._most = most_waiting
         self._lock = threading.Lock()
         self._came = threading.Event()
-        self._may_send = threading.Event()
-        self._may_send.set()
+        self.may_send = threading.Event()
+        """Set by whoever has dealt with the last batch."""
+        self.may_send.set()
         self._is_ending = False
 
     def hear(self, item: object) -> None:
@@ -180,24 +181,20 @@ class Monitor(QThread):
                 self.dropped += 1
         self._came.set()
 
-    def taken(self) -> None:
-        """The last batch has been dealt with."""
-        self._may_send.set()
-
     def end(self) -> None:
         """End the thread, and wait for it."""
         if self._is_ending:
             return
         self._is_ending = True
         self._came.set()
-        self._may_send.set()
+        self.may_send.set()
         self.wait()
 
     def run(self) -> None:
         """Send batches until the end."""
         while not self._is_ending:
             self._came.wait()
-            self._may_send.wait()
+            self.may_send.wait()
             self._came.clear()
             with self._lock:
                 count = min(len(self._waiting), LARGEST_BATCH)
@@ -205,6 +202,6 @@ class Monitor(QThread):
                 if self._waiting:
                     self._came.set()
             if batch and not self._is_ending:
-                self._may_send.clear()
+                self.may_send.clear()
                 self.arrived.emit(batch)
                 time.sleep(self._pause_s)

@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 
 from .body import Camera
 from .driver import Thing
-from .kinematics import Frames, Points, rotation
+from .kinematics import Frames, Points, rotation, turned
 from .pose import VirtualRobot
 from .surroundings import EYES_PART, HALF_VIEW_RAD, looked_at
 
@@ -80,8 +80,7 @@ def box(eye: Points, rays: Pixels, centre: Points, heading: float, half: Points)
     ``eye`` (3,) is where they begin, ``rays`` their directions; ``centre`` (3,) is the box's,
     m, ``heading`` how it is turned, rad.
     """
-    cosine, sine = math.cos(heading), math.sin(heading)
-    turn = np.array([[cosine, -sine, 0.0], [sine, cosine, 0.0], [0.0, 0.0, 1.0]])
+    turn = turned(heading)
     start, into = (eye - centre) @ turn, rays @ turn
     safe = np.where(np.abs(into) < 1e-9, 1e-9, into)
     first, last = (-half - start) / safe, (half - start) / safe

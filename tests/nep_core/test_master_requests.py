@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterator
+from contextlib import closing
 
 import msgspec
 import pytest
@@ -136,7 +137,7 @@ def test_a_lookup_tells_who_is_at_a_topic(master: Master, program: RawProgram) -
     told = registration("n", "i", publishes=["/x"], subscribes={"s": "/x", "t": "/y"})
     program.ask(says.Register(version=1, registration=told))
 
-    with says.MasterProbe(master.endpoint) as probe:
+    with closing(says.MasterProbe(master.endpoint)) as probe:
         found = probe.ask(says.Find(topic="/x"), says.Found, 2.0)
 
     assert found == says.Found(topic="/x", publishers=[told.publishing], subscribers=["s"])

@@ -19,7 +19,7 @@ def monitor(qtbot) -> Iterator[Monitor]:
 
 def test_what_is_heard_arrives_in_its_order(monitor: Monitor, qtbot) -> None:
     came: list[object] = []
-    monitor.arrived.connect(lambda batch: (came.extend(batch), monitor.taken()))
+    monitor.arrived.connect(lambda batch: (came.extend(batch), monitor.may_send.set()))
 
     for number in range(50):
         monitor.hear(number)
@@ -39,7 +39,7 @@ def test_a_busy_window_gets_one_batch_until_it_has_taken_it(monitor: Monitor, qt
     qtbot.wait(100)  # three of its pauses: nothing else tells that a thread keeps back something
     assert batches == [["first"]]
 
-    monitor.taken()
+    monitor.may_send.set()
     qtbot.waitUntil(lambda: batches == [["first"], ["second", "third"]])
 
 
@@ -51,7 +51,7 @@ def test_the_oldest_of_too_many_are_dropped_and_counted(monitor: Monitor, qtbot)
 
     for number in range(250):
         monitor.hear(number)
-    monitor.taken()
+    monitor.may_send.set()
 
     qtbot.waitUntil(lambda: len(batches) == 2)
     assert batches[1] == list(range(150, 250))
@@ -61,7 +61,7 @@ def test_the_oldest_of_too_many_are_dropped_and_counted(monitor: Monitor, qtbot)
 def test_a_large_heap_comes_in_several_batches(qtbot) -> None:
     monitor = Monitor()
     sizes: list[int] = []
-    monitor.arrived.connect(lambda batch: (sizes.append(len(batch)), monitor.taken()))
+    monitor.arrived.connect(lambda batch: (sizes.append(len(batch)), monitor.may_send.set()))
     for number in range(1000):
         monitor.hear(number)
 

@@ -104,7 +104,7 @@ class Tap(QObject):
             if not self._is_closed:
                 self.arrived.emit(batch)
         finally:
-            self._monitor.taken()
+            self._monitor.may_send.set()
 
 
 def _end(monitor: Monitor, inlets: list[_Inlet]) -> None:
@@ -424,7 +424,7 @@ class Runner(QObject):
                     self.controller.heard(message)
             self.arrived.emit(batch)
         finally:
-            self._monitor.taken()
+            self._monitor.may_send.set()
 
     def _on_look(self) -> None:
         now_s, before_s = time.time(), self._looked_s

@@ -237,9 +237,7 @@ class ReadingLabel(QLabel):
 class FlowLayout(Flow):
     """Asks for no more width than its widest widget: a panel may be narrow."""
 
-    def sizeHint(self) -> QSize:
-        """As narrow as the widest of them."""
-        return self.minimumSize()
+    sizeHint = Flow.minimumSize  # noqa: N815 - as Qt calls it
 
 
 # Puts widgets below each other, in as many columns as there is room for.

@@ -3,6 +3,7 @@
 import select
 import socket
 import time
+from contextlib import closing
 
 import msgspec
 import pytest
@@ -130,7 +131,7 @@ def test_a_computer_that_is_forgotten_is_not_heard_over_old_connections_either(
     opened: Opened,
 ) -> None:
     opened.use(opened.guest("laptop"))
-    with MasterProbe(opened.master.endpoint) as probe:
+    with closing(MasterProbe(opened.master.endpoint)) as probe:
         assert probe.ask(says.List(), says.Listing) is not None
 
         opened.file.forget("laptop")

@@ -57,13 +57,13 @@ class MotionKit(QObject):
     def __init__(self, host: Host) -> None:
         super().__init__(host.actions)
         self._host = host
-        host.widget.installEventFilter(self)
 
     def make(self) -> MotionWindow:
         """Show the window in which motions are made; there is one."""
         from .window import MotionWindow
 
         made = self._open_motion() or MotionWindow(self._host, self._model())
+        self._host.widget.installEventFilter(self)  # from now on there is something to ask about
         made.show()
         made.raise_()
         made.activateWindow()

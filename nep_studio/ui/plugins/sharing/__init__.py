@@ -96,7 +96,6 @@ class SharingKit(QObject):
         self.sharing.settled.connect(self._on_settled)
         self.sharing.refused.connect(self._on_refused)
         self.sharing.failed.connect(self._on_failed)
-        self._runner.state_changed.connect(self._on_run_changed)
         follow_words(self, self.tell)
 
     def tell(self) -> None:
@@ -130,6 +129,8 @@ class SharingKit(QObject):
         """Stop the program first; it would lose its nodes while it runs."""
         self._is_to_offer_run = self._runner.state != "idle"
         if self._is_to_offer_run:
+            if self._waiting is None:
+                self._runner.state_changed.connect(self._on_run_changed)
             self._waiting = do
             self._runner.stop()
         else:
@@ -137,6 +138,7 @@ class SharingKit(QObject):
 
     def _on_run_changed(self, state: str) -> None:
         if state == "idle" and self._waiting is not None:
+            self._runner.state_changed.disconnect(self._on_run_changed)
             do, self._waiting = self._waiting, None
             do()
 
