@@ -331,24 +331,10 @@ def _constant(node: ast.Constant) -> tuple[str, int]:
     return literal(value), _ATOM if is_number else _TARGET  # a dot after a number is its point
 
 
-def _target(
-    node: ast.Name | ast.Attribute | ast.Call | ast.List | ast.Subscript,
-) -> tuple[str, int]:
-    """What binds tightest: a dot, a bracket or a parenthesis may follow it."""
-    match node:
-        case ast.Name():
-            text = node.id
-        case ast.Attribute():
-            text = f"{show(node.value, _TARGET)}.{node.attr}"
-        case ast.Call():
-            arguments = [show(argument) for argument in node.args]
-            arguments += [f"{keyword.arg}={show(keyword.value)}" for keyword in node.keywords]
-            text = f"{show(node.func, _TARGET)}({', '.join(arguments)})"
-        case ast.List():
-            text = f"[{', '.join(map(show, node.elts))}]"
-        case ast.Subscript():
-            text = f"{show(node.value, _TARGET)}[{show(node.slice)}]"
-    return text, _TARGET
+def _call(node: ast.Call) -> tuple[str, int]:
+    arguments = [show(argument) for argument in node.args]
+    arguments += [f"{keyword.arg}={show(keyword.value)}" for keyword in node.keywords]
+    return f"{show(node.func, _TARGET)}({', '.join(arguments)})", _TARGET
 
 
 def _binary(node: ast.BinOp) -> tuple[str, int]:
@@ -389,11 +375,11 @@ def _slice(node: ast.Slice) -> tuple[str, int]:
 
 _PRINTERS: dict[type[ast.expr], Callable[..., tuple[str, int]]] = {
     ast.Constant: _constant,
-    ast.Name: _target,
-    ast.Attribute: _target,
-    ast.Call: _target,
-    ast.List: _target,
-    ast.Subscript: _target,
+    ast.Name: lambda node: (node.id, _TARGET),
+    ast.Attribute: lambda node: (f"{show(node.value, _TARGET)}.{node.attr}", _TARGET),
+    ast.Call: _call,
+    ast.List: lambda node: (f"[{', '.join(map(show, node.elts))}]", _TARGET),
+    ast.Subscript: lambda node: (f"{show(node.value, _TARGET)}[{show(node.slice)}]", _TARGET),
     ast.BinOp: _binary,
     ast.UnaryOp: _unary,
     ast.BoolOp: _junction,
