@@ -16,6 +16,7 @@ from PySide6.QtCore import QObject, QTimer, Signal
 
 from nep_core.errors import NepError
 from nep_core.networks.network import Network
+from nep_core.processes.launcher import LaunchedNode
 from nep_core.processes.node_log import log_file_name
 from nep_core.wire import messages as m
 from nep_core.wire.pubsub import Publisher, Subscriber
@@ -322,6 +323,10 @@ class Runner(QObject):
         """Stop a node and start it again as it was."""
         if name in self.local.planned:
             self._aside(name, lambda: self.local.restart(name).wait_ready())
+
+    def launched(self, name: str) -> LaunchedNode | None:
+        """A node that the studio has started, also one that has ended; None for any other."""
+        return self.local.launcher.nodes.get(name)
 
     def log_of(self, name: str) -> list[str]:
         """The last lines that a node wrote; at most 200."""

@@ -8,8 +8,8 @@ from dataclasses import dataclass
 from functools import partial
 from typing import TYPE_CHECKING
 
-from PySide6.QtCore import QDateTime, QLocale, QObject, Qt, Signal
-from PySide6.QtGui import QKeyEvent, QShowEvent
+from PySide6.QtCore import QDateTime, QLocale, QMetaObject, QObject, Qt, Signal
+from PySide6.QtGui import QHideEvent, QKeyEvent, QShowEvent
 from PySide6.QtWidgets import (
     QFrame,
     QLabel,
@@ -154,6 +154,7 @@ class CuePanel(QWidget):
         self._runner: Runner = host.services.runner
         self.cues = ProjectCues(host.services.files, self)
         self.sending = CueSender(self._runner, self)
+        self._heard: QMetaObject.Connection | None = None
         self.board = CueBoard(host.services.look, self)
         self.empty = labelled(
             QLabel(), text="The rules of this program wait for nothing that could be sent."
@@ -201,7 +202,16 @@ class CuePanel(QWidget):
     def showEvent(self, event: QShowEvent) -> None:
         """Nothing was followed while nobody looked."""
         super().showEvent(event)
+        if self._heard is None:
+            self._heard = self.sending.changed.connect(self._on_running_changed)
         self.refresh()
+
+    def hideEvent(self, event: QHideEvent) -> None:
+        """Follow nothing."""
+        super().hideEvent(event)
+        if self._heard is not None:
+            QObject.disconnect(self._heard)
+            self._heard = None
 
     def keyPressEvent(self, event: QKeyEvent) -> None:
         """The keys of the buttons, wherever the focus is in the panel but in the line."""
@@ -233,7 +243,6 @@ class CuePanel(QWidget):
 
     def _connect(self) -> None:
         self.cues.changed.connect(self.refresh)
-        self.sending.changed.connect(self._on_running_changed)
         self.sending.sent.connect(self._on_sent)
         self.sending.refused.connect(self._on_refused)
         self.board.chosen.connect(self.send)

@@ -105,7 +105,7 @@ class NodeNotifier(QObject):
     def _circumstances(self, status: NodeStatus) -> Circumstances:
         runner, name = self._runner, status.name
         # Did the studio stop it, with a run that is over, or to start it anew?
-        launched = runner.local.launcher.nodes.get(name)
+        launched = runner.launched(name)
         is_over = False
         if status.health == "stopped" and name not in self._asked and launched is not None:
             ran_s = time.monotonic() - launched.started_s

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from PySide6.QtCore import QObject, QSize, Qt, QTimer, Signal
+from PySide6.QtCore import QMetaObject, QObject, QSize, Qt, QTimer, Signal
 from PySide6.QtGui import QHideEvent, QResizeEvent, QShowEvent
 from PySide6.QtWidgets import (
     QFrame,
@@ -139,10 +139,14 @@ class NodesPanel(QWidget):
 
     def _connect(self) -> None:
         runner = self._runner
-        runner.nodes_changed.connect(self._on_nodes_changed)
-        runner.state_changed.connect(self._on_nodes_changed)
-        runner.connected.connect(self._on_nodes_changed)
-        runner.disconnected.connect(self._on_nodes_changed)
+        self._news = (
+            runner.nodes_changed,
+            runner.state_changed,
+            runner.connected,
+            runner.disconnected,
+        )
+        self._heard: list[QMetaObject.Connection] = []
+        """What of the news is listened to: nothing while the panel is hidden."""
         self._feed.changed.connect(self._on_seen)
         self._look.theme_changed.connect(self._on_theme_changed)
         self.log.closed.connect(self._on_log_closed)
@@ -203,12 +207,16 @@ class NodesPanel(QWidget):
         """Look at the nodes."""
         super().showEvent(event)
         self._feed.watch(self)
+        if not self._heard:
+            self._heard = [news.connect(self._on_nodes_changed) for news in self._news]
         self.refresh_plan()
 
     def hideEvent(self, event: QHideEvent) -> None:
         """Look at nothing."""
         super().hideEvent(event)
         self._feed.unwatch(self)
+        while self._heard:
+            QObject.disconnect(self._heard.pop())
 
     def _card(self, entry: Entry) -> NodeCard:
         card = NodeCard(entry, self._look, self)
@@ -226,7 +234,7 @@ class NodesPanel(QWidget):
             self.grid.ensureWidgetVisible(self.cards[place])
 
     def _on_nodes_changed(self) -> None:
-        if self.isVisible() and not self._soon.isActive():
+        if not self._soon.isActive():
             self._soon.start()
 
     def _on_seen(self) -> None:

@@ -8,7 +8,14 @@ from contextlib import suppress
 from functools import partial
 from typing import TYPE_CHECKING
 
-from PySide6.QtCore import QCoreApplication, QObject, QRegularExpression, Qt, Signal
+from PySide6.QtCore import (
+    QCoreApplication,
+    QMetaObject,
+    QObject,
+    QRegularExpression,
+    Qt,
+    Signal,
+)
 from PySide6.QtGui import QRegularExpressionValidator
 from PySide6.QtWidgets import (
     QComboBox,
@@ -214,10 +221,7 @@ class StudyRecorder(QObject):
         self._edits = 0
         self._run_started_s = 0.0
         host.services.files.document_changed.connect(self._on_document_changed)
-        host.services.messages.told.connect(self._on_told)
-        host.services.runner.run_asked.connect(partial(self.note, "run_asked"))
-        host.services.runner.state_changed.connect(self._on_state_changed)
-        host.services.runner.ended.connect(self._on_ended)
+        self._heard: list[QMetaObject.Connection] = []
         app = QCoreApplication.instance()
         if app is not None:
             app.aboutToQuit.connect(self._on_quit)
@@ -237,6 +241,7 @@ class StudyRecorder(QObject):
             self._tell_failure(error)
             return
         self.sitting, self._has_run, self._edits = sitting, False, 0
+        self._run_started_s = 0.0  # a run that is under way began before the study
         self._listen()
         self.note("study_started")
         self.changed.emit()
@@ -289,7 +294,17 @@ class StudyRecorder(QObject):
         self._listen()
 
     def _listen(self) -> None:
-        """Count changes while a session is recorded, and only then."""
+        """Follow runs and messages, and count changes, while a session is recorded; only then."""
+        runner = self._runner
+        if self.is_on and not self._heard:
+            self._heard = [
+                self._messages.told.connect(self._on_told),
+                runner.run_asked.connect(partial(self.note, "run_asked")),
+                runner.state_changed.connect(self._on_state_changed),
+                runner.ended.connect(self._on_ended),
+            ]
+        while self._heard and not self.is_on:
+            QObject.disconnect(self._heard.pop())
         if self._history is not None:
             self._history.unlisten(self._on_changes)
         document = self._document if self.is_on else None

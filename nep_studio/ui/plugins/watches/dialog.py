@@ -159,7 +159,7 @@ class WatchTrial(QObject):
     def _on_node_failed(self, name: str, error: NepError) -> None:
         if name == self.name and self.state == "starting":
             problem = problem_of(error)
-            launched = self._runner.local.launcher.nodes.get(name)
+            launched = self._runner.launched(name)
             outcome = launched.outcome if launched is not None else None
             if outcome is not None and outcome.why:
                 # its own words are plainer than those about its process
@@ -184,7 +184,7 @@ class WatchTrial(QObject):
 
 
 def _runs(runner: Runner, name: str) -> bool:
-    status, launched = runner.board.nodes.get(name), runner.local.launcher.nodes.get(name)
+    status, launched = runner.board.nodes.get(name), runner.launched(name)
     is_ended = launched is None or launched.ended.is_set()
     return status is not None and status.is_there and not is_ended
 
