@@ -50,8 +50,8 @@ class PiecePainter:
         painter.setPen(QPen(line, self._measures.unit))
         painter.setBrush(fill)
         painter.translate(piece.x, piece.y)
-        unit = self._measures.unit
-        painter.drawPath(slot_path(piece.shape, piece.width, piece.height, unit))
+        width, height = round(piece.width, 1), round(piece.height, 1)
+        painter.drawPath(slot_path(piece.shape, width, height, self._measures.unit))
         painter.translate(-piece.x, -piece.y)
 
     def _field(

@@ -22,7 +22,8 @@ class Outlines:
     def of(self, box: Box) -> QPainterPath:
         """The outline of a box, from (0, 0)."""
         if box.outline not in ("statement", "hat", "cap", "gap"):
-            return slot_path(box.outline, box.width, box.height, self._measures.unit)
+            width, height = round(box.width, 1), round(box.height, 1)
+            return slot_path(box.outline, width, height, self._measures.unit)
         form = (box.outline, box.width, box.segments, box.is_mirrored)
         path = self._paths.get(form)
         if path is None:
