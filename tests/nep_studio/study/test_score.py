@@ -43,7 +43,7 @@ def test_no_other_number_of_options_gives_the_score_of_the_paper() -> None:
 
 
 def test_the_items_are_those_of_the_paper() -> None:
-    paper = Path(__file__).resolve().parents[3] / "shared" / "paper.tex"
+    paper = Path(__file__).resolve().parents[4] / "shared" / "paper.tex"
     if not paper.is_file():
         pytest.skip("the paper (../shared/paper.tex) is not here")
     table = paper.read_text(encoding="utf-8", errors="replace").split("\\label{tb:sus}")[1]

@@ -10,7 +10,7 @@ import pytest
 from nep_core.places import NODES_VARIABLE
 from nep_studio.blocks.checks.diagnostic import Diagnostic
 from nep_studio.run.installation import all_problems, studio_language
-from tests.nep_studio.test_plan import project
+from tests.nep_studio.run.test_plan import project
 
 
 def problems(
