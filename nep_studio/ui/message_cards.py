@@ -203,13 +203,14 @@ class MessageArea(QWidget):
         """Paint a soft shadow under each card; an effect of Qt's would wake every hidden panel."""
         reach = self.fontMetrics().height() // 2
         colour = QColor(self._look.theme.colour("sprite_shadow"))
-        colour.setAlphaF(colour.alphaF() / reach)
+        at_edge = colour.alphaF() / 2  # as of a blurred edge, which is half as dark as the middle
         painter = QPainter(self)
         painter.setRenderHint(QPainter.RenderHint.Antialiasing)
         painter.setPen(Qt.PenStyle.NoPen)
-        painter.setBrush(colour)
-        for card in self.cards:
-            for out in range(0 if card.isHidden() else reach):
+        for card in (card for card in self.cards if not card.isHidden()):
+            for out in range(reach):  # it fades with the square of the distance
+                colour.setAlphaF(at_edge * (2 * (reach - out) - 1) / reach**2)
+                painter.setBrush(colour)
                 room = card.geometry().adjusted(-out, 2 - out, out, 2 + out)
                 painter.drawRoundedRect(room, reach, reach)
         painter.end()
