@@ -13,7 +13,7 @@ import logging
 import tempfile
 import threading
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Literal
 
@@ -166,7 +166,6 @@ class RunController:
         self._prepared: Subject | None = None
         self._is_shown = True
         self._checks: Sliced[list[Diagnostic]] | None = None
-        self._generator: ProgramGenerator | None = None
         self._code: Sliced[Code] | None = None
         self._session: Session | None = None
         self._thread: threading.Thread | None = None
@@ -223,11 +222,10 @@ class RunController:
                     self._give_up()
                 self._tell(Checked(problems, can_run))
             elif self._code is not None and self._code.run(slice_s):
-                # Which nodes does it need?
-                code = self._code.result
                 assert self._prepared is not None
-                request = Request(code, tuple(self._prepared.nodes()), self._is_shown)
-                self._prepared = self._generator = self._code = None
+                nodes = tuple(self._prepared.nodes())
+                request = Request(self._code.result, nodes, self._is_shown)
+                self._prepared = self._code = None
                 self.start(request)
         except (BlocksError, NepError) as error:
             self._give_up()
@@ -243,19 +241,16 @@ class RunController:
     def _generate(self, subject: Subject, *, is_shown: bool) -> None:
         """What is its Python?"""
         self._prepared, self._is_shown = subject, is_shown
-        self._generator = ProgramGenerator(subject.project, subject.language)
-        self._code = Sliced(self._generator.steps())
+        self._code = Sliced(ProgramGenerator(subject.project, subject.language).steps())
         self._set_state("generating")
 
     def edited(self, changes: Changes) -> None:
         """What is open has changed: what is prepared begins anew with that, what runs is old."""
         if self.state in PREPARING and self._is_shown:
-            if self._checks is not None and self._prepared is not None:
-                self._checks.cancel()
-                self._check(self._prepared)
-            elif self._code is not None and self._generator is not None:
-                self._code.cancel()
-                self._code = Sliced(self._generator.steps())
+            assert self._prepared is not None
+            prepared = replace(self._prepared, known=None)
+            self._cancel_work()
+            self._check(prepared)
         elif changes.kept and changes.kept <= AT_ONCE and not changes.stacks:
             return
         elif self.state not in PREPARING and self.state != "idle" and not self.is_stale:
@@ -264,11 +259,14 @@ class RunController:
 
     def _give_up(self) -> None:
         """Prepare no more."""
+        self._cancel_work()
+        self._set_state("idle")
+
+    def _cancel_work(self) -> None:
         for work in (self._checks, self._code):
             if work is not None:
                 work.cancel()
-        self._prepared = self._checks = self._generator = self._code = None
-        self._set_state("idle")
+        self._prepared = self._checks = self._code = None
 
     # From the start to the end
 

@@ -32,6 +32,7 @@ from nep_studio.run.controller import (
 )
 from nep_studio.run.installation import studio_language
 from nep_studio.run.local_network import LocalNetwork
+from nep_studio.run.plan import PlannedNode
 from tests.blocks.block_building import B, build
 
 WAIT_S = 30.0
@@ -46,6 +47,7 @@ class Owner:
         self.editor: Editor | None = None
         self.is_in_order = False
         self.code: Code | None = None
+        self.known: list[PlannedNode] | None = None
         self.network = LocalNetwork(logs=folder / "logs")
         self.events: list[Event] = []
         self.heard: list[m.ProgramState] = []
@@ -59,7 +61,8 @@ class Owner:
         if self.editor is None:
             return None
         subject = Subject(self.editor.project, self.language, Path.cwd())
-        return replace(subject, is_in_order=self.is_in_order, code=self.code)
+        made = {"is_in_order": self.is_in_order, "code": self.code, "known": self.known}
+        return replace(subject, **made)
 
     def open(self, *stacks: list[B]) -> None:
         """Open a program of these stacks, with NAO."""
@@ -188,6 +191,20 @@ def test_a_change_while_the_code_is_made_is_in_the_code(owner: Owner) -> None:
 
     assert "0.07" in owner.controller.request.code.text
     assert not owner.controller.is_stale
+
+
+def test_a_change_while_the_code_is_made_is_checked_and_planned_too(owner: Owner) -> None:
+    owner.open([B("event.started"), LONG_WAIT])
+    owner.is_in_order = True
+    owner.known = owner.subject().nodes()
+    owner.controller.run()
+    assert owner.controller.state == "generating"
+
+    build(owner.language, [B("robots.robot", {"name": "Ann"})], page="robots", editor=owner.editor)
+    owner.until_state("starting")
+
+    assert owner.states() == ["generating", "checking", "generating", "starting"]
+    assert "Ann" in [node.parameters.get("robot") for node in owner.controller.request.nodes]
 
 
 def test_a_program_that_cannot_become_code_is_refused(
