@@ -21,6 +21,7 @@ from PySide6.QtWidgets import QSizePolicy
 from nep_studio.blocks.own_gestures import OwnTake
 from nep_studio.ui.labels import labelled
 from nep_studio.ui.messages import announce
+from nep_studio.ui.widgets.curves import line_width
 from nep_studio.ui.widgets.layouts import InLines
 from nep_studio.ui.words import tr
 
@@ -69,7 +70,8 @@ class TakeView(QObject):
         self.cursor_s: float | None = None
         """Where it is being played; None while it is not."""
         self._ends = (0.0, 0.0)
-        self._shown = (0.0, 1.0)
+        self.shown_s = (0.0, 1.0)
+        """What part of the recording is shown."""
         self.samples = Samples.none()
         self._playing = QTimer(self, interval=PLAY_FRAME_MS)
         self._playing.timeout.connect(self._on_played)
@@ -90,19 +92,15 @@ class TakeView(QObject):
         return {"start": self._ends[0], "end": self._ends[1]}
 
     @property
-    def shown_s(self) -> tuple[float, float]:
-        """What part of the recording is shown."""
-        return self._shown
-
-    @property
     def words(self) -> str:
-        """Where it begins and how long it is."""
+        """How long it is."""
         start_s, end_s = self._ends
         return tr("{seconds} s long", seconds=f"{end_s - start_s:.2f}")
 
-    def marks(self) -> list[Mark]:
+    @property
+    def mark(self) -> Mark:
         """The take, with how long it is."""
-        return [Mark(*self._ends, self.words)] if self.is_open else []
+        return Mark(*self._ends, self.words)
 
     # Played
 
@@ -198,7 +196,7 @@ class TakeView(QObject):
         self.is_dragged, self.held = False, "start"
         take = self._take()
         if take is not None:
-            self._shown = max(0.0, take.start_s - AROUND_S), take.end_s + AROUND_S
+            self.shown_s = max(0.0, take.start_s - AROUND_S), take.end_s + AROUND_S
         self._on_changed()
 
     def _on_changed(self) -> None:
@@ -209,8 +207,8 @@ class TakeView(QObject):
         elif not self.is_dragged:
             self.samples = self._controller.samples(take.recording)
             self._ends = take.start_s, take.end_s
-            first_s, last_s = self._shown
-            self._shown = min(first_s, take.start_s), max(last_s, take.end_s)
+            first_s, last_s = self.shown_s
+            self.shown_s = min(first_s, take.start_s), max(last_s, take.end_s)
         self.changed.emit()
 
 
@@ -220,8 +218,6 @@ SHOWN_S = 10.0
 FRAME_MS = 33
 _SHRINK = 0.05
 """How quickly the range of values follows a quieter hand, each frame; a wilder one at once."""
-
-
 _BIG, _SMALLER = 0.6, 0.32
 """How high the countdown is, and the count of takes, as a share of the graph."""
 
@@ -245,6 +241,7 @@ class Strip(InLines):
         for signal in (session.changed, controller.changed, controller.take_chosen, take.changed):
             signal.connect(self._on_changed)
         controller.look.theme_changed.connect(self._on_changed)
+        controller.take_chosen.connect(self._name_it)
         self._name_it()
 
     # What is shown
@@ -294,17 +291,17 @@ class Strip(InLines):
             for mark in marks:
                 paint_mark(painter, window, mark, theme)
             paint_ground(painter, window, theme)
-            paint_lines(painter, window, samples, theme, QFontMetricsF(self.font()))
+            width = line_width(theme, QFontMetricsF(self.font()))
+            paint_lines(painter, window, samples, theme, width)
             shown = samples.between(window.start_s, window.end_s)
             paint_letters(painter, window, shown, theme, self.font())
             for mark in marks:
                 paint_label(painter, window, mark, theme, self.font())
             self._paint_over(painter, window)
-            theme = self._controller.look.theme
             painter.setRenderHint(QPainter.RenderHint.Antialiasing, False)
             painter.setBrush(Qt.BrushStyle.NoBrush)
-            width = 2 if self.hasFocus() else 1
-            painter.setPen(QPen(theme.colour("focus" if self.hasFocus() else "line"), width))
+            colour, width = ("focus", 2) if self.hasFocus() else ("line", 1)
+            painter.setPen(QPen(theme.colour(colour), width))
             painter.drawRect(self.rect().adjusted(0, 0, -1, -1))
 
     def _paint_over(self, painter: QPainter, window: Window) -> None:
@@ -324,13 +321,13 @@ class Strip(InLines):
         elif self.big_words:
             share = _BIG if self._session.state == "countdown" else _SMALLER
             paint_big(painter, window.rect, self.big_words, theme, self.font(), share)
-        elif self._controller.live is None or not self._controller.is_hearing:
+        elif not self._controller.is_hearing:
             words = tr("No movement is heard. Connect a watch or phone, and move it.")
             paint_words(painter, window.rect, words, theme, self.font())
 
     def _marks(self) -> list[Mark]:
         if self.take.is_open:
-            return self.take.marks()
+            return [self.take.mark]
         number, marks = 0, []
         for one in self._session.movements if self._session.is_on else []:
             number += not one.fault
@@ -345,17 +342,12 @@ class Strip(InLines):
 
     def _on_changed(self, _what: object = None) -> None:
         self._is_due = True
-        self._name_it()
         self.update()
 
     def _on_frame(self) -> None:
+        if not self._is_due and self._controller.live and not self._controller.is_hearing:
+            self.update()  # it says that nothing is heard any more
         if self.take.is_open or not self._is_due:
-            if (
-                self._controller.live is not None
-                and not self._controller.is_hearing
-                and not self._is_due
-            ):
-                self.update()  # it says that nothing is heard any more
             return
         self._is_due = False
         low, high = value_range(self.samples)
@@ -366,7 +358,7 @@ class Strip(InLines):
         self._range = min(low, max(old_low, slow_low)), max(high, min(old_high, slow_high))
         self.update()
 
-    def _name_it(self) -> None:
+    def _name_it(self, _take: str = "") -> None:
         is_open = self.take.is_open
         labelled(
             self,
@@ -388,10 +380,9 @@ class Strip(InLines):
         self._frames.stop()
 
     def focusOutEvent(self, event: QFocusEvent) -> None:
-        """Show that it is elsewhere."""
+        """Keep what was moved: the keyboard is elsewhere."""
         super().focusOutEvent(event)
         self.take.let_go()
-        self.update()
 
     # Mouse and keyboard
 
@@ -409,8 +400,7 @@ class Strip(InLines):
             return
         reach = self.fontMetrics().height() * max(HANDLE_LINES, 0.6)
         is_near = self.take.is_open and self.take.end_near(x, window, reach) is not None
-        shape = Qt.CursorShape.SplitHCursor if is_near else Qt.CursorShape.ArrowCursor
-        self.setCursor(shape)
+        self.setCursor(Qt.CursorShape.SplitHCursor if is_near else Qt.CursorShape.ArrowCursor)
 
     def mouseReleaseEvent(self, event: QMouseEvent) -> None:
         """Keep where the take begins and ends now."""
