@@ -252,8 +252,8 @@ LINES_HIGH = 3.6
 class LittleCurve(QWidget):
     """The length of the acceleration; what is newest is where reading ends."""
 
-    def __init__(self, look: Look, parent: QWidget | None = None) -> None:
-        super().__init__(parent)
+    def __init__(self, look: Look) -> None:
+        super().__init__()
         self._look = look
         self._points: deque[tuple[float, float]] = deque(maxlen=4000)
         labelled(self, name="How hard it is moved, over the last seconds")
@@ -327,8 +327,8 @@ COLOURS = {"waiting": "muted", "still": "info", "moved": "success", "failed": "e
 class MoveDot(QWidget):
     """Grows with the movement; its shape and its sign differ, not its colour alone."""
 
-    def __init__(self, look: Look, parent: QWidget | None = None) -> None:
-        super().__init__(parent)
+    def __init__(self, look: Look) -> None:
+        super().__init__()
         self.state: Moving = "waiting"
         self._look = look
         self._liveliness = 0.0

@@ -82,8 +82,8 @@ class WatchStatus(QWidget):
 
     connect_asked = Signal()
 
-    def __init__(self, runner: Runner, look: Look, parent: QWidget | None = None) -> None:
-        super().__init__(parent)
+    def __init__(self, runner: Runner, look: Look) -> None:
+        super().__init__()
         self.listener = WatchListener(runner, self)
         self.state = WatchState("", "")
         self._look = look

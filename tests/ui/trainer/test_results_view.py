@@ -13,11 +13,11 @@ from pytestqt.qtbot import QtBot
 from faults import Fault, Text
 from nep_studio.ui.plugins.gestures.gesture_controller import GestureController
 from nep_studio.ui.plugins.gestures.results.confusion import ConfusionView
-from nep_studio.ui.plugins.gestures.results.labels import contrast, legible, mixed
+from nep_studio.ui.plugins.gestures.results.labels import contrast, legible
 from nep_studio.ui.plugins.gestures.results.training import Training, worker_ended
 from nep_studio.ui.plugins.gestures.results.view import ResultsView
 from nep_studio.ui.plugins.gestures.results.worker import Ended
-from nep_studio.ui.theme.colours import themes
+from nep_studio.ui.theme.colours import mixed, themes
 from nep_studio.ui.words import use_language
 from tests.ui.trainer.results_controller import desk, look
 from tests.ui.trainer.results_material import put_gestures, report

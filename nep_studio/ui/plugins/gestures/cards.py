@@ -52,8 +52,8 @@ _WIDEST_LINES = 11
 class GestureChip(QAbstractButton):
     """Looks like the beginning of the block. Only a press that stays a click adds it."""
 
-    def __init__(self, canvas: Canvas, parent: QWidget | None = None) -> None:
-        super().__init__(parent)
+    def __init__(self, canvas: Canvas) -> None:
+        super().__init__()
         self._canvas = canvas
         self.gesture = ""
         self.setCursor(Qt.CursorShape.OpenHandCursor)

@@ -8,12 +8,7 @@ from typing import Any
 import numpy as np
 
 from nep_core.wire.messages import Imu
-from nep_studio.blocks.own_gestures import (
-    OwnRecording,
-    Wrist,
-    packed_samples,
-    unpacked_samples,
-)
+from nep_studio.blocks.own_gestures import OwnRecording, Wrist, packed_samples, unpacked_samples
 from nep_studio.ui.ring import Floats, Ring
 
 KEPT_S = 30.0

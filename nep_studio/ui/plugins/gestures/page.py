@@ -35,13 +35,7 @@ from .live import Samples
 from .menus import Exchange, Menus, show_below, show_menu
 from .project_gestures import Keeping
 from .record_bar import RecordBar
-from .recording import (
-    RecordingSession,
-    SimulatedWearer,
-    TakeSession,
-    everyday_words,
-    session_words,
-)
+from .recording import RecordingSession, SimulatedWearer, TakeSession, everyday_words, session_words
 from .results.training import Training
 from .results.try_out import TryOut
 from .results.view import ResultsView

@@ -47,8 +47,8 @@ class CurveList(QTreeWidget):
 
     measured = Signal(str)
 
-    def __init__(self, plots: Plots, look: Look, parent: QWidget | None = None) -> None:
-        super().__init__(parent)
+    def __init__(self, plots: Plots, look: Look) -> None:
+        super().__init__()
         self._plots, self._look = plots, look
         self._items: dict[CurveKey, QTreeWidgetItem] = {}
         self.setRootIsDecorated(False)

@@ -7,7 +7,7 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 
 from PySide6.QtCore import QSize, Qt
-from PySide6.QtGui import QColor, QFontMetricsF, QIcon, QPainter, QPen, QPixmap
+from PySide6.QtGui import QFontMetricsF, QIcon, QPainter, QPen, QPixmap
 
 from nep_studio.ui.theme.colours import Theme
 from nep_studio.ui.widgets.curves import line_width
@@ -67,15 +67,6 @@ def icon_size(metrics: QFontMetricsF) -> QSize:
     """How large the piece of a line in a list is."""
     height = round(metrics.height())
     return QSize(round(height * _DASHES_IN_ICON), height)
-
-
-def mixed(one: QColor, other: QColor) -> QColor:
-    """The colour in the middle between two."""
-    return QColor(
-        (one.red() + other.red()) // 2,
-        (one.green() + other.green()) // 2,
-        (one.blue() + other.blue()) // 2,
-    )
 
 
 @dataclass(frozen=True)

@@ -12,10 +12,10 @@ from PySide6.QtGui import QFont, QFontMetricsF, QPainter, QPaintEvent, QPen, QPi
 from PySide6.QtWidgets import QWidget
 
 from nep_studio.ui.ring import Floats, Ring
-from nep_studio.ui.theme.colours import Theme, load_theme
+from nep_studio.ui.theme.colours import Theme, load_theme, mixed
 from nep_studio.ui.widgets.curves import polygon
 
-from .curves import Curve, CurveKey, ValueRange, mixed
+from .curves import Curve, CurveKey, ValueRange
 from .feed import Mark
 from .streams import Samples, Stream
 
@@ -200,7 +200,7 @@ class CurvesView(QWidget):
     def set_look(self, theme: Theme, font: QFont) -> None:
         """Take the theme's colours and a font for words."""
         self._ground, self._label = theme.colour("field"), theme.colour("info_panel")
-        self._grid = mixed(theme.colour("line"), self._ground)
+        self._grid = mixed(theme.colour("line"), self._ground, 0.5)
         self._text, self._cursor = theme.colour("text"), theme.colour("focus")
         self._mark = QPen(theme.colour("accent"), 1)
         self._mark.setCosmetic(True)

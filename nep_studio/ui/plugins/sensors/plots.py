@@ -54,8 +54,8 @@ class Plots(QWidget):
     rows_changed = Signal()
     cursors_changed = Signal()
 
-    def __init__(self, feed: SensorFeed, look: Look, parent: QWidget | None = None) -> None:
-        super().__init__(parent)
+    def __init__(self, feed: SensorFeed, look: Look) -> None:
+        super().__init__()
         self.feed, self.look = feed, look
         self.view = TimeView()
         self.is_fit = False

@@ -345,8 +345,8 @@ _REFRESH_MS = 500
 class RecordBar(QWidget):
     """Is there while something is recorded."""
 
-    def __init__(self, recorder: Recorder, look: Look, parent: QWidget | None = None) -> None:
-        super().__init__(parent)
+    def __init__(self, recorder: Recorder, look: Look) -> None:
+        super().__init__()
         self._recorder, self._look = recorder, look
         self._sign = QLabel()
         self.words = ElidedLabel()
@@ -418,8 +418,8 @@ class ReplayBar(QWidget):
     start_asked = Signal(object)
     stop_asked = Signal()
 
-    def __init__(self, look: Look, parent: QWidget | None = None) -> None:
-        super().__init__(parent)
+    def __init__(self, look: Look) -> None:
+        super().__init__()
         self._look = look
         self.path: Path | None = None
         self.is_playing = self._has_begun = False

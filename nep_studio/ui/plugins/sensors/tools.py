@@ -7,7 +7,7 @@ from typing import cast
 
 from PySide6.QtCore import QEvent, QObject, QSize, Qt
 from PySide6.QtGui import QAction, QActionGroup, QKeyEvent, QMouseEvent, QWheelEvent
-from PySide6.QtWidgets import QMenu, QToolBar, QToolButton, QWidget
+from PySide6.QtWidgets import QMenu, QToolBar, QToolButton
 
 from faults import Words, text_of
 from nep_studio.ui.labels import explained, labelled
@@ -186,15 +186,8 @@ _PAGE = 0.5
 class Tools(QToolBar):
     """What can be done with the plots; each action says its keys in its tool tip."""
 
-    def __init__(
-        self,
-        plots: Plots,
-        hand: Hand,
-        recorder: Recorder,
-        look: Look,
-        parent: QWidget | None = None,
-    ) -> None:
-        super().__init__(parent)
+    def __init__(self, plots: Plots, hand: Hand, recorder: Recorder, look: Look) -> None:
+        super().__init__()
         self._plots, self._look, self._recorder = plots, look, recorder
         self._icons: dict[QAction, str] = {}
         self.by_name: dict[str, QAction] = {}

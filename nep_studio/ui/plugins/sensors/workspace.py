@@ -157,8 +157,8 @@ class EmptyPage(QScrollArea):
     replay_asked = Signal()
     choose_asked = Signal()
 
-    def __init__(self, parent: QWidget | None = None) -> None:
-        super().__init__(parent)
+    def __init__(self) -> None:
+        super().__init__()
         self.setWidgetResizable(True)
         inside = QWidget()
         box = in_column(1, of=inside)

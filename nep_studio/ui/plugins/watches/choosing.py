@@ -47,8 +47,8 @@ class Entry(QLineEdit):
 
     written = Signal()
 
-    def __init__(self, text: str = "", parent: QWidget | None = None) -> None:
-        super().__init__(text, parent)
+    def __init__(self, text: str = "") -> None:
+        super().__init__(text)
         self.editingFinished.connect(self._on_finished)
 
     def _on_finished(self) -> None:
@@ -62,8 +62,8 @@ class NetworkQuestion(QWidget):
 
     changed = Signal()
 
-    def __init__(self, addresses: Sequence[str], parent: QWidget | None = None) -> None:
-        super().__init__(parent)
+    def __init__(self, addresses: Sequence[str]) -> None:
+        super().__init__()
         self.switch = QCheckBox(tr("Let this network in"))
         self.addresses = QComboBox()
         self.told = hint(
@@ -114,8 +114,8 @@ class WornQuestion(QWidget):
 
     changed = Signal()
 
-    def __init__(self, parent: QWidget | None = None) -> None:
-        super().__init__(parent)
+    def __init__(self) -> None:
+        super().__init__()
         words = {
             "left": tr("On the left wrist"),
             "right": tr("On the right wrist"),
@@ -149,8 +149,8 @@ class MoreSettings(QWidget):
 
     changed = Signal()
 
-    def __init__(self, connector: ConnectorKind, parent: QWidget | None = None) -> None:
-        super().__init__(parent)
+    def __init__(self, connector: ConnectorKind) -> None:
+        super().__init__()
         self._connector = connector
         self.toggle = QCheckBox(tr("More settings"))
         self.port = QSpinBox()
@@ -276,8 +276,8 @@ def offers() -> list[Offer]:
 class OfferCard(QPushButton):
     """One thing that a person may have; the whole card is a button."""
 
-    def __init__(self, offer: Offer, look: Look, parent: QWidget | None = None) -> None:
-        super().__init__(parent)
+    def __init__(self, offer: Offer, look: Look) -> None:
+        super().__init__()
         self.offer = offer
         self.setAutoDefault(False)
         self.setAccessibleName(offer.title)
@@ -347,8 +347,8 @@ class ChoosingPage(QWidget):
 
     chosen = Signal(str)
 
-    def __init__(self, look: Look, parent: QWidget | None = None) -> None:
-        super().__init__(parent)
+    def __init__(self, look: Look) -> None:
+        super().__init__()
         line = self.fontMetrics().height()
         heading = QLabel(tr("What do you have?"), wordWrap=True)
         heading.setProperty("role", "title")
@@ -368,8 +368,8 @@ class GesturesQuestion(QWidget):
 
     changed = Signal()
 
-    def __init__(self, gestures: str, parent: QWidget | None = None) -> None:
-        super().__init__(parent)
+    def __init__(self, gestures: str) -> None:
+        super().__init__()
         self.gestures = Entry(gestures)
         self.gestures.setAccessibleName(tr("Gestures to make"))
         self.gestures.setPlaceholderText("karate, hand_up")
@@ -397,8 +397,8 @@ class RecordingQuestion(QWidget):
 
     changed = Signal()
 
-    def __init__(self, folder: Path, look: Look, parent: QWidget | None = None) -> None:
-        super().__init__(parent)
+    def __init__(self, folder: Path, look: Look) -> None:
+        super().__init__()
         self.path = ""
         self._folder = folder
         self._look = look

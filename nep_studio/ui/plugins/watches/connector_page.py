@@ -68,15 +68,9 @@ MOST_FIGURES = 5
 class LiveView(QFrame):
     """A card; ``show_state`` says what it is about, the ear gives the rest."""
 
-    def __init__(
-        self,
-        listener: WatchListener,
-        look: Look,
-        has_columns: bool = False,
-        parent: QWidget | None = None,
-    ) -> None:
+    def __init__(self, listener: WatchListener, look: Look, has_columns: bool = False) -> None:
         """``has_columns``: what arrives are lines, of which the columns can be corrected."""
-        super().__init__(parent)
+        super().__init__()
         self._has_columns = has_columns
         self.setProperty("kind", "card")
         self._listener, self._look = listener, look
@@ -250,14 +244,9 @@ class WayPage(QWidget):
     came_into_view = Signal(QWidget)
 
     def __init__(
-        self,
-        connector: ConnectorKind,
-        known: Known,
-        listener: WatchListener,
-        look: Look,
-        parent: QWidget | None = None,
+        self, connector: ConnectorKind, known: Known, listener: WatchListener, look: Look
     ) -> None:
-        super().__init__(parent)
+        super().__init__()
         self.connector, self._known = connector, known
         self._had_code = self._is_sending = False
         self.network = NetworkQuestion(known.addresses)

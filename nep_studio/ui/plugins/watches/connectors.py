@@ -266,8 +266,8 @@ MOST_LETTERS = 24
 class StepNumber(QWidget):
     """A number in a disc."""
 
-    def __init__(self, number: int, look: Look, parent: QWidget | None = None) -> None:
-        super().__init__(parent)
+    def __init__(self, number: int, look: Look) -> None:
+        super().__init__()
         self._number, self._look = number, look
         self.setFixedSize(self.sizeHint())
 
@@ -293,14 +293,8 @@ class StepNumber(QWidget):
 class StepsList(QWidget):
     """The steps of one way; ``extras`` are the questions that stand below steps, by name."""
 
-    def __init__(
-        self,
-        steps: Sequence[Step],
-        extras: Mapping[str, QWidget],
-        look: Look,
-        parent: QWidget | None = None,
-    ) -> None:
-        super().__init__(parent)
+    def __init__(self, steps: Sequence[Step], extras: Mapping[str, QWidget], look: Look) -> None:
+        super().__init__()
         self.words: list[QLabel] = []
         self.copy_lines: list[CopyLine | None] = []
         self._look = look

@@ -27,8 +27,8 @@ Modules = Sequence[Sequence[int]]
 class QrCode(QWidget):
     """Black on white in every theme: cameras do not all read a code in other colours."""
 
-    def __init__(self, parent: QWidget | None = None) -> None:
-        super().__init__(parent)
+    def __init__(self) -> None:
+        super().__init__()
         self.url = ""
         self._modules: Modules = ()
         self.setSizePolicy(QSizePolicy.Policy.Preferred, QSizePolicy.Policy.Fixed)
@@ -103,8 +103,8 @@ def picture_path(phone: str, is_dark: bool) -> Path | None:
 class Picture(QWidget):
     """A picture from a file, as wide as there is room, sharp on every screen."""
 
-    def __init__(self, parent: QWidget | None = None) -> None:
-        super().__init__(parent)
+    def __init__(self) -> None:
+        super().__init__()
         self._picture = QPixmap()
         policy = QSizePolicy(QSizePolicy.Policy.Preferred, QSizePolicy.Policy.Fixed)
         policy.setHeightForWidth(True)
@@ -170,8 +170,8 @@ def _read(path: Path, width: int) -> QPixmap:
 class WarningHelp(QWidget):
     """Two buttons for the kinds of phone; below, the picture of its warning and what to press."""
 
-    def __init__(self, look: Look, parent: QWidget | None = None) -> None:
-        super().__init__(parent)
+    def __init__(self, look: Look) -> None:
+        super().__init__()
         self._look = look
         self.buttons = {"android": QPushButton("Android"), "ios": QPushButton("iPhone")}
         self.words = QLabel(wordWrap=True)
