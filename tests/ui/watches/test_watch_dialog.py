@@ -31,7 +31,7 @@ __all__ = ["open_dialog", "runner", "settles_at_once"]
 def test_it_asks_what_one_has_the_easiest_first(open_dialog: Open) -> None:
     dialog = open_dialog()
 
-    ways = [one.connector for one in offers()]
+    ways = [one.connector.name for one in offers()]
 
     assert ways == list(dialog.choosing.cards)
     assert ways[:2] == ["phone_page", "sensor_logger"]

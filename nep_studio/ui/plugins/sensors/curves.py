@@ -97,6 +97,11 @@ class Row:
     curves: tuple[Curve, ...]
 
     @property
+    def heading(self) -> str:
+        """What it shows, with the unit."""
+        return f"{self.title} ({self.unit})" if self.unit else self.title
+
+    @property
     def key(self) -> tuple[CurveKey, ...]:
         """What tells it from other rows."""
         return tuple(curve.key for curve in self.curves)
@@ -175,20 +180,15 @@ class ValueRange:
         """A range for values from ``low`` to ``high``: this one while it serves them well."""
         if not (math.isfinite(low) and math.isfinite(high)):
             return self
+        # A curve that does not change is a line in the middle, not noise of its last digit
+        middle, height = (low + high) / 2, max(high - low, abs(low) * 1e-3, abs(high) * 1e-3, 1e-9)
         is_inside = self.low <= low and high <= self.high
-        least = _least_height(low, high)
-        if is_inside and max(high - low, least) >= _EMPTY * self.height:
+        if is_inside and height >= _EMPTY * self.height:
             return self
-        middle, height = (low + high) / 2, max(high - low, least)
         step = _round_step(height / 8)
         first = math.floor((middle - height * (0.5 + _ROOM)) / step) * step
         last = math.ceil((middle + height * (0.5 + _ROOM)) / step) * step
         return ValueRange(first, last)
-
-
-def _least_height(low: float, high: float) -> float:
-    """A curve that does not change is a line in the middle, not noise of its last digit."""
-    return max(abs(low), abs(high), 1e-6) * 1e-3
 
 
 def _round_step(height: float) -> float:

@@ -36,17 +36,11 @@ class Samples:
     t: Floats
     values: Floats
 
-    def between(self, start_s: float, end_s: float) -> Samples:
-        """The samples from a time to another, both included."""
+    def between(self, start_s: float, end_s: float, *, more: int = 0) -> Samples:
+        """The samples from a time to another, both included, and so many more on each side."""
         first = int(np.searchsorted(self.t, start_s, side="left"))
         last = int(np.searchsorted(self.t, end_s, side="right"))
-        return Samples(self.t[first:last], self.values[:, first:last])
-
-    def around(self, start_s: float, end_s: float) -> Samples:
-        """The same, and one sample more on each side, so that lines go on to the edges."""
-        first = int(np.searchsorted(self.t, start_s, side="left"))
-        last = int(np.searchsorted(self.t, end_s, side="right"))
-        window = slice(max(0, first - 1), last + 1)
+        window = slice(max(0, first - more), last + more)
         return Samples(self.t[window], self.values[:, window])
 
     @staticmethod

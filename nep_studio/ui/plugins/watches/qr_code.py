@@ -63,8 +63,7 @@ class QrCode(QWidget):
         """Draw it in the middle."""
         if not self._modules:
             return
-        painter = QPainter(self)
-        ratio = self.devicePixelRatioF()
+        painter, ratio = QPainter(self), self.devicePixelRatioF()
         painter.scale(1 / ratio, 1 / ratio)
         module = self.module_pixels()
         side = (len(self._modules) + 2 * QUIET) * module
@@ -178,16 +177,13 @@ class WarningHelp(QWidget):
         self.picture = Picture()
         self._group = QButtonGroup(self)
         row = QWidget()
-        flow = Flow(row, spacing=self.fontMetrics().height() // 3)
+        Flow(row, self.fontMetrics().height() // 3, self.buttons.values())
         for phone, button in self.buttons.items():
             button.setCheckable(True)
             button.setAutoDefault(False)
             button.clicked.connect(lambda _=False, phone=phone: self.show_phone(phone))
             self._group.addButton(button)
-            flow.addWidget(button)
-        box = column_in(self)
-        for widget in (row, self.words, self.picture):
-            box.addWidget(widget)
+        column_in(self, row, self.words, self.picture)
         self.words.hide()
         self.picture.hide()
 
