@@ -231,7 +231,7 @@ class Strip(InLines):
         super().__init__()
         self._controller, self._session, self.take = controller, session, take
         self._range = value_range(Samples.none())
-        self._is_due = True
+        self._is_due, self._was_hearing = True, False
         self._frames = QTimer(self, interval=FRAME_MS)
         self._frames.timeout.connect(self._on_frame)
         self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
@@ -345,8 +345,9 @@ class Strip(InLines):
         self.update()
 
     def _on_frame(self) -> None:
-        if not self._is_due and self._controller.live and not self._controller.is_hearing:
-            self.update()  # it says that nothing is heard any more
+        if self._controller.is_hearing != self._was_hearing:
+            self._was_hearing = not self._was_hearing
+            self.update()  # it says that nothing is heard any more, or not any more
         if self.take.is_open or not self._is_due:
             return
         self._is_due = False

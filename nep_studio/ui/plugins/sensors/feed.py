@@ -7,14 +7,15 @@ import time
 from collections import deque
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any
+from itertools import islice
+from typing import Any, Protocol
 
 import msgspec
 import numpy as np
 from PySide6.QtCore import QObject, Signal
 
 from nep_core.wire.messages import HUMAN_BEHAVIOR, IMU, HumanBehavior, Imu
-from nep_studio.ui.running.runner import Heard, Runner, Tap
+from nep_studio.ui.running.runner import Heard, Tap
 
 from .streams import Channel, ImuStream, Stream, StreamKey, imu_key
 
@@ -37,13 +38,8 @@ def numbers_in(message: Any) -> dict[str, float]:
     Of long lists, deep groups and very large messages only the first numbers are given.
     """
     data = msgspec.to_builtins(message) if isinstance(message, msgspec.Struct) else message
-    found: dict[str, float] = {}
-    for path, value in _numbers(data, "", 0):
-        if len(found) >= _MOST_FIELDS:
-            break
-        if path != "time":
-            found[path] = value
-    return found
+    numbers = (one for one in _numbers(data, "", 0) if one[0] != "time")
+    return dict(islice(numbers, _MOST_FIELDS))
 
 
 def number_at(message: Any, path: str) -> float | None:
@@ -124,6 +120,15 @@ _LATEST_S = 2.0
 _GESTURE = "gesture_"
 
 
+class Taps(Protocol):
+    """Where topics are heard; the Runner is one."""
+
+    def tap(
+        self, topic: str, *, kind: type[Any] | None = None, most: int = 2000, parent: QObject
+    ) -> Tap:
+        """Hear a topic."""
+
+
 @dataclass(frozen=True)
 class Mark:
     """What a person did, and when (s since 1970)."""
@@ -149,12 +154,12 @@ class SensorFeed(QObject):
     streams_changed = Signal()
     imu_heard = Signal(list)
 
-    def __init__(self, runner: Runner, parent: QObject) -> None:
+    def __init__(self, taps: Taps, parent: QObject | None = None) -> None:
         super().__init__(parent)
         self.streams: dict[StreamKey, Stream] = {}
         self.marks: deque[Mark] = deque(maxlen=MOST_MARKS)
         self.fields: list[Field] = []
-        self._runner = runner
+        self._taps = taps
         self._open: dict[tuple[str, str], Tap] = {}
         self._is_watched = self._is_recorded = self._has_changed = False
 
@@ -268,7 +273,7 @@ class SensorFeed(QObject):
 
     def _tap(self, what: str, topic: str) -> Tap:
         kinds: dict[str, type[Any] | None] = {"sensors": Imu, "marks": HumanBehavior}
-        tap = self._runner.tap(topic, kind=kinds.get(what), parent=self)
+        tap = self._taps.tap(topic, kind=kinds.get(what), parent=self)
         if what == "sensors":
             tap.arrived.connect(self.hear_imu)
         elif what == "marks":

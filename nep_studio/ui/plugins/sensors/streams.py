@@ -245,6 +245,5 @@ def _rising(message: Imu) -> tuple[Floats, Floats]:
         return np.empty(0), np.empty((8, 0))
     latest = np.concatenate([[-np.inf], np.maximum.accumulate(t)[:-1]])
     kept = np.isfinite(t) & (t > latest)
-    magnitudes = [np.linalg.norm(acc, axis=1), np.linalg.norm(gyr, axis=1)]
-    values = np.vstack([acc.T, magnitudes[0], gyr.T, magnitudes[1]])
+    values = np.vstack([acc.T, np.linalg.norm(acc, axis=1), gyr.T, np.linalg.norm(gyr, axis=1)])
     return t[kept], values[:, kept]

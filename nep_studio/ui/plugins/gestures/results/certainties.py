@@ -110,8 +110,7 @@ class CertaintyHistory:
         if not recent:
             return None
         look = max(recent, key=lambda one: float(one.certainties[column]))
-        length_s = float(look.lengths_s[column])
-        certainty = float(look.certainties[column])
+        certainty, length_s = float(look.certainties[column]), float(look.lengths_s[column])
         return Detection(name, certainty, look.end_s - length_s, look.end_s)
 
     def most_certain(self, since_s: float) -> Detection | None:
