@@ -25,22 +25,8 @@ from nep_studio.ui.widgets.curves import line_width
 from nep_studio.ui.widgets.layouts import InLines
 from nep_studio.ui.words import tr
 
-from .curves import (
-    HANDLE_LINES,
-    Mark,
-    Window,
-    fault_words,
-    paint_big,
-    paint_ground,
-    paint_handle,
-    paint_label,
-    paint_letters,
-    paint_lines,
-    paint_mark,
-    paint_recorded,
-    paint_words,
-    value_range,
-)
+from . import curves
+from .curves import Mark, Window, fault_words
 from .gesture_controller import GestureController
 from .live import Samples
 from .project_gestures import LONGEST_TAKE_S, SHORTEST_TAKE_S, Keeping
@@ -53,6 +39,8 @@ AROUND_S = 0.8
 """So much of the recording is shown before and after the take."""
 STEP_S = 0.02
 PLAY_FRAME_MS = 16
+REACH_LINES = 0.6
+"""So near to an end of the take, in lines of text, it is taken; a little wider than its handle."""
 
 
 class TakeView(QObject):
@@ -230,7 +218,7 @@ class Strip(InLines):
     def __init__(self, controller: GestureController, session: TakeSession, take: TakeView) -> None:
         super().__init__()
         self._controller, self._session, self.take = controller, session, take
-        self._range = value_range(Samples.none())
+        self._range = curves.value_range(Samples.none())
         self._is_due, self._was_hearing = True, False
         self._frames = QTimer(self, interval=FRAME_MS)
         self._frames.timeout.connect(self._on_frame)
@@ -260,7 +248,7 @@ class Strip(InLines):
         line = self.fontMetrics().height()
         rect = QRectF(self.rect()).adjusted(1, 1, -1 - line * 1.2, -1)
         if self.take.is_open:
-            low, high = value_range(self.take.samples.between(*self.take.shown_s))
+            low, high = curves.value_range(self.take.samples.between(*self.take.shown_s))
             return Window(rect, *self.take.shown_s, low, high)
         end_s = self._controller.live.last_t if self._controller.live is not None else 0.0
         return Window(rect, end_s - SHOWN_S, end_s, *self._range)
@@ -286,17 +274,17 @@ class Strip(InLines):
             painter.fillRect(self.rect(), theme.colour("field"))
             samples = self.samples
             if self._session.start_s is not None and not self.take.is_open:
-                paint_recorded(painter, window, self._session.start_s, theme)
+                curves.paint_recorded(painter, window, self._session.start_s, theme)
             marks = self._marks()
             for mark in marks:
-                paint_mark(painter, window, mark, theme)
-            paint_ground(painter, window, theme)
+                curves.paint_mark(painter, window, mark, theme)
+            curves.paint_ground(painter, window, theme)
             width = line_width(theme, QFontMetricsF(self.font()))
-            paint_lines(painter, window, samples, theme, width)
+            curves.paint_lines(painter, window, samples, theme, width)
             shown = samples.between(window.start_s, window.end_s)
-            paint_letters(painter, window, shown, theme, self.font())
+            curves.paint_letters(painter, window, shown, theme, self.font())
             for mark in marks:
-                paint_label(painter, window, mark, theme, self.font())
+                curves.paint_label(painter, window, mark, theme, self.font())
             self._paint_over(painter, window)
             painter.setRenderHint(QPainter.RenderHint.Antialiasing, False)
             painter.setBrush(Qt.BrushStyle.NoBrush)
@@ -310,20 +298,20 @@ class Strip(InLines):
             line = self.fontMetrics().height()
             for end, time_s in take.ends.items():
                 is_held = take.held == end and (take.is_dragged or self.hasFocus())
-                paint_handle(painter, window, time_s, theme, line, is_held=is_held)
+                curves.paint_handle(painter, window, time_s, theme, line, is_held=is_held)
             if take.cursor_s is not None:
                 x = window.x(take.cursor_s)
                 painter.setPen(QPen(theme.colour("accent"), 2))
                 painter.drawLine(int(x), int(window.rect.top()), int(x), int(window.rect.bottom()))
             if not len(take.samples):
                 words = tr("The samples of this take cannot be read.")
-                paint_words(painter, window.rect, words, theme, self.font())
+                curves.paint_words(painter, window.rect, words, theme, self.font())
         elif self.big_words:
             share = _BIG if self._session.state == "countdown" else _SMALLER
-            paint_big(painter, window.rect, self.big_words, theme, self.font(), share)
+            curves.paint_big(painter, window.rect, self.big_words, theme, self.font(), share)
         elif not self._controller.is_hearing:
             words = tr("No movement is heard. Connect a watch or phone, and move it.")
-            paint_words(painter, window.rect, words, theme, self.font())
+            curves.paint_words(painter, window.rect, words, theme, self.font())
 
     def _marks(self) -> list[Mark]:
         if self.take.is_open:
@@ -351,7 +339,7 @@ class Strip(InLines):
         if self.take.is_open or not self._is_due:
             return
         self._is_due = False
-        low, high = value_range(self.samples)
+        low, high = curves.value_range(self.samples)
         old_low, old_high = self._range
         slow_low, slow_high = (
             old + _SHRINK * (new - old) for old, new in zip(self._range, (low, high), strict=True)
@@ -389,7 +377,7 @@ class Strip(InLines):
 
     def mousePressEvent(self, event: QMouseEvent) -> None:
         """Take an end of the take."""
-        reach = self.fontMetrics().height() * max(HANDLE_LINES, 0.6)
+        reach = self.fontMetrics().height() * REACH_LINES
         if event.button() == Qt.MouseButton.LeftButton and self.take.is_open:
             self.take.hold_near(event.position().x(), self.window_shown, reach)
 
@@ -399,7 +387,7 @@ class Strip(InLines):
         if self.take.is_dragged:
             self.take.drag(window.time(x))
             return
-        reach = self.fontMetrics().height() * max(HANDLE_LINES, 0.6)
+        reach = self.fontMetrics().height() * REACH_LINES
         is_near = self.take.is_open and self.take.end_near(x, window, reach) is not None
         self.setCursor(Qt.CursorShape.SplitHCursor if is_near else Qt.CursorShape.ArrowCursor)
 
