@@ -16,6 +16,8 @@ from PySide6.QtOpenGL import (
     QOpenGLVertexArrayObject,
 )
 
+from nep_studio.ui.theme.colours import mixed
+
 from .bodies import GLOW_GROWTH, Dress
 from .camera import Lens
 from .drawing import Group, NoContext
@@ -31,7 +33,7 @@ from .gl_context import (
     program,
 )
 from .parts import Solids
-from .shading import Shades, mixed
+from .shading import Shades
 
 # What the bodies need in the memory of a GPU: triangles, and the places and colours of parts.
 

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from PySide6.QtCore import QPointF, Qt
 from PySide6.QtGui import QBrush, QColor, QImage, QPainter, QPolygonF, QRadialGradient, QTransform
 
-from nep_studio.ui.theme.colours import HIGH_CONTRAST, Theme
+from nep_studio.ui.theme.colours import HIGH_CONTRAST, Theme, mixed
 
 from .camera import Camera, Lens
 from .figure import UP, Placed
@@ -35,15 +35,6 @@ STOPS = (
 SHADE = QColor("#1d2740")
 OUTLINE_SHARE = 0.62
 PALE_SHARE = 0.62
-
-
-def mixed(one: QColor, other: QColor, share: float) -> QColor:
-    """The colour on the way from one to another; also its transparency."""
-    parts = (
-        a + (b - a) * share
-        for a, b in zip(one.getRgbF(), other.getRgbF(), strict=True)  # type: ignore[call-overload]
-    )
-    return QColor.fromRgbF(*(min(max(part, 0.0), 1.0) for part in parts))
 
 
 def fading(

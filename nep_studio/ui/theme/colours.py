@@ -81,6 +81,15 @@ def to_colour(text: str) -> QColor:
     return colour
 
 
+def mixed(one: QColor, other: QColor, share: float) -> QColor:
+    """The colour on the way from one to another; also its transparency."""
+    parts = (
+        a + (b - a) * share
+        for a, b in zip(one.getRgbF(), other.getRgbF(), strict=True)  # type: ignore[call-overload]
+    )
+    return QColor.fromRgbF(*(min(max(part, 0.0), 1.0) for part in parts))
+
+
 @cache
 def load_theme(name: str) -> Theme:
     """Read a theme from its table; raises FileNotFoundError for a name not in ``themes()``."""

@@ -7,11 +7,11 @@ import time
 from collections import deque
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Literal
+from typing import Literal, get_args
 
-from PySide6.QtCore import QObject, QPointF, QRectF, QSize, Qt, QTimer, Signal
+from PySide6.QtCore import QObject, QPointF, QRectF, Qt, QTimer, Signal
 from PySide6.QtGui import QPainter, QPaintEvent, QPen, QPolygonF
-from PySide6.QtWidgets import QSizePolicy, QWidget
+from PySide6.QtWidgets import QSizePolicy
 
 from nep_core.wire.messages import IMU, Imu
 from nep_studio.blocks.operations.fixes import WATCH
@@ -21,6 +21,7 @@ from nep_studio.ui.labels import labelled
 from nep_studio.ui.running.runner import Heard, Runner, Tap
 from nep_studio.ui.theme.icons import paint_icon
 from nep_studio.ui.theme.look import Look
+from nep_studio.ui.widgets.layouts import InLines
 from nep_studio.ui.words import count_words, tr
 
 RATE_OVER_S = 2.0
@@ -53,7 +54,6 @@ class Receiving:
         self.source = ""
         self.is_simulated = False
         self.has_rotation = False
-        self.has_gravity = True
         self.has_moved = False
         """Whether it was moved since it began to send."""
         self.movement_m_s2 = 0.0
@@ -73,7 +73,6 @@ class Receiving:
             self._last_t = None
         self.source, self.is_simulated = message.source, message.simulated
         self.has_rotation = message.gyr is not None
-        self.has_gravity = message.gravity_included
         self.heard_s = now_s
         self._counts.append((now_s, len(message.t)))
         # Note where samples are missing, as far as their times tell
@@ -226,15 +225,9 @@ class WatchListener(QObject):
     @property
     def awaited(self) -> PlannedNode | None:
         """A node that runs here and waits for a watch; None when there is none."""
-        nodes = self._runner.board.nodes
-        return next(
-            (
-                planned
-                for name, planned in self._runner.local.planned.items()
-                if planned.node == WATCH and name in nodes and nodes[name].is_there
-            ),
-            None,
-        )
+        nodes, started = self._runner.board.nodes, self._runner.local.planned
+        there = (started[name] for name in started if name in nodes and nodes[name].is_there)
+        return next((planned for planned in there if planned.node == WATCH), None)
 
     @property
     def planned(self) -> PlannedNode | None:
@@ -249,11 +242,13 @@ LEAST_REACH_M_S2 = 6.0
 LINES_HIGH = 3.6
 
 
-class LittleCurve(QWidget):
+class LittleCurve(InLines):
     """The length of the acceleration; what is newest is where reading ends."""
 
-    def __init__(self, look: Look, parent: QWidget | None = None) -> None:
-        super().__init__(parent)
+    usual_lines = (14, LINES_HIGH)
+
+    def __init__(self, look: Look) -> None:
+        super().__init__()
         self._look = look
         self._points: deque[tuple[float, float]] = deque(maxlen=4000)
         labelled(self, name="How hard it is moved, over the last seconds")
@@ -270,16 +265,6 @@ class LittleCurve(QWidget):
             self._points.popleft()
         if self.isVisible():
             self.update()
-
-    def clear(self) -> None:
-        """Forget the samples."""
-        self._points.clear()
-        self.update()
-
-    def sizeHint(self) -> QSize:
-        """Wide and low."""
-        line = self.fontMetrics().height()
-        return QSize(line * 14, round(line * LINES_HIGH))
 
     def paintEvent(self, _event: QPaintEvent) -> None:
         """Draw the curve in a field."""
@@ -324,11 +309,13 @@ ICONS = {"waiting": "hourglass", "still": "hand", "moved": "check", "failed": "x
 COLOURS = {"waiting": "muted", "still": "info", "moved": "success", "failed": "error"}
 
 
-class MoveDot(QWidget):
+class MoveDot(InLines):
     """Grows with the movement; its shape and its sign differ, not its colour alone."""
 
-    def __init__(self, look: Look, parent: QWidget | None = None) -> None:
-        super().__init__(parent)
+    usual_lines = (LINES_HIGH, LINES_HIGH)
+
+    def __init__(self, look: Look) -> None:
+        super().__init__()
         self.state: Moving = "waiting"
         self._look = look
         self._liveliness = 0.0
@@ -340,11 +327,6 @@ class MoveDot(QWidget):
         if (state, liveliness) != (self.state, self._liveliness):
             self.state, self._liveliness = state, liveliness
             self.update()
-
-    def sizeHint(self) -> QSize:
-        """As high as a few lines."""
-        side = round(self.fontMetrics().height() * LINES_HIGH)
-        return QSize(side, side)
 
     def paintEvent(self, _event: QPaintEvent) -> None:
         """Draw it."""
@@ -371,13 +353,14 @@ class MoveDot(QWidget):
 # How a watch sends, in words and numbers: rate, loss, gaps, delay and the drift of its clock.
 
 Grade = Literal["good", "fair", "poor"]
+GRADES = get_args(Grade)
 
-GOOD_HZ, FAIR_HZ = 25.0, 14.0
+LEAST_HZ = (-25.0, -14.0)
 """Gestures are told apart from 16 samples a second on; 25 and more are better."""
-GOOD_LOSS, FAIR_LOSS = 0.02, 0.10
-GOOD_DELAY_MS, FAIR_DELAY_MS = 150.0, 500.0
-GOOD_GAPS, FAIR_GAPS = 0, 5
-GOOD_DRIFT_PPM, FAIR_DRIFT_PPM = 500.0, 5000.0
+MOST_LOSS = (0.02, 0.10)
+MOST_DELAY_MS = (150.0, 500.0)
+MOST_GAPS = (0, 5)
+MOST_DRIFT_PPM = (500.0, 5000.0)
 
 
 @dataclass(frozen=True)
@@ -392,54 +375,38 @@ class Figure:
 
 def figures(flow: Flow) -> list[Figure]:
     """What is known of how a watch sends, the most important first."""
-    words: dict[Grade, str] = {
-        "good": tr("fast enough"),
-        "fair": tr("enough; 50 are better"),
-        "poor": tr("too few: choose 50 in the app"),
-    }
     number = tr("{number} a second", number=round(flow.rate_hz))
-    grade = _grade(-flow.rate_hz, -GOOD_HZ, -FAIR_HZ)
-    found = [Figure(tr("Samples"), number, grade, words[grade])]
+    words = tr("fast enough"), tr("enough; 50 are better"), tr("too few: choose 50 in the app")
+    found = [_figure(tr("Samples"), number, -flow.rate_hz, LEAST_HZ, words)]
     if flow.loss is not None:
-        words = {
-            "good": tr("next to nothing is missing"),
-            "fair": tr("it still works"),
-            "poor": tr("go nearer to the Wi-Fi"),
-        }
         percent, digits = flow.loss * 100, 1 if 0 < flow.loss < 0.0995 else 0
         number = tr("{percent} %", percent=f"{percent:.{digits}f}")
-        grade = _grade(flow.loss, GOOD_LOSS, FAIR_LOSS)
-        found.append(Figure(tr("Lost"), number, grade, words[grade]))
-    words = {
-        "good": tr("it never paused in the last minute"),
-        "fair": tr("short pauses in the last minute"),
-        "poor": tr("many pauses: keep its screen on"),
-    }
-    grade = _grade(flow.gaps, GOOD_GAPS, FAIR_GAPS)
-    found.append(Figure(tr("Gaps"), str(flow.gaps), grade, words[grade]))
+        words = tr("next to nothing is missing"), tr("it still works"), tr("go nearer to the Wi-Fi")
+        found.append(_figure(tr("Lost"), number, flow.loss, MOST_LOSS, words))
+    words = (
+        tr("it never paused in the last minute"),
+        tr("short pauses in the last minute"),
+        tr("many pauses: keep its screen on"),
+    )
+    found.append(_figure(tr("Gaps"), str(flow.gaps), flow.gaps, MOST_GAPS, words))
     return [*found, *_times(flow)]
 
 
 def _times(flow: Flow) -> Iterator[Figure]:
     """How late it is, and how its clock runs, as far as that is known."""
     if flow.delay_ms is not None:
-        words: dict[Grade, str] = {
-            "good": tr("as good as at once"),
-            "fair": tr("a little late"),
-            "poor": tr("late: let the app send more often"),
-        }
-        grade = _grade(flow.delay_ms, GOOD_DELAY_MS, FAIR_DELAY_MS)
+        late = tr("late: let the app send more often")
+        words = tr("as good as at once"), tr("a little late"), late
         number = tr("{number} ms", number=round(flow.delay_ms))
-        yield Figure(tr("Delay"), number, grade, words[grade])
+        yield _figure(tr("Delay"), number, flow.delay_ms, MOST_DELAY_MS, words)
     if flow.drift_ppm is not None:
-        words = {
-            "good": tr("its clock runs like ours"),
-            "fair": tr("its clock runs a little differently; that is allowed for"),
-            "poor": tr("its clock runs very differently; that is allowed for"),
-        }
-        grade = _grade(abs(flow.drift_ppm), GOOD_DRIFT_PPM, FAIR_DRIFT_PPM)
+        words = (
+            tr("its clock runs like ours"),
+            tr("its clock runs a little differently; that is allowed for"),
+            tr("its clock runs very differently; that is allowed for"),
+        )
         number = tr("{seconds} s an hour", seconds=f"{flow.drift_ppm * 3600 / 1e6:+.2f}")
-        yield Figure(tr("Clock"), number, grade, words[grade])
+        yield _figure(tr("Clock"), number, abs(flow.drift_ppm), MOST_DRIFT_PPM, words)
 
 
 def figure_lines(flow: Flow) -> str:
@@ -452,8 +419,9 @@ def rate_words(rate_hz: float) -> str:
     return count_words(round(rate_hz), "1 sample a second", "{n} samples a second")
 
 
-def _grade(value: float, good: float, fair: float) -> Grade:
-    """How good a value is of which less is better."""
-    if value <= good:
-        return "good"
-    return "fair" if value <= fair else "poor"
+def _figure(
+    name: str, number: str, value: float, most: tuple[float, float], words: tuple[str, str, str]
+) -> Figure:
+    """A value of which less is better: good or fair up to ``most``, with the words of each."""
+    at = sum(value > limit for limit in most)
+    return Figure(name, number, GRADES[at], words[at])

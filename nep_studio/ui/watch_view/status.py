@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from PySide6.QtCore import QSize, Qt, Signal
 from PySide6.QtGui import QHideEvent, QShowEvent
-from PySide6.QtWidgets import QHBoxLayout, QLabel, QPushButton, QSizePolicy, QWidget
+from PySide6.QtWidgets import QLabel, QPushButton, QSizePolicy, QWidget
 
 from nep_studio.run.plan import REPLAY, VIRTUAL_WATCH, PlannedNode
 from nep_studio.ui.labels import follow_words, labelled
@@ -15,6 +15,7 @@ from nep_studio.ui.running.runner import Runner
 from nep_studio.ui.theme.icons import icon
 from nep_studio.ui.theme.look import Look
 from nep_studio.ui.widgets.forms import ElidedLabel
+from nep_studio.ui.widgets.layouts import in_row
 from nep_studio.ui.words import tr
 
 from .indicators import SILENT_S, WatchListener, figure_lines, figures, rate_words
@@ -60,10 +61,10 @@ def device_words(planned: PlannedNode | None) -> str:
 def watch_state(listener: WatchListener, awaited: PlannedNode | None = None) -> WatchState:
     """How the watch is that an ear hears; ``awaited`` is a node that waits for one."""
     if not listener.source or (listener.node and listener.silent_s == float("inf")):
-        if awaited is not None:
-            words = tr("{device}: nothing has come yet", device=device_words(awaited))
-            return WatchState("waiting", words, tr("Is its screen on? Is it still sending?"))
-        return WatchState("none", tr("No watch or phone sends"))
+        if awaited is None:
+            return WatchState("none", tr("No watch or phone sends"))
+        words = tr("{device}: nothing has come yet", device=device_words(awaited))
+        return WatchState("waiting", words, tr("Is its screen on? Is it still sending?"))
     device = device_words(listener.planned)
     if listener.silent_s >= SILENT_S:
         words = tr("{device} is silent", device=device)
@@ -82,8 +83,8 @@ class WatchStatus(QWidget):
 
     connect_asked = Signal()
 
-    def __init__(self, runner: Runner, look: Look, parent: QWidget | None = None) -> None:
-        super().__init__(parent)
+    def __init__(self, runner: Runner, look: Look) -> None:
+        super().__init__()
         self.listener = WatchListener(runner, self)
         self.state = WatchState("", "")
         self._look = look
@@ -95,12 +96,9 @@ class WatchStatus(QWidget):
             name="Connect a watch or phone…",
         )
         self.setSizePolicy(QSizePolicy.Policy.Preferred, QSizePolicy.Policy.Fixed)
-        row = QHBoxLayout(self)
-        row.setContentsMargins(0, 0, 0, 0)
-        row.setSpacing(self.fontMetrics().height() // 3)
-        row.addWidget(self.sign)
-        row.addWidget(self.words, 1, Qt.AlignmentFlag.AlignVCenter)
-        row.addWidget(self.button)
+        words = (self.words, 1, Qt.AlignmentFlag.AlignVCenter)
+        between = self.fontMetrics().height() // 3
+        in_row(self.sign, words, self.button, of=self, margins=0, spacing=between)
         self.listener.changed.connect(self.refresh)
         self.button.clicked.connect(self.connect_asked)
         look.theme_changed.connect(self._draw_sign)

@@ -21,7 +21,7 @@ from faults import Words
 from nep_studio.ui import labels
 from nep_studio.ui.theme.icons import icon
 from nep_studio.ui.theme.look import Look
-from nep_studio.ui.widgets.layouts import in_column
+from nep_studio.ui.widgets.layouts import Part, in_column
 
 UNKNOWN = "…"
 """Stands where an address is not known."""
@@ -107,12 +107,9 @@ def quiet_button(words: Words) -> QPushButton:
     return button
 
 
-def column_in(widget: QWidget) -> QVBoxLayout:
+def column_in(widget: QWidget, *parts: Part) -> QVBoxLayout:
     """A column without margins."""
-    box = QVBoxLayout(widget)
-    box.setContentsMargins(0, 0, 0, 0)
-    box.setSpacing(widget.fontMetrics().height() // 3)
-    return box
+    return in_column(*parts, of=widget, margins=0, spacing=widget.fontMetrics().height() // 3)
 
 
 def card_around(label: QLabel, kind: str) -> QFrame:

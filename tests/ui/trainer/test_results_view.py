@@ -13,14 +13,15 @@ from pytestqt.qtbot import QtBot
 from faults import Fault, Text
 from nep_studio.ui.plugins.gestures.gesture_controller import GestureController
 from nep_studio.ui.plugins.gestures.results.confusion import ConfusionView
-from nep_studio.ui.plugins.gestures.results.labels import contrast, legible, mixed
+from nep_studio.ui.plugins.gestures.results.labels import contrast, legible
 from nep_studio.ui.plugins.gestures.results.training import Training, worker_ended
 from nep_studio.ui.plugins.gestures.results.view import ResultsView
 from nep_studio.ui.plugins.gestures.results.worker import Ended
-from nep_studio.ui.theme.colours import themes
+from nep_studio.ui.theme.colours import mixed, themes
 from nep_studio.ui.words import use_language
 from tests.ui.trainer.results_controller import desk, look
 from tests.ui.trainer.results_material import put_gestures, report
+from tests.ui.window_eye import WindowEye
 
 __all__ = ["desk", "look"]
 
@@ -250,3 +251,13 @@ def test_twenty_gestures_in_every_look_and_from_the_right(
     finally:
         qapp.setLayoutDirection(Qt.LayoutDirection.LeftToRight)
         look.set_scale(1.0)
+
+
+def test_no_part_of_the_results_is_a_window_for_a_moment(
+    view: ResultsView, desk: GestureController, qapp: QApplication
+) -> None:
+    with WindowEye(qapp) as eye:
+        put_gestures(desk, {"trees": REPORT}, NAMES)
+
+    assert view.advice.rows
+    assert not eye.seen

@@ -13,6 +13,7 @@ from nep_studio.ui.plugins.gestures.gesture_controller import GestureController
 from nep_studio.ui.plugins.gestures.page import TrainerPage
 from nep_studio.ui.plugins.gestures.samples import TAKES_MIME
 from tests.ui.trainer.test_gesture_controller import samples
+from tests.ui.trainer.trainer_data import rest
 
 
 def with_takes(page: TrainerPage, title: str, count: int = 3) -> str:
@@ -102,6 +103,21 @@ def test_menus_leave_out_relabel_and_delete(page: TrainerPage, desk: GestureCont
     assert list(desk.gestures) == [blow]
     page.cards.refresh()
     assert list(page.cards.cards) == [blow]
+
+
+def test_the_graph_of_a_silent_sensor_is_drawn_once_more_and_then_rests(
+    page: TrainerPage, push, clock, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    push(*rest(1.0))
+    page.strip._on_frame()
+    drawn: list[str] = []
+    monkeypatch.setattr(page.strip, "update", lambda: drawn.append("again"))
+
+    clock.time_s += 10.0
+    for _ in range(5):
+        page.strip._on_frame()
+
+    assert drawn == ["again"]
 
 
 def test_takes_dropped_on_a_card_are_of_its_gesture(

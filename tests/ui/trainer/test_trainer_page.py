@@ -9,6 +9,7 @@ from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QWidget
 from pytestqt.qtbot import QtBot
 
+from nep_studio.ui.plugins.gestures import menus
 from nep_studio.ui.plugins.gestures.gesture_controller import GestureController
 from nep_studio.ui.plugins.gestures.page import TrainerPage, hint_words, next_step, shape_for
 from tests.ui.trainer.test_gesture_controller import samples
@@ -135,7 +136,9 @@ def test_forty_gestures_with_twenty_takes_are_shown_at_once(
     page.grab()
 
     assert len(page.cards.cards) == 40
-    assert len(page.cards._pictures._kept) < 200  # only those in view were painted
+    assert (
+        page.cards._pictures.picture.cache_info().currsize < 200
+    )  # only those in view were painted
 
 
 def test_a_recording_ends_with_its_project_and_says_when_its_gesture_is_gone(
@@ -159,23 +162,22 @@ def test_a_recording_ends_with_its_project_and_says_when_its_gesture_is_gone(
     assert not desk.recordings
 
 
-def test_the_menu_with_more_imports_exports_and_beeps(page: TrainerPage) -> None:
-    class Asked:
-        """Notes what was asked for."""
+def test_the_menu_with_more_imports_exports_and_beeps(
+    page: TrainerPage, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    asked: list[tuple[Path, str]] = []
 
-        def __init__(self) -> None:
-            self.asked: list[str] = []
+    def ask_for_path(
+        _over: object,
+        _title: str,
+        start: Path,
+        _then: object,
+        mode: str = "open",
+        kinds: object = (),
+    ) -> None:
+        asked.append((start, mode))
 
-        def choose_file(self, *_what: object) -> None:
-            self.asked.append("file")
-
-        def choose_folder(self, *_what: object) -> None:
-            self.asked.append("folder")
-
-        def choose_place(self, *_what: object) -> None:
-            self.asked.append("place")
-
-    page.exchange.files = Asked()
+    monkeypatch.setattr(menus, "ask_for_path", ask_for_path)
     page.controller.files.document.folder, page.controller.files.document.title = "", "Mine"
     page.exchange._folder = lambda: Path()
     assert [is_possible for *_, is_possible in page.exchange.entries()] == [
@@ -191,5 +193,6 @@ def test_the_menu_with_more_imports_exports_and_beeps(page: TrainerPage) -> None
         do()
     page._on_beep_chosen(True)
 
-    assert page.exchange.files.asked == ["file", "folder", "folder", "place"]
+    assert [mode for _, mode in asked] == ["open", "folder", "folder", "save"]
+    assert asked[-1][0].name == "Mine.mcap"
     assert page.beeps

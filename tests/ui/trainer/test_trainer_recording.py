@@ -13,7 +13,6 @@ from nep_studio.ui.plugins.gestures.recording import (
     COUNT_MS,
     RecordingSession,
     TakeSession,
-    keep_session,
     session_words,
 )
 from tests.ui.trainer.trainer_data import joined, real, rest, stroke, takes
@@ -36,7 +35,8 @@ def ended(session: TakeSession, keeping: Keeping) -> list[RecordingSession]:
 
     def keep(one: RecordingSession) -> None:
         found.append(one)
-        keep_session(keeping, one)
+        if one.takes:
+            keeping.keep_session(one.gesture, one.samples, one.takes, one.forgotten)
 
     session.ended.connect(keep)
     return found

@@ -5,6 +5,7 @@ from __future__ import annotations
 import pytest
 from PySide6.QtCore import Qt
 from PySide6.QtGui import QGuiApplication
+from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 
 from nep_studio.ui.plugins.watches.choosing import offers
@@ -24,6 +25,7 @@ from tests.ui.watches.watch_stage import (
     send,
     settles_at_once,
 )
+from tests.ui.window_eye import WindowEye
 
 __all__ = ["open_dialog", "runner", "settles_at_once"]
 
@@ -31,7 +33,7 @@ __all__ = ["open_dialog", "runner", "settles_at_once"]
 def test_it_asks_what_one_has_the_easiest_first(open_dialog: Open) -> None:
     dialog = open_dialog()
 
-    ways = [one.connector for one in offers()]
+    ways = [one.connector.name for one in offers()]
 
     assert ways == list(dialog.choosing.cards)
     assert ways[:2] == ["phone_page", "sensor_logger"]
@@ -204,3 +206,16 @@ def test_a_computer_in_no_network_says_so_and_looks_again(open_dialog: Open, qtb
 
     assert not network.missing.isVisible()
     assert network.address == ADDRESS
+
+
+@pytest.mark.parametrize("way", CONNECTORS)
+def test_no_part_of_a_page_is_a_window_for_a_moment(
+    way: str, open_dialog: Open, qapp: QApplication
+) -> None:
+    dialog = open_dialog()
+
+    with WindowEye(qapp) as eye:
+        dialog.show_connector(way)
+
+    assert dialog.page.isVisible()
+    assert not eye.seen

@@ -24,7 +24,6 @@ from PySide6.QtWidgets import (
     QScrollArea,
     QSizePolicy,
     QToolButton,
-    QVBoxLayout,
     QWidget,
 )
 
@@ -35,7 +34,7 @@ from nep_studio.blocks.program import PAGES
 from nep_studio.ui.canvas.canvas import Canvas
 from nep_studio.ui.labels import explained, follow_words, labelled
 from nep_studio.ui.theme.icons import icon, icon_room, paint_icon
-from nep_studio.ui.widgets.layouts import FlowLayout, in_row
+from nep_studio.ui.widgets.layouts import FlowLayout, in_column, in_row
 from nep_studio.ui.words import count_words, tr
 from nep_studio.ui.workbench.placing import insert_clip
 
@@ -53,8 +52,8 @@ _WIDEST_LINES = 11
 class GestureChip(QAbstractButton):
     """Looks like the beginning of the block. Only a press that stays a click adds it."""
 
-    def __init__(self, canvas: Canvas, parent: QWidget | None = None) -> None:
-        super().__init__(parent)
+    def __init__(self, canvas: Canvas) -> None:
+        super().__init__()
         self._canvas = canvas
         self.gesture = ""
         self.setCursor(Qt.CursorShape.OpenHandCursor)
@@ -116,8 +115,7 @@ class GestureChip(QAbstractButton):
         rect = QRectF(self.rect()).adjusted(1.5, 1.5, -1.5, -1.5)
         with QPainter(self) as painter:
             painter.setRenderHint(QPainter.RenderHint.Antialiasing)
-            is_marked = self.hasFocus()
-            painter.setPen(QPen(theme.colour("focus") if is_marked else colours.line, 2))
+            painter.setPen(QPen(theme.colour("focus") if self.hasFocus() else colours.line, 2))
             painter.setBrush(colours.fill)
             painter.drawPath(_hat(rect, line))
             is_mirrored = self.layoutDirection() == Qt.LayoutDirection.RightToLeft
@@ -125,9 +123,8 @@ class GestureChip(QAbstractButton):
             x = rect.right() - side - line * 0.4 if is_mirrored else rect.left() + line * 0.4
             middle = rect.center().y() + line * 0.1
             paint_icon(painter, QRectF(x, middle - side / 2, side, side), "hand", colours.text)
-            room = rect.adjusted(line * 1.6, line * 0.2, -line * 0.4, 0)
-            if is_mirrored:
-                room = rect.adjusted(line * 0.4, line * 0.2, -line * 1.6, 0)
+            before, behind = (0.4, 1.6) if is_mirrored else (1.6, 0.4)
+            room = rect.adjusted(line * before, line * 0.2, -line * behind, 0)
             mode = Qt.TextElideMode.ElideRight
             shown = self.fontMetrics().elidedText(self.text(), mode, round(room.width()))
             painter.setPen(colours.text)
@@ -140,16 +137,12 @@ def _hat(rect: QRectF, line: float) -> QPainterPath:
     body = rect.adjusted(0, hump, 0, 0)
     path = QPainterPath()
     path.addRoundedRect(body, corner, corner)
-    crest = QPainterPath(QPointF(body.left() + corner, body.top() + corner))
+    left, low, high = body.left(), body.top() + 1, rect.top()
+    crest = QPainterPath(QPointF(left + corner, body.top() + corner))
     wide = min(line * 4, body.width() / 2)
-    crest.lineTo(body.left() + corner / 2, body.top() + 1)
+    crest.lineTo(left + corner / 2, low)
     crest.cubicTo(
-        body.left() + wide * 0.3,
-        rect.top() - hump,
-        body.left() + wide * 0.7,
-        rect.top() - hump / 2,
-        body.left() + wide,
-        body.top() + 1,
+        left + wide * 0.3, high - hump, left + wide * 0.7, high - hump / 2, left + wide, low
     )
     crest.closeSubpath()
     return path.united(crest)
@@ -189,17 +182,11 @@ class GestureCard(QFrame):
         line = self.fontMetrics().height()
         labelled(self.title, name="Name of the gesture")
         self.count.setProperty("role", "hint")
-        labelled(self.menu, tip="More", name="More")
+        explained(self.menu, "More")
         above = in_row((self.title, 1), self.count, self.menu)
-        between = FlowLayout(spacing=line // 3)
-        for widget in (self.record, self.chip):
-            between.addWidget(widget)
-        box = QVBoxLayout(self)
-        box.setContentsMargins(line // 2, line // 2, line // 2, line // 3)
-        box.setSpacing(line // 3)
-        box.addLayout(above)
-        box.addLayout(between)
-        box.addWidget(self.takes)
+        between = FlowLayout(spacing=line // 3, widgets=(self.record, self.chip))
+        margins = (line // 2, line // 2, line // 2, line // 3)
+        in_column(above, between, self.takes, of=self, margins=margins, spacing=line // 3)
         self._connect()
         self.dress()
 
@@ -318,13 +305,13 @@ class Cards(QScrollArea):
         self._pictures, self._badges = TakePictures(controller), Badges(controller)
         self.cards: dict[str, GestureCard] = {}
         self.current = ""
-        self.empty = QLabel()
-        self.new_name = QLineEdit()
-        self.new_button = labelled(QPushButton(), text="New gesture")
+        self.empty = QLabel(wordWrap=True)
+        self.new_name = QLineEdit(maxLength=60)
+        self.new_button = labelled(QPushButton(autoDefault=False), text="New gesture")
         self._soon = QTimer(self, singleShot=True, interval=0)
         self._soon.timeout.connect(self.refresh)
         self._lay_out()
-        controller.changed.connect(self._on_changed)
+        controller.changed.connect(self._soon.start)
         session.changed.connect(self._show_states)
         controller.look.theme_changed.connect(self._dress)
         self.new_button.clicked.connect(self.make_gesture)
@@ -339,18 +326,10 @@ class Cards(QScrollArea):
         self.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
         labelled(self, name="Gestures")
         labelled(self.new_name, placeholder="Name of a new gesture", name="Name of a new gesture")
-        self.new_name.setMaxLength(60)
-        self.new_button.setAutoDefault(False)
-        self.empty.setWordWrap(True)
         self.empty.setProperty("role", "hint")
-        new = in_row((self.new_name, 1), self.new_button)
-        inner = QWidget()
-        self._box = QVBoxLayout(inner)
-        self._box.setContentsMargins(line // 4, line // 4, line // 2, line // 4)
-        self._box.setSpacing(line // 2)
-        self._box.addLayout(new)
-        self._box.addWidget(self.empty)
-        self._box.addStretch(1)
+        new, inner = in_row((self.new_name, 1), self.new_button), QWidget()
+        margins = (line // 4, line // 4, line // 2, line // 4)
+        self._box = in_column(new, self.empty, 1, of=inner, margins=margins, spacing=line // 2)
         self.setWidget(inner)
 
     def sizeHint(self) -> QSize:
@@ -382,14 +361,15 @@ class Cards(QScrollArea):
             card.show_gesture(gesture, badges)
         self._box.update()
         self.cards = {name: self.cards[name] for name in gestures}
-        self.new_name.setEnabled(self._controller.editor is not None)
-        self.new_button.setEnabled(self._controller.editor is not None)
-        self.empty.setVisible(not self._controller.gestures)
+        has_project = self._controller.editor is not None
+        self.new_name.setEnabled(has_project)
+        self.new_button.setEnabled(has_project)
+        self.empty.setVisible(not gestures)
         labelled(
             self.empty,
             text="A gesture is a movement that your program waits for, such as a wave. "
             "Give it a name here, then make it five times: the program learns it."
-            if self._controller.editor is not None
+            if has_project
             else "Gestures belong to a project. Open one, or make a new one.",
         )
         if self.current not in gestures:
@@ -448,9 +428,6 @@ class Cards(QScrollArea):
 
     def _on_opened(self, take: str) -> None:
         self._controller.choose_take("" if take == self._controller.chosen_take else take)
-
-    def _on_changed(self) -> None:
-        self._soon.start()
 
     def _dress(self) -> None:
         self.new_button.setIcon(icon("plus", self._controller.look.theme))

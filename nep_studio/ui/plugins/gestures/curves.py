@@ -10,7 +10,7 @@ from PySide6.QtGui import QBrush, QColor, QFont, QFontMetricsF, QPainter, QPen
 
 from nep_studio.ui.ring import Floats
 from nep_studio.ui.theme.colours import Theme
-from nep_studio.ui.widgets.curves import line_width, polygon
+from nep_studio.ui.widgets.curves import polygon
 from nep_studio.ui.words import tr
 
 from .live import Samples
@@ -60,7 +60,7 @@ def value_range(samples: Samples) -> tuple[float, float]:
 
 
 def paint_lines(
-    painter: QPainter, window: Window, samples: Samples, theme: Theme, metrics: QFontMetricsF
+    painter: QPainter, window: Window, samples: Samples, theme: Theme, width: float
 ) -> None:
     """Draw the three lines; the painter is clipped to the window meanwhile."""
     if not len(samples):
@@ -72,7 +72,7 @@ def paint_lines(
     points[:, 0] = _mapped(samples.t, window.x(0.0), window.x(1.0))
     for axis, colour in enumerate(COLOURS):
         points[:, 1] = _mapped(samples.acc[:, axis], window.y(0.0), window.y(1.0))
-        pen = QPen(theme.colour(colour), line_width(theme, metrics) * 1.4)
+        pen = QPen(theme.colour(colour), width * 1.4)
         pen.setJoinStyle(Qt.PenJoinStyle.RoundJoin)
         painter.setPen(pen)
         painter.drawPolyline(polygon(_fewer(points, window.rect.width())))
@@ -85,14 +85,14 @@ def paint_letters(
     """Write x, y and z beside the ends of their lines; none covers another."""
     if not len(samples):
         return
-    metrics = QFontMetricsF(font)
+    line = QFontMetricsF(font).height()
     newest = samples.acc[-max(1, round(_SMOOTH_S * samples.rate_hz)) :].mean(axis=0)
-    places = _spread([window.y(float(value)) for value in newest], metrics.height() * 0.95, window)
+    places = _spread([window.y(float(value)) for value in newest], line * 0.95, window)
     painter.setFont(font)
     for letter, colour, y in zip(LETTERS, COLOURS, places, strict=True):
         painter.setPen(theme.colour(colour))
-        corner = QPointF(window.rect.right() + metrics.height() * 0.3, y - metrics.height() / 2)
-        room = QRectF(corner.x(), corner.y(), metrics.height(), metrics.height())
+        room = QRectF(0, 0, line, line)
+        room.moveTo(window.rect.right() + line * 0.3, y - line / 2)
         sides = Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignAbsolute
         painter.drawText(room, int(sides | Qt.AlignmentFlag.AlignVCenter), letter)
 
@@ -101,8 +101,7 @@ def paint_ground(painter: QPainter, window: Window, theme: Theme) -> None:
     """Draw the line of no acceleration, if it is in the window."""
     y = window.y(0.0)
     if window.rect.top() < y < window.rect.bottom():
-        colour = QColor(theme.colour("line"))
-        painter.setPen(QPen(colour, 1, Qt.PenStyle.DotLine))
+        painter.setPen(QPen(theme.colour("line"), 1, Qt.PenStyle.DotLine))
         painter.drawLine(QPointF(window.rect.left(), y), QPointF(window.rect.right(), y))
 
 
@@ -116,10 +115,8 @@ def _fewer(points: Floats, width: float) -> Floats:
     if len(points) <= 3 * columns:
         return points
     groups = np.array_split(points, columns)
-    kept = [
-        group[sorted({int(group[:, 1].argmin()), int(group[:, 1].argmax())})] for group in groups
-    ]
-    return np.concatenate(kept)
+    ends = [sorted({int(one[:, 1].argmin()), int(one[:, 1].argmax())}) for one in groups]
+    return np.concatenate([one[kept] for one, kept in zip(groups, ends, strict=True)])
 
 
 def _spread(places: list[float], least: float, window: Window) -> list[float]:

@@ -23,7 +23,6 @@ from nep_studio.blocks.own_gestures import (
     OwnGesture,
     OwnRecording,
     OwnTake,
-    Wrist,
     free_gesture_name,
     keep_gesture,
     keep_recording,
@@ -39,17 +38,20 @@ from nodes.recordings import (
 )
 
 from .gesture_controller import GestureController
-from .live import Samples, packed, thinned, unpacked
+from .live import Samples, as_recording, thinned, unpacked
 from .project_gestures import LONGEST_TAKE_S, SHORTEST_TAKE_S, new_id
 from .results.training import labelled
 
 # Recordings that come from elsewhere, and how they become part of the project.
 
 
-@dataclass(frozen=True)
-class ImportedTake:
-    """A take of a gesture, known by its name and, where it has one, its title."""
+class TakeMark(msgspec.Struct, frozen=True, omit_defaults=True):
+    """A take of a gesture, known by its name and, where it has one, its title.
 
+    ``recording`` is that of the metadata of a channel, "" where the file has one recording.
+    """
+
+    recording: str
     gesture: str
     title: str
     start_s: float
@@ -62,7 +64,7 @@ class Imported:
     """A recording, and the takes in it."""
 
     recording: OwnRecording
-    takes: tuple[ImportedTake, ...]
+    takes: tuple[TakeMark, ...]
 
 
 def add_imported(controller: GestureController, imported: Sequence[Imported]) -> bool:
@@ -84,7 +86,7 @@ def add_imported(controller: GestureController, imported: Sequence[Imported]) ->
     return bool(edits) and controller.change("import takes", edits)
 
 
-def _gesture(take: ImportedTake, gestures: dict[str, OwnGesture]) -> str:
+def _gesture(take: TakeMark, gestures: dict[str, OwnGesture]) -> str:
     """The name of the gesture that a take is of; a new one if there is none yet."""
     title = take.title or take.gesture.replace("_", " ").strip()
     for name, gesture in gestures.items():
@@ -140,17 +142,12 @@ def write_csv(
 def _imported(recording: Recording, *, is_everyday: bool) -> Imported:
     samples = Samples(recording.t, recording.acc, recording.gyr)
     takes = list(_takes(recording)) if not is_everyday else []
-    wrist: Wrist = recording.wrist or "right"
-    kept = thinned(samples)
-    own = OwnRecording(
-        seconds=round(kept.seconds, 4),
-        rate_hz=round(kept.rate_hz, 2),
-        samples=packed(kept),
+    own = as_recording(
+        thinned(samples),
         person=recording.person,
-        wrist=wrist,
+        wrist=recording.wrist or "right",
         source=recording.device or recording.source,
         gravity_included=recording.gravity_included,
-        has_rotation=kept.gyr is not None,
         simulated=recording.simulated,
         everyday=is_everyday or not takes,
         forgotten=tuple((take.start_s, take.end_s) for take in takes if take.gesture == NEITHER),
@@ -158,7 +155,7 @@ def _imported(recording: Recording, *, is_everyday: bool) -> Imported:
     return Imported(own, tuple(take for take in takes if take.gesture != NEITHER))
 
 
-def _takes(recording: Recording) -> Iterator[ImportedTake]:
+def _takes(recording: Recording) -> Iterator[TakeMark]:
     """The runs of samples with the same label."""
     labels = recording.labels or []
     first = 0
@@ -167,7 +164,7 @@ def _takes(recording: Recording) -> Iterator[ImportedTake]:
             continue
         start_s, end_s = float(recording.t[first]), float(recording.t[at - 1])
         if labels[first] and end_s > start_s:
-            yield ImportedTake(labels[first], "", round(start_s, 4), round(end_s, 4))
+            yield TakeMark("", labels[first], "", round(start_s, 4), round(end_s, 4))
         first = at
 
 
@@ -193,21 +190,11 @@ _LARGEST_RECORD = 64_000_000
 _BATCH = 50
 _CHUNK_BYTES = 64_000
 """Small chunks: of a file that was cut, little is lost."""
+_UNPACKING = ("zstandard", "lz4", "struct", "_struct")
 _IS_MCAP = (
     "Is it a file that ends with .mcap?",
     "If it was sent or downloaded, get it once more: it may not be whole.",
 )
-
-
-class TakeMark(msgspec.Struct, omit_defaults=True):
-    """A take as a message; ``recording`` is that of the channel's metadata."""
-
-    recording: str
-    gesture: str
-    title: str
-    start_s: float
-    end_s: float
-    left_out: bool = False
 
 
 def write_mcap(
@@ -309,12 +296,8 @@ def read_mcap(path: Path) -> tuple[list[Imported], bool]:
     found = [_imported_from(channel, marks) for channel in channels.values()]
     imported = [one for one in found if one is not None]
     if not imported:
-        told = (
-            "has no recordings of a watch or phone in it"
-            if is_whole
-            else "is not a whole MCAP file"
-        )
-        raise _unusable(path, told, _IS_MCAP)
+        told = "has no recordings of a watch or phone in it"
+        raise _unusable(path, told if is_whole else "is not a whole MCAP file", _IS_MCAP)
     return imported, is_whole
 
 
@@ -333,36 +316,20 @@ def _read(file: IO[bytes], channels: dict[int, _Channel], marks: list[TakeMark])
                 if record.topic == IMU:
                     channels.setdefault(record.id, _Channel(dict(record.metadata)))
             elif isinstance(record, Message):
-                _take_in(
-                    record.data, topics.get(record.channel_id), channels, record.channel_id, marks
-                )
+                topic = topics.get(record.channel_id)
+                with contextlib.suppress(msgspec.DecodeError):  # another program says else there
+                    if topic == IMU:
+                        batch = msgspec.json.decode(record.data, type=Imu)
+                        channels[record.channel_id].batches.append(batch)
+                    elif topic == TAKES:
+                        marks.append(msgspec.json.decode(record.data, type=TakeMark))
     except (McapError, ValueError, EOFError, KeyError, IndexError, MemoryError, RuntimeError):
         return False
     except Exception as error:  # those of the libraries that unpack have no common name
-        if type(error).__module__.partition(".")[0] not in (
-            "zstandard",
-            "lz4",
-            "struct",
-            "_struct",
-        ):
+        if type(error).__module__.partition(".")[0] not in _UNPACKING:
             raise
         return False
     return True
-
-
-def _take_in(
-    data: bytes,
-    topic: str | None,
-    channels: dict[int, _Channel],
-    channel: int,
-    marks: list[TakeMark],
-) -> None:
-    """Understand one message; those of other programs that say something else are left out."""
-    with contextlib.suppress(msgspec.DecodeError):
-        if topic == IMU:
-            channels[channel].batches.append(msgspec.json.decode(data, type=Imu))
-        elif topic == TAKES:
-            marks.append(msgspec.json.decode(data, type=TakeMark))
 
 
 def _imported_from(channel: _Channel, marks: list[TakeMark]) -> Imported | None:
@@ -373,22 +340,18 @@ def _imported_from(channel: _Channel, marks: list[TakeMark]) -> Imported | None:
     begin = float(samples.t[0])
     kept = thinned(samples)
     takes = tuple(
-        ImportedTake(one.gesture, one.title, one.start_s - begin, one.end_s - begin, one.left_out)
+        replace(one, start_s=one.start_s - begin, end_s=one.end_s - begin)
         for one in marks
         if one.recording == about.get("recording")
         and begin <= one.start_s < one.end_s <= begin + kept.seconds + 0.1
     )
     wrist = about.get("wrist", first.wrist)
-    found: Wrist = next((one for one in WRISTS if one == wrist), "right")
-    own = OwnRecording(
-        seconds=round(kept.seconds, 4),
-        rate_hz=round(kept.rate_hz, 2),
-        samples=packed(kept),
+    own = as_recording(
+        kept,
         person=about.get("person", ""),
-        wrist=found,
+        wrist=wrist if wrist in WRISTS else "right",
         source=about.get("source", first.source),
         gravity_included=first.gravity_included,
-        has_rotation=kept.gyr is not None,
         simulated=first.simulated,
         everyday=about.get("everyday") == "yes" or not takes,
         recorded=about.get("recorded", ""),
@@ -411,9 +374,8 @@ def _joined(batches: list[Imu]) -> Samples:
         return Samples.none()
     t = np.concatenate([np.asarray(one.t, dtype=float) for one in whole])
     acc = np.concatenate([np.asarray(one.acc, dtype=float).reshape(-1, 3) for one in whole])
-    has_rotation = all(one.gyr is not None for one in whole)
     gyr: Any = None
-    if has_rotation:
+    if all(one.gyr is not None for one in whole):
         gyr = np.concatenate([np.asarray(one.gyr, dtype=float).reshape(-1, 3) for one in whole])
     latest = np.concatenate([[-np.inf], np.maximum.accumulate(t)[:-1]])
     kept = (t > latest) & np.isfinite(t) & np.isfinite(acc).all(axis=1)

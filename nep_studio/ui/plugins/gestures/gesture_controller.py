@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Iterable, Mapping
+from functools import lru_cache
 from typing import TYPE_CHECKING, Any
 
 from PySide6.QtCore import QObject, Signal
@@ -26,7 +27,7 @@ from nep_studio.ui.edits import OpenProject
 from nep_studio.ui.running.runner import Heard, Tap
 from nep_studio.ui.words import tr
 
-from .live import LiveStream, Samples, SampleShelf
+from .live import MOST_CACHED, LiveStream, Samples, unpacked
 
 if TYPE_CHECKING:
     from nep_studio.blocks.editor import Editor
@@ -74,7 +75,7 @@ class GestureController(QObject):
         self.chosen_take = ""
         self._person = ""
         self._source = ""
-        self._shelf = SampleShelf()
+        self._unpacked = lru_cache(MOST_CACHED)(unpacked)
         self._tap: Tap | None = None
         self._seen: dict[str, Any] = {}
         self._digest = ""
@@ -118,11 +119,11 @@ class GestureController(QObject):
     def samples(self, recording_id: str) -> Samples:
         """All samples of a recording; none when it is not there."""
         recording = self.recordings.get(recording_id)
-        return Samples.none() if recording is None else self._shelf.samples(recording)
+        return Samples.none() if recording is None else self._unpacked(recording)
 
     def take_samples(self, take: OwnTake) -> Samples:
         """The samples of one take."""
-        return self._shelf.take(self.recordings.get(take.recording), take)
+        return self.samples(take.recording).between(take.start_s, take.end_s)
 
     def change(self, label: str, edits: Iterable[SetExtra]) -> bool:
         """Change what the project keeps, as one step of undo; False when it cannot be.
@@ -145,16 +146,16 @@ class GestureController(QObject):
     def refresh(self) -> None:
         """Look at the project again, and tell when something that matters here is different."""
         seen = self._kept()
-        is_same = seen.keys() == self._seen.keys() and all(
-            seen[key] is self._seen[key] for key in seen
-        )
-        if not is_same:
-            has_other_project = seen.get("") is not self._seen.get("")
-            self._seen = seen
-            self._read()
-            if has_other_project:
-                self._begin_project()
-            self.changed.emit()
+        if seen.keys() == self._seen.keys() and all(seen[k] is self._seen[k] for k in seen):
+            return
+        has_other_project = seen.get("") is not self._seen.get("")
+        self._seen = seen
+        self._read()
+        if has_other_project:
+            # Go on with who recorded last in it
+            newest = max(self.recordings.values(), key=lambda one: one.recorded, default=None)
+            self.set_wearer(newest.person if newest else "", newest.wrist if newest else None)
+        self.changed.emit()
 
     def _kept(self) -> dict[str, Any]:
         """What the project keeps of gestures, as it is kept; the editor is under ""."""
@@ -173,11 +174,6 @@ class GestureController(QObject):
         self._digest = ""
         if self.chosen_take and self.find_take(self.chosen_take) is None:
             self.choose_take("")
-
-    def _begin_project(self) -> None:
-        """Go on with who recorded last in another project."""
-        newest = max(self.recordings.values(), key=lambda one: one.recorded, default=None)
-        self.set_wearer(newest.person if newest else "", newest.wrist if newest else self.wrist)
 
     # Who wears it
 

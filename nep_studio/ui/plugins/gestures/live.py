@@ -3,17 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
 from nep_core.wire.messages import Imu
-from nep_studio.blocks.own_gestures import (
-    OwnRecording,
-    OwnTake,
-    Wrist,
-    packed_samples,
-    unpacked_samples,
-)
+from nep_studio.blocks.own_gestures import OwnRecording, Wrist, packed_samples, unpacked_samples
 from nep_studio.ui.ring import Floats, Ring
 
 KEPT_S = 30.0
@@ -85,12 +80,8 @@ class LiveStream:
         """When it was heard last, by the computer's clock."""
         self._ring = Ring(7, round(KEPT_S * MOST_HZ))
         self._shift_s = 0.0
-        self._last_t = -np.inf
-
-    @property
-    def last_t(self) -> float:
+        self.last_t = -np.inf
         """The time of the newest sample; minus infinity before the first."""
-        return self._last_t
 
     def hear(self, message: Imu, now_s: float) -> Samples:
         """Take a batch; gives those of its samples that are whole, and later than all before."""
@@ -101,19 +92,18 @@ class LiveStream:
             return Samples.none()
         self._go_on(t, now_s)
         t = t + self._shift_s
-        latest = np.concatenate([[self._last_t], np.maximum.accumulate(t)[:-1]])
+        latest = np.concatenate([[self.last_t], np.maximum.accumulate(t)[:-1]])
         is_later = t > latest
         t, values = t[is_later], values[:, is_later]
         if len(t):
-            told_hz = message.rate_hz
             steps = np.diff(t)
             if not self.rate_hz:
-                self.rate_hz = told_hz if told_hz > 0 else _FALLBACK_HZ
+                self.rate_hz = message.rate_hz if message.rate_hz > 0 else _FALLBACK_HZ
             if len(steps):
                 measured_hz = 1 / max(float(np.median(steps)), _LEAST_STEP_S)
                 self.rate_hz += _LEARNING * (measured_hz - self.rate_hz)
             self._ring.append(np.vstack([t[None], values]))
-            self._last_t = float(t[-1])
+            self.last_t = float(t[-1])
             self.has_rotation = message.gyr is not None
             self.heard_s = now_s
         return _samples(np.vstack([t[None], values]))
@@ -121,7 +111,7 @@ class LiveStream:
     def last(self, seconds: float = KEPT_S) -> Samples:
         """The newest samples, in memory of their own."""
         table = self._ring.newest()
-        first = int(np.searchsorted(table[0], self._last_t - seconds, side="left"))
+        first = int(np.searchsorted(table[0], self.last_t - seconds, side="left"))
         return _samples(table[:, first:].copy())
 
     def between(self, start_s: float, end_s: float) -> Samples:
@@ -130,12 +120,12 @@ class LiveStream:
 
     def _go_on(self, t: Floats, now_s: float) -> None:
         """Follow a clock that was set back by more than samples that come late explain."""
-        behind_s = self._last_t - (float(t[-1]) + self._shift_s)
-        if not np.isfinite(self._last_t):
+        behind_s = self.last_t - (float(t[-1]) + self._shift_s)
+        if not np.isfinite(self.last_t):
             self._shift_s = -float(t[0])
         elif behind_s > 0.5:
             waited_s = min(max(now_s - self.heard_s, 1 / (self.rate_hz or _FALLBACK_HZ)), KEPT_S)
-            self._shift_s = self._last_t + waited_s - float(t[0])
+            self._shift_s = self.last_t + waited_s - float(t[0])
 
 
 def _whole(message: Imu) -> tuple[Floats, Floats]:
@@ -164,7 +154,8 @@ def _samples(table: Floats) -> Samples:
 
 MOST_KEPT_HZ = 200.0
 """More often no hand moves: of a faster sensor every second sample is kept, or every third."""
-_MOST_CACHED = 200
+MOST_CACHED = 200
+"""So many recordings are unpacked once only."""
 
 
 def packed(samples: Samples) -> str:
@@ -192,23 +183,12 @@ def thinned(samples: Samples) -> Samples:
     return Samples(samples.t[::step], samples.acc[::step], gyr)
 
 
-class SampleShelf:
-    """The samples of the recordings that were asked for; unpacked once."""
-
-    def __init__(self) -> None:
-        self._known: dict[str, Samples] = {}
-
-    def samples(self, recording: OwnRecording) -> Samples:
-        """All samples of a recording."""
-        known = self._known.get(recording.samples)
-        if known is None:
-            if len(self._known) >= _MOST_CACHED:
-                del self._known[next(iter(self._known))]
-            known = self._known[recording.samples] = unpacked(recording)
-        return known
-
-    def take(self, recording: OwnRecording | None, take: OwnTake) -> Samples:
-        """The samples of one take; none when its recording is not there."""
-        if recording is None:
-            return Samples.none()
-        return self.samples(recording).between(take.start_s, take.end_s)
+def as_recording(samples: Samples, **about: Any) -> OwnRecording:
+    """Samples as a project keeps them; ``about`` is the rest that it knows of the recording."""
+    return OwnRecording(
+        seconds=round(samples.seconds, 4),
+        rate_hz=round(samples.rate_hz, 2),
+        samples=packed(samples),
+        has_rotation=samples.gyr is not None,
+        **about,
+    )

@@ -7,6 +7,7 @@ from functools import partial
 from pathlib import Path
 
 from PySide6.QtCore import QPoint
+from PySide6.QtGui import QAction
 from PySide6.QtWidgets import QMenu, QWidget
 
 from nep_core.errors import RecordingError
@@ -22,6 +23,8 @@ from .gesture_controller import GestureController
 from .project_gestures import Keeping
 
 EVERYDAY_S = (30, 120)
+Entry = tuple[str, str, Callable[[], object], bool]
+"""Of a menu: sign, words, what it does, and whether it can be done now."""
 
 
 class Menus:
@@ -71,46 +74,32 @@ class Menus:
         """What records everyday movement, and what there is of it."""
         menu = QMenu(self._cards)
         for seconds in EVERYDAY_S:
-            is_short = seconds < 60
-            words = (
-                tr("Record {seconds} seconds", seconds=seconds)
-                if is_short
-                else tr("Record {minutes} minutes", minutes=seconds // 60)
-            )
+            words = tr("Record {seconds} seconds", seconds=seconds)
+            if seconds >= 60:
+                words = tr("Record {minutes} minutes", minutes=seconds // 60)
             self._add(menu, "circle-dot", words, partial(record, float(seconds)))
         kept = {key: one for key, one in self._controller.recordings.items() if one.everyday}
         if kept:
             add_title(menu, tr("Delete a recording"))
         for key, one in kept.items():
-            when = one.recorded[:16].replace("T", " ")
-            words = tr(
-                "{person}, {seconds} s, {when}",
-                person=one.person or tr("Somebody"),
-                seconds=round(one.seconds),
-                when=when,
-            ).replace("&", "&&")
+            person, when = one.person or tr("Somebody"), one.recorded[:16].replace("T", " ")
+            seconds = round(one.seconds)
+            words = tr("{person}, {seconds} s, {when}", person=person, seconds=seconds, when=when)
+            words = words.replace("&", "&&")
             self._add(menu, "trash-2", words, partial(self._keeping.delete_recording, key))
         return menu
 
-    def of_panel(self, parts: list[tuple[str, str, Callable[[], object], bool]]) -> QMenu:
-        """Sign, words, what it does, and whether it can be done now."""
+    def of_panel(self, entries: list[Entry]) -> QMenu:
+        """What can be done beside."""
         menu = QMenu(self._cards)
-        for sign, words, do, is_possible in parts:
-            self._add(menu, sign, words, do, is_possible=is_possible)
+        for sign, words, do, is_possible in entries:
+            self._add(menu, sign, words, do).setEnabled(is_possible)
         return menu
 
-    def _add(
-        self,
-        menu: QMenu,
-        sign: str,
-        words: str,
-        do: Callable[[], object],
-        *,
-        is_possible: bool = True,
-    ) -> None:
+    def _add(self, menu: QMenu, sign: str, words: str, do: Callable[[], object]) -> QAction:
         action = menu.addAction(icon(sign, self._controller.look.theme), words)
         action.triggered.connect(lambda _is_on=False: do())
-        action.setEnabled(is_possible)
+        return action
 
 
 def show_menu(menu: QMenu | None, place: QPoint) -> None:
@@ -120,39 +109,24 @@ def show_menu(menu: QMenu | None, place: QPoint) -> None:
         menu.popup(place)
 
 
+def show_below(button: QWidget, menu: QMenu) -> None:
+    """Show a menu below its button."""
+    show_menu(menu, button.mapToGlobal(QPoint(0, button.height())))
+
+
 # Asks for files and folders, imports and exports takes, and tells what came of it.
 
-OnChosen = Callable[[Path], object]
 MCAP_SUFFIX = ".mcap"
 
 
-class GestureFiles:
-    """Asks with the system's dialogs; nothing is called when the person thinks better of it."""
-
-    def choose_file(self, parent: QWidget, folder: Path, on_chosen: OnChosen) -> None:
-        """Ask which file to import."""
-        kinds = (tr("Recordings (*.csv *.mcap)"), tr("All files (*)"))
-        ask_for_path(parent, tr("Import takes"), folder, on_chosen, kinds=kinds)
-
-    def choose_folder(self, parent: QWidget, folder: Path, words: str, on_chosen: OnChosen) -> None:
-        """Ask for a folder of CSV files; ``words`` says what for."""
-        ask_for_path(parent, words, folder, on_chosen, "folder")
-
-    def choose_place(self, parent: QWidget, suggested: Path, on_chosen: OnChosen) -> None:
-        """Ask where the MCAP file is to be."""
-        kinds = (tr("MCAP files (*.mcap)"), tr("All files (*)"))
-        ask_for_path(parent, tr("Export"), suggested, on_chosen, "save", kinds)
-
-
 class Exchange:
-    """Takes from files, takes to files; ``files`` asks which."""
+    """Takes from files, takes to files; the system's dialogs ask which."""
 
     def __init__(self, controller: GestureController, over: QWidget) -> None:
         self._controller, self._over = controller, over
-        self.files = GestureFiles()
 
-    def entries(self) -> list[tuple[str, str, Callable[[], object], bool]]:
-        """The entries of a menu: sign, words, what it does, whether it can be done now."""
+    def entries(self) -> list[Entry]:
+        """The entries of a menu."""
         is_open, has_some = self._controller.editor is not None, bool(self._controller.recordings)
         return [
             ("upload", tr("Import a file…"), self.ask_for_file, is_open),
@@ -165,24 +139,27 @@ class Exchange:
 
     def ask_for_file(self) -> None:
         """Ask which file to import."""
-        self.files.choose_file(self._over, self._folder(), self.import_from)
+        kinds = (tr("Recordings (*.csv *.mcap)"), tr("All files (*)"))
+        title = tr("Import takes")
+        ask_for_path(self._over, title, self._folder(), self.import_from, kinds=kinds)
 
     def ask_for_folder(self) -> None:
         """Ask which folder to import."""
-        words = tr("Import a folder of CSV files")
-        self.files.choose_folder(self._over, self._folder(), words, self.import_from)
+        title = tr("Import a folder of CSV files")
+        ask_for_path(self._over, title, self._folder(), self.import_from, "folder")
 
     def ask_to_export_csv(self) -> None:
         """Ask for the folder that the CSV files are to be in."""
-        words = tr("Export CSV files into a folder")
-        self.files.choose_folder(self._over, self._folder(), words, self.export_csv)
+        title = tr("Export CSV files into a folder")
+        ask_for_path(self._over, title, self._folder(), self.export_csv, "folder")
 
     def ask_to_export_mcap(self) -> None:
         """Ask where the MCAP file is to be."""
         document = self._controller.files.document
         stem = document.title if document is not None else tr("gestures")
         suggested = self._folder() / f"{stem}{MCAP_SUFFIX}"
-        self.files.choose_place(self._over, suggested, self.export_mcap)
+        kinds = (tr("MCAP files (*.mcap)"), tr("All files (*)"))
+        ask_for_path(self._over, tr("Export"), suggested, self.export_mcap, "save", kinds)
 
     def _folder(self) -> Path:
         document = self._controller.files.document
@@ -226,13 +203,12 @@ class Exchange:
         unmarked = sum(one.recording.everyday for one in imported)
         said = [count_words(takes, "1 take was imported.", "{n} takes were imported.")]
         if unmarked:
-            said.append(
-                count_words(
-                    unmarked,
-                    "1 recording without takes is kept as everyday movement.",
-                    "{n} recordings without takes are kept as everyday movement.",
-                )
+            words = count_words(
+                unmarked,
+                "1 recording without takes is kept as everyday movement.",
+                "{n} recordings without takes are kept as everyday movement.",
             )
+            said.append(words)
         if is_whole:
             self._confirm(" ".join(said))
             return

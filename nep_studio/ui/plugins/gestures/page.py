@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import partial
 from typing import Literal
 
-from PySide6.QtCore import QPoint, QSize, Qt, QTimer, Signal
+from PySide6.QtCore import QSize, Qt, QTimer, Signal
 from PySide6.QtGui import QHideEvent, QKeyEvent, QResizeEvent, QShowEvent
 from PySide6.QtWidgets import (
     QApplication,
-    QHBoxLayout,
     QLabel,
     QPushButton,
     QScrollArea,
@@ -18,7 +18,6 @@ from PySide6.QtWidgets import (
     QSplitter,
     QTabWidget,
     QToolButton,
-    QVBoxLayout,
     QWidget,
 )
 
@@ -33,17 +32,10 @@ from nep_studio.ui.words import count_words, tr
 from .cards import Cards
 from .gesture_controller import GestureController
 from .live import Samples
-from .menus import Exchange, Menus, show_menu
+from .menus import Exchange, Menus, show_below, show_menu
 from .project_gestures import Keeping
 from .record_bar import RecordBar
-from .recording import (
-    RecordingSession,
-    SimulatedWearer,
-    TakeSession,
-    everyday_words,
-    keep_session,
-    session_words,
-)
+from .recording import RecordingSession, SimulatedWearer, TakeSession, everyday_words, session_words
 from .results.training import Training
 from .results.try_out import TryOut
 from .results.view import ResultsView
@@ -86,7 +78,6 @@ def next_step(controller: GestureController) -> tuple[Step, str]:
     """The step, and the name of the gesture that it is about."""
     if controller.editor is None:
         return "project", ""
-    # The first gesture with too few takes
     few = (name for name, one in controller.gestures.items() if _used(one) < ENOUGH_TAKES)
     lacking = next(few, "")
     if not controller.is_hearing and (lacking or len(controller.gestures) < 2):
@@ -154,15 +145,13 @@ class HintLine(QWidget):
     def __init__(self, controller: GestureController) -> None:
         super().__init__()
         self._controller = controller
-        self._sign, self.words, self.button = QLabel(), QLabel(wordWrap=True), QPushButton()
+        self._sign, self.words = QLabel(), QLabel(wordWrap=True)
+        self.button = QPushButton(autoDefault=False)
         self.words.setTextFormat(Qt.TextFormat.PlainText)
         self.words.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Preferred)
-        self.button.setAutoDefault(False)
-        row = QHBoxLayout(self)
-        row.setContentsMargins(0, 0, 0, 0)
-        row.addWidget(self._sign, 0, Qt.AlignmentFlag.AlignVCenter)
-        row.addWidget(self.words, 1)
-        row.addWidget(self.button, 0, Qt.AlignmentFlag.AlignVCenter)
+        middle = Qt.AlignmentFlag.AlignVCenter
+        parts = ((self._sign, 0, middle), (self.words, 1), (self.button, 0, middle))
+        in_row(*parts, of=self, margins=0)
         self.button.clicked.connect(lambda: self.asked.emit(*next_step(controller)))
         self._looking = QTimer(self, interval=LOOK_MS)
         for signal in (self._looking.timeout, controller.changed, controller.sources_changed):
@@ -173,13 +162,9 @@ class HintLine(QWidget):
 
     def refresh(self) -> None:
         """Show the step that is next now."""
-        words = hint_words(self._controller)
-        if words != self.words.text():
-            self.words.setText(words)
-        pressed = button_words(next_step(self._controller)[0])
-        if pressed != self.button.text():
-            self.button.setText(pressed)
-        self.button.setVisible(bool(pressed))
+        self.words.setText(hint_words(self._controller))
+        self.button.setText(button_words(next_step(self._controller)[0]))
+        self.button.setVisible(bool(self.button.text()))
 
     def showEvent(self, event: QShowEvent) -> None:
         """Look on: whether a watch is heard changes without anybody telling."""
@@ -216,9 +201,7 @@ class Head(QWidget):
         self._dress()
 
     def _dress(self) -> None:
-        line = self.fontMetrics().height()
         self.more.setIcon(icon("ellipsis", self._controller.look.theme))
-        self.more.setIconSize(QSize(line, line))
 
 
 class TrainerPage(QWidget):
@@ -242,21 +225,19 @@ class TrainerPage(QWidget):
         self.results, self.trial = ResultsView(controller, training), TryOut(controller, training)
         self.beeps = False
         self.tabs = QTabWidget(documentMode=True)
-        self.tabs.addTab(self.trial, "")
-        self.tabs.addTab(self.results, "")
-        self.inner, self.outer = QSplitter(), QSplitter()
-        for splitter, parts in (
-            (self.inner, (self._top(), self.cards)),
-            (self.outer, (self.inner, self.tabs)),
-        ):
-            splitter.setChildrenCollapsible(False)
-            for part in parts:
-                splitter.addWidget(part)
+        for tab in (self.trial, self.results):
+            self.tabs.addTab(tab, "")
+        self.inner = QSplitter(childrenCollapsible=False)
+        self.outer = QSplitter(childrenCollapsible=False)
+        self.inner.addWidget(self._top())
+        self.inner.addWidget(self.cards)
+        self.outer.addWidget(self.inner)
+        self.outer.addWidget(self.tabs)
         self._shape: Shape | None = None
         in_column(self.outer, of=self, margins=0)
         fit_icons(self)
         self._connect()
-        self._on_current_changed(self.cards.current)
+        self.bar.set_gesture(self.cards.current)
         follow_words(self, self._name_tabs)
 
     def _name_tabs(self) -> None:
@@ -270,12 +251,9 @@ class TrainerPage(QWidget):
     def _top(self) -> QScrollArea:
         """The graph with what is above and below it; where there is little room, it scrolls."""
         line, top = self.fontMetrics().height(), QWidget()
-        box = QVBoxLayout(top)
-        box.setContentsMargins(line // 2, line // 3, line // 2, line // 3)
-        box.setSpacing(line // 3)
-        box.addWidget(self.head)
-        box.addWidget(self.strip, 1)
-        box.addWidget(self.bar)
+        margins = (line // 2, line // 3, line // 2, line // 3)
+        parts = (self.head, (self.strip, 1), self.bar)
+        in_column(*parts, of=top, margins=margins, spacing=line // 3)
         area = scrolled(top)
         area.setMinimumSize(line * 15, line * 4)
         return area
@@ -287,7 +265,7 @@ class TrainerPage(QWidget):
         self.head.more_asked.connect(self._on_more_asked)
         self.bar.button.clicked.connect(self.record_or_stop)
         self.cards.record_asked.connect(self.record)
-        self.cards.current_changed.connect(self._on_current_changed)
+        self.cards.current_changed.connect(self.bar.set_gesture)
         self.cards.menu_asked.connect(lambda name, at: show_menu(self.menus.of_gesture(name), at))
         self.cards.take_menu_asked.connect(lambda name, at: show_menu(self.menus.of_take(name), at))
         self.session.ended.connect(self._on_ended)
@@ -345,7 +323,9 @@ class TrainerPage(QWidget):
         return tr("Hold still. After the countdown, make the gesture and rest, five times.")
 
     def _on_ended(self, session: RecordingSession) -> None:
-        if session.takes and not keep_session(self.keeping, session):
+        if session.takes and not self.keeping.keep_session(
+            session.gesture, session.samples, session.takes, session.forgotten
+        ):
             self.bar.tell(lambda: tr("The takes could not be kept. Is the gesture still there?"))
             return
         self.cards.show_card(session.gesture)
@@ -391,19 +371,13 @@ class TrainerPage(QWidget):
         self.show_recording()
         self.cards.ask_for_name()
 
-    def _on_current_changed(self, name: str) -> None:
-        self.bar.set_gesture(name)
-
     def show_recording(self) -> None:
         """Show the graph and the gestures, where they share the room with other tabs."""
         if self.tabs.indexOf(self.inner) >= 0:
             self.tabs.setCurrentWidget(self.inner)
 
-    def _on_takes_asked(self, ids: object) -> None:
-        takes = (
-            [one for one in ids if isinstance(one, str)] if isinstance(ids, (list, tuple)) else []
-        )
-        found = self.controller.find_take(takes[0]) if takes else None
+    def _on_takes_asked(self, ids: Sequence[str]) -> None:
+        found = self.controller.find_take(ids[0]) if ids else None
         if found is not None:
             self.show_recording()
             self.controller.choose_take(found[1].id)
@@ -411,18 +385,16 @@ class TrainerPage(QWidget):
             self.cards.show_card(found[0])
 
     def _on_everyday_asked(self) -> None:
-        button = self.bar.everyday
-        menu = self.menus.of_everyday(self.record_everyday)
-        show_menu(menu, button.mapToGlobal(QPoint(0, button.height())))
+        show_below(self.bar.everyday, self.menus.of_everyday(self.record_everyday))
 
     def _on_more_asked(self) -> None:
-        button, menu = self.head.more, self.menus.of_panel(self.exchange.entries())
+        menu = self.menus.of_panel(self.exchange.entries())
         menu.addSeparator()
         beep = menu.addAction(tr("Beep while recording"))
         beep.setCheckable(True)
         beep.setChecked(self.beeps)
         beep.toggled.connect(self._on_beep_chosen)
-        show_menu(menu, button.mapToGlobal(QPoint(0, button.height())))
+        show_below(self.head.more, menu)
 
     def _on_beep_chosen(self, is_on: bool) -> None:
         self.beeps = is_on
@@ -468,7 +440,7 @@ class TrainerPage(QWidget):
         self.inner.setSizes([1000, 1000])
 
     def showEvent(self, event: QShowEvent) -> None:
-        """Hear the sensors, and let the training be ready."""
+        """Hear the sensors."""
         super().showEvent(event)
         self.controller.listen(True)
 

@@ -19,7 +19,7 @@ from nep_studio.blocks.own_gestures import (
 )
 
 from .gesture_controller import GestureController
-from .live import Samples, packed, thinned
+from .live import Samples, as_recording, thinned
 
 Span = tuple[float, float]
 SHORTEST_TAKE_S, LONGEST_TAKE_S = 0.3, 7.9
@@ -114,31 +114,21 @@ class Keeping:
             here = [take for take in gesture.takes if take.id in take_ids]
             if here:
                 gone += here
-                left = tuple(take for take in gesture.takes if take.id not in take_ids)
-                edits.append(keep_gesture(name, replace(gesture, takes=left)))
+                edits.append(keep_gesture(name, _without(gesture, take_ids)))
         if gone:
             label = LABELS["delete one" if len(gone) == 1 else "delete"]
             self._controller.change(label, [*edits, *self._forget(gone)])
 
     def relabel_takes(self, take_ids: Collection[str], to: str) -> None:
         """Say that takes are of another gesture."""
-        gestures = self._controller.gestures
-        moved = [
-            take
-            for name, gesture in gestures.items()
-            if name != to
-            for take in gesture.takes
-            if take.id in take_ids
-        ]
-        if to not in gestures or not moved:
+        target, moved, edits = self._controller.gestures.get(to), [], []
+        for name, gesture in self._controller.gestures.items():
+            here = [take for take in gesture.takes if take.id in take_ids]
+            if here and name != to:
+                moved += here
+                edits.append(keep_gesture(name, _without(gesture, take_ids)))
+        if target is None or not moved:
             return
-        ids = {take.id for take in moved}
-        edits = [
-            keep_gesture(name, _without(gesture, ids))
-            for name, gesture in gestures.items()
-            if name != to and any(take.id in ids for take in gesture.takes)
-        ]
-        target = gestures[to]
         edits.append(keep_gesture(to, replace(target, takes=(*target.takes, *moved))))
         self._controller.change("give a take to another gesture", edits)
 
@@ -225,15 +215,12 @@ class Keeping:
         controller, live = self._controller, self._controller.live
         samples, begin = thinned(samples), float(samples.t[0])
         spans = [(max(0.0, a - begin), min(samples.seconds, b - begin)) for a, b in forgotten]
-        return OwnRecording(
-            seconds=round(samples.seconds, _DIGITS),
-            rate_hz=round(samples.rate_hz, 2),
-            samples=packed(samples),
+        return as_recording(
+            samples,
             person=controller.person,
             wrist=controller.wrist,
             source=live.source if live is not None else "",
             gravity_included=live.gravity_included if live is not None else True,
-            has_rotation=samples.gyr is not None,
             simulated=live.simulated if live is not None else False,
             everyday=everyday,
             recorded=datetime.now().astimezone().isoformat(timespec="seconds"),

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import partial
 
 from PySide6.QtCore import QObject, QPoint, QSignalBlocker, QSize, Qt
 from PySide6.QtWidgets import (
@@ -13,7 +14,6 @@ from PySide6.QtWidgets import (
     QPushButton,
     QSizePolicy,
     QToolButton,
-    QVBoxLayout,
     QWidget,
 )
 
@@ -23,11 +23,13 @@ from nep_studio.ui.labels import explained, follow_words, labelled
 from nep_studio.ui.messages import announce
 from nep_studio.ui.theme.icons import icon
 from nep_studio.ui.widgets.choices import Choices
-from nep_studio.ui.widgets.layouts import FlowLayout, in_row
+from nep_studio.ui.widgets.forms import quiet_button
+from nep_studio.ui.widgets.layouts import FlowLayout, in_column, in_row
 from nep_studio.ui.widgets.questions import Asking
 from nep_studio.ui.words import tr
 
 from .gesture_controller import GestureController
+from .menus import show_below
 from .project_gestures import Keeping
 from .recording import TakeSession
 from .strip import TakeView
@@ -56,10 +58,10 @@ class WearerBox(QObject):
         self.wrist = Choices(wrist_words)
         self.more = QToolButton()
         self._lay_out()
-        self.person.activated.connect(self._on_person_chosen)
-        self.wrist.activated.connect(self._on_wrist_chosen)
-        self.source.activated.connect(self._on_source_chosen)
-        self.more.clicked.connect(self.show_menu)
+        self.person.textActivated.connect(controller.set_wearer)
+        self.wrist.activated.connect(lambda row: controller.set_wearer(wrist=WRISTS[row]))
+        self.source.textActivated.connect(controller.use_source)
+        self.more.clicked.connect(lambda: show_below(self.more, self.menu()))
         for signal in (controller.changed, controller.wearer_changed, controller.sources_changed):
             signal.connect(self.refresh)
         controller.look.theme_changed.connect(self._dress)
@@ -74,7 +76,7 @@ class WearerBox(QObject):
             tip="Where the watch or phone is while it is recorded",
         )
         labelled(self.source, name="Which watch or phone")
-        labelled(self.more, name="Change people", tip="Change people")
+        explained(self.more, "Change people")
         for box in (self.person, self.wrist, self.source):
             box.setSizeAdjustPolicy(
                 QComboBox.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon
@@ -87,86 +89,57 @@ class WearerBox(QObject):
     def refresh(self) -> None:
         """Show who is there."""
         controller = self._controller
-        _fill(self.person, {name: name for name in controller.people}, controller.person)
+        _fill(self.person, controller.people, controller.person)
         with QSignalBlocker(self.wrist):
             self.wrist.setCurrentIndex(WRISTS.index(controller.wrist))
         in_use = controller.live.source if controller.live is not None else ""
-        _fill(self.source, {name: name for name in controller.streams}, in_use)
+        _fill(self.source, list(controller.streams), in_use)
         self.source.setVisible(len(controller.streams) > 1)
 
     # The menu
 
     def menu(self) -> QMenu:
         """New person, another name, delete."""
-        menu, theme = QMenu(self.who), self._controller.look.theme
-        menu.addAction(icon("plus", theme), tr("New person…"), self.ask_for_new)
-        words = tr("Another name for {person}…", person=self._controller.person)
-        menu.addAction(icon("pencil", theme), words, self.ask_for_name)
-        words = tr("Delete {person} with all takes", person=self._controller.person)
-        menu.addAction(icon("trash-2", theme), words, self.delete_person)
+        menu, theme, person = QMenu(self.who), self._controller.look.theme, self._controller.person
+        menu.addAction(icon("plus", theme), tr("New person…"), self._ask_for_new)
+        words = tr("Another name for {person}…", person=person)
+        menu.addAction(icon("pencil", theme), words, self._ask_for_name)
+        words = tr("Delete {person} with all takes", person=person)
+        delete = icon("trash-2", theme)  # it can be undone
+        menu.addAction(delete, words, lambda: self._keeping.delete_person(person))
         return menu
 
-    def show_menu(self) -> None:
-        """Show it below its button."""
-        menu = self.menu()
-        menu.aboutToHide.connect(menu.deleteLater)
-        menu.popup(self.more.mapToGlobal(QPoint(0, self.more.height())))
-
-    def ask_for_new(self) -> None:
-        """Ask for the name of somebody who has not recorded yet."""
+    def _ask_for_new(self) -> None:
         self._ask(tr("Name of the new person"), tr("Add"), self.add_person, "")
 
-    def ask_for_name(self) -> None:
-        """Ask for another name."""
-        self._ask(
-            tr("Another name for {person}", person=self._controller.person),
-            tr("Rename"),
-            lambda name: self._keeping.rename_person(self._controller.person, name),
-            self._controller.person,
-        )
+    def _ask_for_name(self) -> None:
+        person = self._controller.person
+        words = tr("Another name for {person}", person=person)
+        self._ask(words, tr("Rename"), partial(self._keeping.rename_person, person), person)
 
     def add_person(self, name: str) -> None:
         """Record for somebody else from now on."""
         if why_not_name(name.strip()) is None:
             self._controller.set_wearer(name)
 
-    def delete_person(self) -> None:
-        """Delete all that the person in use recorded; it can be undone."""
-        self._keeping.delete_person(self._controller.person)
-
-    def _ask(self, words: str, yes: str, answer: object, name: str) -> None:
-        assert callable(answer)
+    def _ask(self, words: str, yes: str, answer: Callable[[str], object], name: str) -> None:
         self.asking = Asking(self.who, self._controller.look.theme, words, yes, answer, name=name)
         self.asking.show_at(self.person.mapToGlobal(QPoint(0, self.person.height())))
 
-    # What is chosen
-
-    def _on_person_chosen(self, row: int) -> None:
-        self._controller.set_wearer(str(self.person.itemData(row)))
-
-    def _on_wrist_chosen(self, row: int) -> None:
-        self._controller.set_wearer(wrist=WRISTS[row])
-
-    def _on_source_chosen(self, row: int) -> None:
-        self._controller.use_source(str(self.source.itemData(row)))
-
     def _dress(self) -> None:
         theme, line = self._controller.look.theme, self.who.fontMetrics().height()
-        self.sign.setPixmap(
-            icon("user", theme).pixmap(QSize(line, line), self.who.devicePixelRatioF())
-        )
+        ratio = self.who.devicePixelRatioF()
+        self.sign.setPixmap(icon("user", theme).pixmap(QSize(line, line), ratio))
         self.more.setIcon(icon("ellipsis", theme))
-        self.more.setIconSize(QSize(line, line))
 
 
-def _fill(box: QComboBox, entries: dict[str, str], current: str) -> None:
+def _fill(box: QComboBox, entries: list[str], current: str) -> None:
     """Offer these, if they are others than before."""
     with QSignalBlocker(box):
-        if [box.itemData(row) for row in range(box.count())] != list(entries):
+        if [box.itemText(row) for row in range(box.count())] != entries:
             box.clear()
-            for key, words in entries.items():
-                box.addItem(words, key)
-        box.setCurrentIndex(max(0, box.findData(current)))
+            box.addItems(entries)
+        box.setCurrentIndex(max(0, box.findText(current)))
 
 
 class RecordBar(QWidget):
@@ -181,7 +154,7 @@ class RecordBar(QWidget):
         self._told: Callable[[], str] = str
         self.button = labelled(QPushButton(), tip="Space")
         self.cancel = labelled(QPushButton(), text="Cancel")
-        self.play, self.back = QToolButton(), labelled(QPushButton(), text="Back to the live graph")
+        self.play, self.back = QToolButton(), quiet_button("Back to the live graph")
         self.everyday = labelled(
             QPushButton(),
             text="Everyday movement",
@@ -189,7 +162,7 @@ class RecordBar(QWidget):
         )
         self.wearer = WearerBox(controller, keeping)
         self.wearer.setParent(self)
-        self.words, self.progress = QLabel(), QProgressBar()
+        self.words, self.progress = QLabel(wordWrap=True), QProgressBar(minimum=0, maximum=100)
         self._lay_out()
         self.cancel.clicked.connect(session.cancel)
         self.play.clicked.connect(take.play)
@@ -201,24 +174,16 @@ class RecordBar(QWidget):
         follow_words(self, self._say)
 
     def _lay_out(self) -> None:
-        for button in (self.button, self.cancel, self.back, self.everyday):
+        for button in (self.button, self.cancel, self.everyday):
             button.setAutoDefault(False)
-        self.back.setProperty("kind", "quiet")
         self.words.setTextFormat(Qt.TextFormat.PlainText)
-        self.words.setWordWrap(True)
         self.words.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Preferred)
-        self.progress.setRange(0, 100)
         labelled(self.progress, name="How much is recorded")
-        row = FlowLayout(spacing=self.fontMetrics().height() // 3)
-        wearer = (self.wearer.who, self.wearer.where)
-        for widget in (self.button, self.cancel, self.play, self.back, *wearer, self.everyday):
-            row.addWidget(widget)
-        box = QVBoxLayout(self)
-        box.setContentsMargins(0, 0, 0, 0)
-        box.setSpacing(self.fontMetrics().height() // 4)
-        box.addWidget(self.words)  # first: what came of it is seen without scrolling
-        box.addWidget(self.progress)
-        box.addLayout(row)
+        line, wearer = self.fontMetrics().height(), (self.wearer.who, self.wearer.where)
+        used = (self.button, self.cancel, self.play, self.back, *wearer, self.everyday)
+        row = FlowLayout(spacing=line // 3, widgets=used)
+        # The words come first: what came of it is seen without scrolling
+        in_column(self.words, self.progress, row, of=self, margins=0, spacing=line // 4)
 
     def tell(self, told: Callable[[], str]) -> None:
         """Say what came of it, on the screen and to screen readers; again in other words."""
@@ -271,12 +236,9 @@ class RecordBar(QWidget):
             self._dress()
 
     def _dress(self) -> None:
-        theme = self._controller.look.theme
-        is_on = self._session.is_on
+        theme, is_on = self._controller.look.theme, self._session.is_on
         name, colour = ("square", "stop_text") if is_on else ("circle-dot", "accent_text")
         self.button.setIcon(icon(name, theme.colour(colour)))
-        line = self.fontMetrics().height()
-        self.play.setIconSize(QSize(line, line))
         self.everyday.setIcon(icon("footprints", theme))
         self._dress_play()
 

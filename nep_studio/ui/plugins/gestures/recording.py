@@ -19,7 +19,6 @@ from nodes.sensory.arm.gestures import GESTURES, MAKES_GESTURE
 from .curves import fault_words
 from .gesture_controller import GestureController
 from .live import Samples, joined
-from .project_gestures import Keeping
 
 State = Literal["idle", "countdown", "takes", "everyday"]
 Ending = Literal["complete", "stopped", "lost", "late"]
@@ -294,16 +293,7 @@ class TakeSession(QObject):
         self.changed.emit()
 
 
-# What came of a recording, in words, and kept in the project.
-
-
-def keep_session(keeping: Keeping, session: RecordingSession) -> bool:
-    """Keep the takes of a recording; False when there are none."""
-    if not session.takes:
-        return False
-    return bool(
-        keeping.keep_session(session.gesture, session.samples, session.takes, session.forgotten)
-    )
+# What came of a recording, in words.
 
 
 def session_words(session: RecordingSession) -> str:
@@ -311,14 +301,13 @@ def session_words(session: RecordingSession) -> str:
     count = len(session.takes)
     said = [count_words(count, "1 take is kept.", "{n} takes are kept.")] if count else []
     for fault, times in Counter(one.fault for one in session.movements if one.fault).items():
-        said.append(
-            count_words(
-                times,
-                "1 movement does not count: {reason}.",
-                "{n} movements do not count: {reason}.",
-                reason=fault_words(fault),
-            )
+        words = count_words(
+            times,
+            "1 movement does not count: {reason}.",
+            "{n} movements do not count: {reason}.",
+            reason=fault_words(fault),
         )
+        said.append(words)
     if session.ending == "lost":
         said.insert(0, tr("The watch or phone fell silent, so the recording ended."))
     elif session.ending == "late":

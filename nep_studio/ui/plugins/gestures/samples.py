@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections import OrderedDict
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 from statistics import median
 
 import numpy as np
@@ -25,16 +25,17 @@ from PySide6.QtGui import (
 )
 from PySide6.QtWidgets import QApplication, QSizePolicy, QToolTip, QWidget
 
-from nep_studio.blocks.own_gestures import OwnGesture, OwnTake
+from nep_studio.blocks.own_gestures import OwnTake
 from nep_studio.ui.labels import labelled
 from nep_studio.ui.theme.colours import Theme
 from nep_studio.ui.theme.icons import paint_icon
+from nep_studio.ui.widgets.curves import line_width
 from nep_studio.ui.words import tr
 from nep_studio.ui.workbench.palette.accessible_list import make_list_accessible, tell_current
 
 from .curves import Window, paint_lines, value_range
 from .gesture_controller import GestureController
-from .results.findings import Findings, findings_of, id_of_take
+from .results.findings import METHODS, findings_of, id_of_take
 
 # Where the takes of one gesture are: their places in rows, and the way of the arrow keys.
 
@@ -106,30 +107,19 @@ class Grid:
 
 MOST_KEPT = 1500
 
-Key = tuple[str, float, float, int, int, float, str]
-
 
 class TakePictures:
-    """The curves of takes as pixmaps; all takes of all cards share one store."""
+    """The curves of takes as pixmaps; all takes of all cards share one store.
+
+    ``picture`` gives the curves of a take, so large in logical pixels.
+    """
 
     def __init__(self, controller: GestureController) -> None:
         self._controller = controller
-        self._kept: OrderedDict[Key, QPixmap] = OrderedDict()
-
-    def picture(self, take: OwnTake, size: QSize, ratio: float, metrics: QFontMetricsF) -> QPixmap:
-        """The curves of a take, this large in logical pixels."""
-        theme = self._controller.look.theme
-        key = (take.id, take.start_s, take.end_s, size.width(), size.height(), ratio, theme.name)
-        if key in self._kept:
-            self._kept.move_to_end(key)
-            return self._kept[key]
-        made = self._kept[key] = self._paint(take, size, ratio, theme, metrics)
-        while len(self._kept) > MOST_KEPT:
-            self._kept.popitem(last=False)
-        return made
+        self.picture = lru_cache(MOST_KEPT)(self._paint)
 
     def _paint(
-        self, take: OwnTake, size: QSize, ratio: float, theme: Theme, metrics: QFontMetricsF
+        self, take: OwnTake, size: QSize, ratio: float, theme: Theme, width: float
     ) -> QPixmap:
         pixmap = QPixmap(size * ratio)
         pixmap.setDevicePixelRatio(ratio)
@@ -141,7 +131,7 @@ class TakePictures:
         rect = QRectF(0, 0, size.width(), size.height())
         window = Window(rect, float(samples.t[0]), float(samples.t[-1]), low, high)
         with QPainter(pixmap) as painter:
-            paint_lines(painter, window, samples, theme, metrics)
+            paint_lines(painter, window, samples, theme, width)
         return pixmap
 
 
@@ -176,8 +166,8 @@ class TakesList(QWidget):
             self, description="Arrow keys choose a take, Enter looks at it, Delete deletes it."
         )
         make_list_accessible(self, self)
-        controller.take_chosen.connect(self._on_take_chosen)
-        controller.look.theme_changed.connect(self._on_take_chosen)
+        controller.take_chosen.connect(self.update)
+        controller.look.theme_changed.connect(self.update)
 
     # What is shown
 
@@ -256,11 +246,10 @@ class TakesList(QWidget):
         painter.drawRoundedRect(QRectF(rect).adjusted(1, 1, -1, -1), 4, 4)
         below = line if remark or take.left_out else 0
         room = rect.adjusted(5, 4, -5, -4 - below)
-        ratio, metrics = self.devicePixelRatioF(), QFontMetricsF(self.font())
+        ratio, width = self.devicePixelRatioF(), line_width(theme, QFontMetricsF(self.font()))
+        picture = self._pictures.picture(take, room.size(), ratio, theme, width)
         painter.setOpacity(_PALE if take.left_out else 1.0)
-        painter.drawPixmap(
-            room.topLeft(), self._pictures.picture(take, room.size(), ratio, metrics)
-        )
+        painter.drawPixmap(room.topLeft(), picture)
         painter.setOpacity(1.0)
         if below:
             self._paint_remark(painter, rect, tr("left out") if take.left_out else remark, take)
@@ -276,13 +265,10 @@ class TakesList(QWidget):
         font = self.font()
         font.setPointSizeF(font.pointSizeF() * 0.85)
         painter.setFont(font)
-        start = 5 if is_mirrored else 7 + side
-        end = 7 + side if is_mirrored else 5
-        room = QRectF(
-            rect.left() + start, rect.bottom() - line - 2, rect.width() - start - end, line
-        )
-        mode = Qt.TextElideMode.ElideRight
-        shown = QFontMetricsF(font).elidedText(words, mode, room.width())
+        start, end = (5, 7 + side) if is_mirrored else (7 + side, 5)
+        top, width = rect.bottom() - line - 2, rect.width() - start - end
+        room = QRectF(rect.left() + start, top, width, line)
+        shown = QFontMetricsF(font).elidedText(words, Qt.TextElideMode.ElideRight, width)
         painter.setPen(theme.colour(colour))
         sides = Qt.AlignmentFlag.AlignRight if is_mirrored else Qt.AlignmentFlag.AlignLeft
         painter.drawText(room, int(sides | Qt.AlignmentFlag.AlignVCenter), shown)
@@ -320,10 +306,10 @@ class TakesList(QWidget):
         """Ask for the menu of a take."""
         if event.reason() != QContextMenuEvent.Reason.Keyboard:
             self._go_to(self.grid.at(event.pos()))
-        if self.chosen:
             place = event.globalPos()
-            if event.reason() == QContextMenuEvent.Reason.Keyboard:
-                place = self.mapToGlobal(self.grid.rect(self.current).center())
+        else:
+            place = self.mapToGlobal(self.grid.rect(self.current).center())
+        if self.chosen:
             self.menu_asked.emit(place)
 
     def event(self, event: QEvent) -> bool:
@@ -359,7 +345,6 @@ class TakesList(QWidget):
         if self.current < 0 and self.takes:
             self.current = 0
         tell_current(self)
-        self.update()
 
     def _go_to(self, number: int) -> None:
         if 0 <= number < len(self.takes):
@@ -367,9 +352,6 @@ class TakesList(QWidget):
             tell_current(self)
             self.current_changed.emit()
             self.update()
-
-    def _on_take_chosen(self, _what: object = None) -> None:
-        self.update()
 
     # For screen readers
 
@@ -409,7 +391,6 @@ def takes_in(data: QMimeData) -> Collection[str]:
 FEW_TAKES = 3
 """With fewer it is not known what is usual."""
 _SHORT, _LONG, _STILL = 0.5, 2.0, 0.4
-_METHODS = ("trees", "gmr")
 
 
 class Badges:
@@ -456,18 +437,12 @@ class Badges:
         controller = self._controller
         if controller.recogniser is None or not controller.is_up_to_date:
             return {}
-        by_method = findings_of(controller.recogniser.report)
-        findings = next((by_method[name] for name in _METHODS if name in by_method), None)
-        return _remarks(findings, controller.gestures) if findings is not None else {}
-
-
-def _remarks(findings: Findings, gestures: Mapping[str, OwnGesture]) -> dict[str, str]:
-    found = {}
-    for one in findings.left_out:
-        take = id_of_take(one, gestures)
-        if not take or one.recognised == one.gesture:
-            continue
-        other = gestures.get(one.recognised)
-        words = tr("looks like {gesture}", gesture=other.title) if other else tr("not recognised")
-        found[take] = words
-    return found
+        by_method, gestures = findings_of(controller.recogniser.report), controller.gestures
+        findings = next((by_method[name] for name in METHODS if name in by_method), None)
+        found = {}
+        for one in findings.left_out if findings is not None else ():
+            take, other = id_of_take(one, gestures), gestures.get(one.recognised)
+            if take and one.recognised != one.gesture:
+                words = tr("looks like {gesture}", gesture=other.title) if other else ""
+                found[take] = words or tr("not recognised")
+        return found

@@ -21,25 +21,12 @@ from PySide6.QtWidgets import QSizePolicy
 from nep_studio.blocks.own_gestures import OwnTake
 from nep_studio.ui.labels import labelled
 from nep_studio.ui.messages import announce
+from nep_studio.ui.widgets.curves import line_width
 from nep_studio.ui.widgets.layouts import InLines
 from nep_studio.ui.words import tr
 
-from .curves import (
-    HANDLE_LINES,
-    Mark,
-    Window,
-    fault_words,
-    paint_big,
-    paint_ground,
-    paint_handle,
-    paint_label,
-    paint_letters,
-    paint_lines,
-    paint_mark,
-    paint_recorded,
-    paint_words,
-    value_range,
-)
+from . import curves
+from .curves import Mark, Window, fault_words
 from .gesture_controller import GestureController
 from .live import Samples
 from .project_gestures import LONGEST_TAKE_S, SHORTEST_TAKE_S, Keeping
@@ -52,6 +39,8 @@ AROUND_S = 0.8
 """So much of the recording is shown before and after the take."""
 STEP_S = 0.02
 PLAY_FRAME_MS = 16
+REACH_LINES = 0.6
+"""So near to an end of the take, in lines of text, it is taken; a little wider than its handle."""
 
 
 class TakeView(QObject):
@@ -69,7 +58,8 @@ class TakeView(QObject):
         self.cursor_s: float | None = None
         """Where it is being played; None while it is not."""
         self._ends = (0.0, 0.0)
-        self._shown = (0.0, 1.0)
+        self.shown_s = (0.0, 1.0)
+        """What part of the recording is shown."""
         self.samples = Samples.none()
         self._playing = QTimer(self, interval=PLAY_FRAME_MS)
         self._playing.timeout.connect(self._on_played)
@@ -90,19 +80,15 @@ class TakeView(QObject):
         return {"start": self._ends[0], "end": self._ends[1]}
 
     @property
-    def shown_s(self) -> tuple[float, float]:
-        """What part of the recording is shown."""
-        return self._shown
-
-    @property
     def words(self) -> str:
-        """Where it begins and how long it is."""
+        """How long it is."""
         start_s, end_s = self._ends
         return tr("{seconds} s long", seconds=f"{end_s - start_s:.2f}")
 
-    def marks(self) -> list[Mark]:
+    @property
+    def mark(self) -> Mark:
         """The take, with how long it is."""
-        return [Mark(*self._ends, self.words)] if self.is_open else []
+        return Mark(*self._ends, self.words)
 
     # Played
 
@@ -198,7 +184,7 @@ class TakeView(QObject):
         self.is_dragged, self.held = False, "start"
         take = self._take()
         if take is not None:
-            self._shown = max(0.0, take.start_s - AROUND_S), take.end_s + AROUND_S
+            self.shown_s = max(0.0, take.start_s - AROUND_S), take.end_s + AROUND_S
         self._on_changed()
 
     def _on_changed(self) -> None:
@@ -209,8 +195,8 @@ class TakeView(QObject):
         elif not self.is_dragged:
             self.samples = self._controller.samples(take.recording)
             self._ends = take.start_s, take.end_s
-            first_s, last_s = self._shown
-            self._shown = min(first_s, take.start_s), max(last_s, take.end_s)
+            first_s, last_s = self.shown_s
+            self.shown_s = min(first_s, take.start_s), max(last_s, take.end_s)
         self.changed.emit()
 
 
@@ -220,8 +206,6 @@ SHOWN_S = 10.0
 FRAME_MS = 33
 _SHRINK = 0.05
 """How quickly the range of values follows a quieter hand, each frame; a wilder one at once."""
-
-
 _BIG, _SMALLER = 0.6, 0.32
 """How high the countdown is, and the count of takes, as a share of the graph."""
 
@@ -234,8 +218,8 @@ class Strip(InLines):
     def __init__(self, controller: GestureController, session: TakeSession, take: TakeView) -> None:
         super().__init__()
         self._controller, self._session, self.take = controller, session, take
-        self._range = value_range(Samples.none())
-        self._is_due = True
+        self._range = curves.value_range(Samples.none())
+        self._is_due, self._was_hearing = True, False
         self._frames = QTimer(self, interval=FRAME_MS)
         self._frames.timeout.connect(self._on_frame)
         self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
@@ -245,6 +229,7 @@ class Strip(InLines):
         for signal in (session.changed, controller.changed, controller.take_chosen, take.changed):
             signal.connect(self._on_changed)
         controller.look.theme_changed.connect(self._on_changed)
+        controller.take_chosen.connect(self._name_it)
         self._name_it()
 
     # What is shown
@@ -263,7 +248,7 @@ class Strip(InLines):
         line = self.fontMetrics().height()
         rect = QRectF(self.rect()).adjusted(1, 1, -1 - line * 1.2, -1)
         if self.take.is_open:
-            low, high = value_range(self.take.samples.between(*self.take.shown_s))
+            low, high = curves.value_range(self.take.samples.between(*self.take.shown_s))
             return Window(rect, *self.take.shown_s, low, high)
         end_s = self._controller.live.last_t if self._controller.live is not None else 0.0
         return Window(rect, end_s - SHOWN_S, end_s, *self._range)
@@ -289,22 +274,22 @@ class Strip(InLines):
             painter.fillRect(self.rect(), theme.colour("field"))
             samples = self.samples
             if self._session.start_s is not None and not self.take.is_open:
-                paint_recorded(painter, window, self._session.start_s, theme)
+                curves.paint_recorded(painter, window, self._session.start_s, theme)
             marks = self._marks()
             for mark in marks:
-                paint_mark(painter, window, mark, theme)
-            paint_ground(painter, window, theme)
-            paint_lines(painter, window, samples, theme, QFontMetricsF(self.font()))
+                curves.paint_mark(painter, window, mark, theme)
+            curves.paint_ground(painter, window, theme)
+            width = line_width(theme, QFontMetricsF(self.font()))
+            curves.paint_lines(painter, window, samples, theme, width)
             shown = samples.between(window.start_s, window.end_s)
-            paint_letters(painter, window, shown, theme, self.font())
+            curves.paint_letters(painter, window, shown, theme, self.font())
             for mark in marks:
-                paint_label(painter, window, mark, theme, self.font())
+                curves.paint_label(painter, window, mark, theme, self.font())
             self._paint_over(painter, window)
-            theme = self._controller.look.theme
             painter.setRenderHint(QPainter.RenderHint.Antialiasing, False)
             painter.setBrush(Qt.BrushStyle.NoBrush)
-            width = 2 if self.hasFocus() else 1
-            painter.setPen(QPen(theme.colour("focus" if self.hasFocus() else "line"), width))
+            colour, width = ("focus", 2) if self.hasFocus() else ("line", 1)
+            painter.setPen(QPen(theme.colour(colour), width))
             painter.drawRect(self.rect().adjusted(0, 0, -1, -1))
 
     def _paint_over(self, painter: QPainter, window: Window) -> None:
@@ -313,24 +298,24 @@ class Strip(InLines):
             line = self.fontMetrics().height()
             for end, time_s in take.ends.items():
                 is_held = take.held == end and (take.is_dragged or self.hasFocus())
-                paint_handle(painter, window, time_s, theme, line, is_held=is_held)
+                curves.paint_handle(painter, window, time_s, theme, line, is_held=is_held)
             if take.cursor_s is not None:
                 x = window.x(take.cursor_s)
                 painter.setPen(QPen(theme.colour("accent"), 2))
                 painter.drawLine(int(x), int(window.rect.top()), int(x), int(window.rect.bottom()))
             if not len(take.samples):
                 words = tr("The samples of this take cannot be read.")
-                paint_words(painter, window.rect, words, theme, self.font())
+                curves.paint_words(painter, window.rect, words, theme, self.font())
         elif self.big_words:
             share = _BIG if self._session.state == "countdown" else _SMALLER
-            paint_big(painter, window.rect, self.big_words, theme, self.font(), share)
-        elif self._controller.live is None or not self._controller.is_hearing:
+            curves.paint_big(painter, window.rect, self.big_words, theme, self.font(), share)
+        elif not self._controller.is_hearing:
             words = tr("No movement is heard. Connect a watch or phone, and move it.")
-            paint_words(painter, window.rect, words, theme, self.font())
+            curves.paint_words(painter, window.rect, words, theme, self.font())
 
     def _marks(self) -> list[Mark]:
         if self.take.is_open:
-            return self.take.marks()
+            return [self.take.mark]
         number, marks = 0, []
         for one in self._session.movements if self._session.is_on else []:
             number += not one.fault
@@ -345,20 +330,16 @@ class Strip(InLines):
 
     def _on_changed(self, _what: object = None) -> None:
         self._is_due = True
-        self._name_it()
         self.update()
 
     def _on_frame(self) -> None:
+        if self._controller.is_hearing != self._was_hearing:
+            self._was_hearing = not self._was_hearing
+            self.update()  # it says that nothing is heard any more, or not any more
         if self.take.is_open or not self._is_due:
-            if (
-                self._controller.live is not None
-                and not self._controller.is_hearing
-                and not self._is_due
-            ):
-                self.update()  # it says that nothing is heard any more
             return
         self._is_due = False
-        low, high = value_range(self.samples)
+        low, high = curves.value_range(self.samples)
         old_low, old_high = self._range
         slow_low, slow_high = (
             old + _SHRINK * (new - old) for old, new in zip(self._range, (low, high), strict=True)
@@ -366,7 +347,7 @@ class Strip(InLines):
         self._range = min(low, max(old_low, slow_low)), max(high, min(old_high, slow_high))
         self.update()
 
-    def _name_it(self) -> None:
+    def _name_it(self, _take: str = "") -> None:
         is_open = self.take.is_open
         labelled(
             self,
@@ -388,16 +369,15 @@ class Strip(InLines):
         self._frames.stop()
 
     def focusOutEvent(self, event: QFocusEvent) -> None:
-        """Show that it is elsewhere."""
+        """Keep what was moved: the keyboard is elsewhere."""
         super().focusOutEvent(event)
         self.take.let_go()
-        self.update()
 
     # Mouse and keyboard
 
     def mousePressEvent(self, event: QMouseEvent) -> None:
         """Take an end of the take."""
-        reach = self.fontMetrics().height() * max(HANDLE_LINES, 0.6)
+        reach = self.fontMetrics().height() * REACH_LINES
         if event.button() == Qt.MouseButton.LeftButton and self.take.is_open:
             self.take.hold_near(event.position().x(), self.window_shown, reach)
 
@@ -407,10 +387,9 @@ class Strip(InLines):
         if self.take.is_dragged:
             self.take.drag(window.time(x))
             return
-        reach = self.fontMetrics().height() * max(HANDLE_LINES, 0.6)
+        reach = self.fontMetrics().height() * REACH_LINES
         is_near = self.take.is_open and self.take.end_near(x, window, reach) is not None
-        shape = Qt.CursorShape.SplitHCursor if is_near else Qt.CursorShape.ArrowCursor
-        self.setCursor(shape)
+        self.setCursor(Qt.CursorShape.SplitHCursor if is_near else Qt.CursorShape.ArrowCursor)
 
     def mouseReleaseEvent(self, event: QMouseEvent) -> None:
         """Keep where the take begins and ends now."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from typing import Any
 
 from PySide6.QtCore import QEvent, QSortFilterProxyModel, Qt, QTimer, Signal
@@ -11,7 +11,6 @@ from PySide6.QtWidgets import (
     QAbstractItemView,
     QDialog,
     QDialogButtonBox,
-    QLabel,
     QLineEdit,
     QPushButton,
     QTreeView,
@@ -24,6 +23,7 @@ from nep_core.wire.messages import IMU
 from nep_studio.ui.labels import follow_words, labelled
 from nep_studio.ui.network_feed import NetworkFeed, Seen
 from nep_studio.ui.theme.look import Look
+from nep_studio.ui.widgets.forms import hint
 from nep_studio.ui.widgets.layouts import in_column
 from nep_studio.ui.words import is_right_to_left, tr
 
@@ -47,8 +47,8 @@ class CurveList(QTreeWidget):
 
     measured = Signal(str)
 
-    def __init__(self, plots: Plots, look: Look, parent: QWidget | None = None) -> None:
-        super().__init__(parent)
+    def __init__(self, plots: Plots, look: Look) -> None:
+        super().__init__()
         self._plots, self._look = plots, look
         self._items: dict[CurveKey, QTreeWidgetItem] = {}
         self.setRootIsDecorated(False)
@@ -73,8 +73,7 @@ class CurveList(QTreeWidget):
         metrics = QFontMetricsF(self.font())
         self.setIconSize(icon_size(metrics))
         for row in self._plots.rows:
-            unit = f" ({row.row.unit})" if row.row.unit else ""
-            heading = QTreeWidgetItem(self, [f"{row.row.title}{unit}, {row.row.source}"])
+            heading = QTreeWidgetItem(self, [f"{row.row.heading}, {row.row.source}"])
             heading.setFirstColumnSpanned(True)
             heading.setFlags(Qt.ItemFlag.ItemIsEnabled)
             heading.setToolTip(0, heading.text(0))
@@ -127,12 +126,11 @@ class CurveList(QTreeWidget):
         found = (tr("Difference"), tr("Least"), tr("Greatest"), tr("Mean"), tr("Frequency"))
         return [tr("Curve"), "A", "B", *found]
 
-    def _set_columns(self, titles: Sequence[str]) -> None:
-        known = [self.headerItem().text(at) for at in range(self.columnCount())]
-        if known == list(titles):
+    def _set_columns(self, titles: list[str]) -> None:
+        if titles == [self.headerItem().text(at) for at in range(self.columnCount())]:
             return
         self.setColumnCount(len(titles))
-        self.setHeaderLabels(list(titles))
+        self.setHeaderLabels(titles)
         for at in range(len(titles)):
             self.headerItem().setTextAlignment(at, _side(at))
         self._size_columns()
@@ -212,11 +210,8 @@ class FieldChooser(QDialog):
         self._items: dict[Field, QStandardItem] = {}
         self._topics: dict[str, QStandardItem] = {}
         labelled(self, window_title="Choose what is plotted")
-        self.search = QLineEdit(clearButtonEnabled=True)
-        labelled(self.search, placeholder="Find a number")
-        self.hint = labelled(QLabel(), text="Numbers appear here as soon as a node sends some.")
-        self.hint.setProperty("role", "hint")
-        self.hint.setWordWrap(True)
+        self.search = labelled(QLineEdit(clearButtonEnabled=True), placeholder="Find a number")
+        self.hint = hint("Numbers appear here as soon as a node sends some.")
         self.model = QStandardItemModel(0, 2, self)
         follow_words(self, self._name_columns)
         self.model.itemChanged.connect(self._on_item_changed)
@@ -260,12 +255,11 @@ class FieldChooser(QDialog):
 
     def _show(self, field: Field, value: float) -> bool:
         """Show one number; whether it was not there before."""
-        item = self._items.get(field)
-        is_new = item is None
-        if item is None:
-            item = self._items[field] = self._added(field)
+        is_new = field not in self._items
+        if is_new:
+            self._items[field] = self._added(field)
+        item, words = self._items[field], f"{value:.6g}"
         shown = item.parent().child(item.row(), 1)
-        words = f"{value:.6g}"
         if shown.text() != words:
             shown.setText(words)
         return is_new

@@ -7,7 +7,7 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 
 from PySide6.QtCore import QSize, Qt
-from PySide6.QtGui import QColor, QFontMetricsF, QIcon, QPainter, QPen, QPixmap
+from PySide6.QtGui import QFontMetricsF, QIcon, QPainter, QPen, QPixmap
 
 from nep_studio.ui.theme.colours import Theme
 from nep_studio.ui.widgets.curves import line_width
@@ -69,15 +69,6 @@ def icon_size(metrics: QFontMetricsF) -> QSize:
     return QSize(round(height * _DASHES_IN_ICON), height)
 
 
-def mixed(one: QColor, other: QColor) -> QColor:
-    """The colour in the middle between two."""
-    return QColor(
-        (one.red() + other.red()) // 2,
-        (one.green() + other.green()) // 2,
-        (one.blue() + other.blue()) // 2,
-    )
-
-
 @dataclass(frozen=True)
 class CurveKey:
     """Which curve: a stream, and a channel of it by its place."""
@@ -104,6 +95,11 @@ class Row:
     source: str
     unit: str
     curves: tuple[Curve, ...]
+
+    @property
+    def heading(self) -> str:
+        """What it shows, with the unit."""
+        return f"{self.title} ({self.unit})" if self.unit else self.title
 
     @property
     def key(self) -> tuple[CurveKey, ...]:
@@ -184,20 +180,15 @@ class ValueRange:
         """A range for values from ``low`` to ``high``: this one while it serves them well."""
         if not (math.isfinite(low) and math.isfinite(high)):
             return self
+        # A curve that does not change is a line in the middle, not noise of its last digit
+        middle, height = (low + high) / 2, max(high - low, abs(low) * 1e-3, abs(high) * 1e-3, 1e-9)
         is_inside = self.low <= low and high <= self.high
-        least = _least_height(low, high)
-        if is_inside and max(high - low, least) >= _EMPTY * self.height:
+        if is_inside and height >= _EMPTY * self.height:
             return self
-        middle, height = (low + high) / 2, max(high - low, least)
         step = _round_step(height / 8)
         first = math.floor((middle - height * (0.5 + _ROOM)) / step) * step
         last = math.ceil((middle + height * (0.5 + _ROOM)) / step) * step
         return ValueRange(first, last)
-
-
-def _least_height(low: float, high: float) -> float:
-    """A curve that does not change is a line in the middle, not noise of its last digit."""
-    return max(abs(low), abs(high), 1e-6) * 1e-3
 
 
 def _round_step(height: float) -> float:

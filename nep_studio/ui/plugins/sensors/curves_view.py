@@ -12,10 +12,10 @@ from PySide6.QtGui import QFont, QFontMetricsF, QPainter, QPaintEvent, QPen, QPi
 from PySide6.QtWidgets import QWidget
 
 from nep_studio.ui.ring import Floats, Ring
-from nep_studio.ui.theme.colours import Theme, load_theme
+from nep_studio.ui.theme.colours import Theme, load_theme, mixed
 from nep_studio.ui.widgets.curves import polygon
 
-from .curves import Curve, CurveKey, ValueRange, mixed
+from .curves import Curve, CurveKey, ValueRange
 from .feed import Mark
 from .streams import Samples, Stream
 
@@ -41,12 +41,15 @@ class Columns:
         middle: Floats = (self.number + 0.5) * self.width_s
         return middle
 
+    def part(self, part: slice) -> Columns:
+        """Some of the columns."""
+        return Columns(self.width_s, self.number[part], self.low[:, part], self.high[:, part])
+
     def between(self, start_s: float, end_s: float) -> Columns:
         """The columns from a time to another, and one more on each side."""
         first = int(np.searchsorted(self.number, start_s / self.width_s)) - 2
         last = int(np.searchsorted(self.number, end_s / self.width_s)) + 1
-        part = slice(max(0, first), last)
-        return Columns(self.width_s, self.number[part], self.low[:, part], self.high[:, part])
+        return self.part(slice(max(0, first), last))
 
 
 def columns_of(samples: Samples, width_s: float) -> Columns:
@@ -85,8 +88,7 @@ class LiveColumns:
         table = np.vstack([columns.number, columns.low, columns.high])
         if len(self._ring) and self._ring.newest(1)[0, 0] == table[0, 0]:
             # The newest column and more samples of it
-            column = table[:, 0]
-            last = self._ring.newest(1)[:, 0]
+            column, last = table[:, 0], self._ring.newest(1)[:, 0]
             low, high = slice(1, 1 + self._channels), slice(1 + self._channels, None)
             joined = column.copy()
             joined[low] = np.fmin(last[low], column[low])
@@ -98,9 +100,8 @@ class LiveColumns:
     def columns(self) -> Columns:
         """All columns that are kept; a view that lives until the next refresh."""
         table = self._ring.newest()
-        return Columns(
-            self.width_s, table[0], table[1 : 1 + self._channels], table[1 + self._channels :]
-        )
+        low, high = table[1 : 1 + self._channels], table[1 + self._channels :]
+        return Columns(self.width_s, table[0], low, high)
 
 
 # Columns of a curve as lines on the screen, made by numpy without a loop over points.
@@ -200,7 +201,7 @@ class CurvesView(QWidget):
     def set_look(self, theme: Theme, font: QFont) -> None:
         """Take the theme's colours and a font for words."""
         self._ground, self._label = theme.colour("field"), theme.colour("info_panel")
-        self._grid = mixed(theme.colour("line"), self._ground)
+        self._grid = mixed(theme.colour("line"), self._ground, 0.5)
         self._text, self._cursor = theme.colour("text"), theme.colour("focus")
         self._mark = QPen(theme.colour("accent"), 1)
         self._mark.setCosmetic(True)
@@ -231,10 +232,9 @@ class CurvesView(QWidget):
                 painter.drawPixmap(QPointF(picture.layer[1], 0), picture.layer[0])
             for pen, polygons in picture.curves:
                 painter.setPen(pen)
-                for polygon in polygons:
-                    painter.drawPolyline(polygon)
+                for one in polygons:
+                    painter.drawPolyline(one)
             self._draw_marks(painter, picture)
-            frame = picture.frame
             for name, time_s in zip("AB", picture.cursors, strict=False):
                 x = frame.x(time_s)
                 pen = QPen(self._cursor, 2)
@@ -276,9 +276,8 @@ class CurvesView(QWidget):
 
 def marks_between(marks: Iterable[Mark], start_s: float, end_s: float) -> list[Mark]:
     """The marks that are shown, the oldest first."""
-    return sorted(
-        (mark for mark in marks if start_s <= mark.time_s <= end_s), key=lambda one: one.time_s
-    )
+    shown = (mark for mark in marks if start_s <= mark.time_s <= end_s)
+    return sorted(shown, key=lambda one: one.time_s)
 
 
 # Keeps the part of live curves that does not change any more as a picture that moves left.
@@ -447,10 +446,5 @@ class LiveLayer:
 def _part(columns: Columns, first: int, last: int | None) -> Columns:
     """The columns from ``first`` to ``last``, both included; to the end without ``last``."""
     start = int(np.searchsorted(columns.number, first, side="right")) - 1
-    end = len(columns.number)
-    if last is not None:
-        end = int(np.searchsorted(columns.number, last, side="right"))
-    part = slice(max(0, start), end)
-    return Columns(
-        columns.width_s, columns.number[part], columns.low[:, part], columns.high[:, part]
-    )
+    end = None if last is None else int(np.searchsorted(columns.number, last, side="right"))
+    return columns.part(slice(max(0, start), end))

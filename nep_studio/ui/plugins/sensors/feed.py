@@ -7,6 +7,7 @@ import time
 from collections import deque
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from itertools import islice
 from typing import Any, Protocol
 
 import msgspec
@@ -37,13 +38,8 @@ def numbers_in(message: Any) -> dict[str, float]:
     Of long lists, deep groups and very large messages only the first numbers are given.
     """
     data = msgspec.to_builtins(message) if isinstance(message, msgspec.Struct) else message
-    found: dict[str, float] = {}
-    for path, value in _numbers(data, "", 0):
-        if len(found) >= _MOST_FIELDS:
-            break
-        if path != "time":
-            found[path] = value
-    return found
+    numbers = (one for one in _numbers(data, "", 0) if one[0] != "time")
+    return dict(islice(numbers, _MOST_FIELDS))
 
 
 def number_at(message: Any, path: str) -> float | None:
@@ -152,8 +148,7 @@ class Field:
 class SensorFeed(QObject):
     """Hears sensors and chosen fields while somebody looks, sensors also while they are recorded.
 
-    ``streams_changed`` tells that a stream came or went; ``imu_heard`` gives (Imu, arrived_s)
-    pairs.
+    ``streams_changed`` tells that a stream came or went; ``imu_heard`` gives what sensors sent.
     """
 
     streams_changed = Signal()
@@ -165,14 +160,13 @@ class SensorFeed(QObject):
         self.marks: deque[Mark] = deque(maxlen=MOST_MARKS)
         self.fields: list[Field] = []
         self._taps = taps
-        self._open: dict[str, Tap] = {}
-        self._watchers: dict[int, _Watcher] = {}
-        self._is_recorded = self._has_changed = False
+        self._open: dict[tuple[str, str], Tap] = {}
+        self._is_watched = self._is_recorded = self._has_changed = False
 
     @property
     def topics_heard(self) -> list[str]:
         """What it listens to now."""
-        return [name.partition(" ")[2] for name in self._open]
+        return [topic for _, topic in self._open]
 
     @property
     def oldest_s(self) -> float:
@@ -184,23 +178,10 @@ class SensorFeed(QObject):
         """When the newest sample was measured; minus infinity when there is none."""
         return max((stream.last_s for stream in self.streams.values()), default=-float("inf"))
 
-    def watch(self, watcher: QObject) -> None:
-        """Hear what is plotted, until ``unwatch`` or the end of who watches."""
-        key = id(watcher)
-        if key not in self._watchers:
-            self._watchers[key] = _Watcher(self, key)
-            watcher.destroyed.connect(self._watchers[key].leave)
-            self._fit_taps()
-
-    def unwatch(self, watcher: QObject) -> None:
-        """This one does not look any more."""
-        self.forget(id(watcher))
-
-    def forget(self, key: int) -> None:
-        """The watcher with this number does not look any more."""
-        if (gone := self._watchers.pop(key, None)) is not None:
-            gone.deleteLater()
-            self._fit_taps()
+    def watch(self, is_watched: bool) -> None:
+        """Hear what is plotted, or not any more."""
+        self._is_watched = is_watched
+        self._fit_taps()
 
     def record(self, is_recorded: bool) -> None:
         """Hear sensors whether somebody looks or not."""
@@ -232,15 +213,14 @@ class SensorFeed(QObject):
 
     def hear_imu(self, batch: Sequence[Heard]) -> None:
         """Take batches of sensors."""
-        pairs = [(heard.message, _moment(heard), heard.sender) for heard in batch]
-        for message, arrived_s, sender in pairs:
-            stream = self._stream(imu_key(message, sender))
+        for heard in batch:
+            stream = self._stream(imu_key(heard.message, heard.sender))
             if isinstance(stream, ImuStream):
                 had_rotation = stream.has_rotation
-                stream.hear(message, arrived_s)
+                stream.hear(heard.message, _moment(heard))
                 self._has_changed |= stream.has_rotation != had_rotation
         self._tell_change()
-        self.imu_heard.emit([(message, arrived_s) for message, arrived_s, _ in pairs])
+        self.imu_heard.emit([heard.message for heard in batch])
 
     def hear_marks(self, batch: Sequence[Heard]) -> None:
         """Take what persons did."""
@@ -253,9 +233,8 @@ class SensorFeed(QObject):
             for path in [field.path for field in self.fields if field.topic == topic]:
                 # The robot that a message tells of, else the node that sent it
                 robot = heard.message.get("robot") if isinstance(heard.message, dict) else None
-                stream = self._stream(
-                    StreamKey(topic, robot if isinstance(robot, str) else heard.sender, path)
-                )
+                sender = robot if isinstance(robot, str) else heard.sender
+                stream = self._stream(StreamKey(topic, sender, path))
                 if isinstance(stream, FieldStream):
                     stream.hear(heard.message, _moment(heard))
         self._tell_change()
@@ -282,16 +261,15 @@ class SensorFeed(QObject):
 
     def _fit_taps(self) -> None:
         """Open what is to be heard, close the rest."""
-        wanted: dict[str, str] = {}
-        if self._watchers or self._is_recorded:
-            wanted[f"sensors {IMU}"] = IMU
-        if self._watchers:
-            wanted[f"marks {HUMAN_BEHAVIOR}"] = HUMAN_BEHAVIOR
-            wanted |= {f"fields {field.topic}": field.topic for field in self.fields}
-        for name in self._open.keys() - wanted.keys():
-            self._open.pop(name).close()
-        for name in wanted.keys() - self._open.keys():
-            self._open[name] = self._tap(name.partition(" ")[0], wanted[name])
+        wanted: set[tuple[str, str]] = set()
+        if self._is_watched or self._is_recorded:
+            wanted.add(("sensors", IMU))
+        if self._is_watched:
+            wanted |= {("marks", HUMAN_BEHAVIOR), *(("fields", one.topic) for one in self.fields)}
+        for key in self._open.keys() - wanted:
+            self._open.pop(key).close()
+        for what, topic in wanted - self._open.keys():
+            self._open[what, topic] = self._tap(what, topic)
 
     def _tap(self, what: str, topic: str) -> Tap:
         kinds: dict[str, type[Any] | None] = {"sensors": Imu, "marks": HumanBehavior}
@@ -303,18 +281,6 @@ class SensorFeed(QObject):
         else:
             tap.arrived.connect(lambda batch: self.hear_field(topic, batch))
         return tap
-
-
-class _Watcher(QObject):
-    """Somebody who looks at a feed; it goes with the feed, and is not called after that."""
-
-    def __init__(self, feed: SensorFeed, key: int) -> None:
-        super().__init__(feed)
-        self._feed, self._key = feed, key
-
-    def leave(self) -> None:
-        """Look no more."""
-        self._feed.forget(self._key)
 
 
 def _moment(heard: Heard) -> float:

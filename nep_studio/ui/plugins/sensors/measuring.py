@@ -147,10 +147,7 @@ class TimeView:
 
 def fitting_length(seconds: float) -> float:
     """The length that shows so many seconds; it grows in steps, not with every sample."""
-    for length in _FITTING_S:
-        if seconds <= length:
-            return length
-    length = _FITTING_S[-1]
+    length = next((one for one in _FITTING_S if seconds <= one), _FITTING_S[-1])
     while length < min(seconds, LONGEST_S):
         length *= 1.5
     return min(length, LONGEST_S)

@@ -54,8 +54,8 @@ class Plots(QWidget):
     rows_changed = Signal()
     cursors_changed = Signal()
 
-    def __init__(self, feed: SensorFeed, look: Look, parent: QWidget | None = None) -> None:
-        super().__init__(parent)
+    def __init__(self, feed: SensorFeed, look: Look) -> None:
+        super().__init__()
         self.feed, self.look = feed, look
         self.view = TimeView()
         self.is_fit = False
@@ -75,7 +75,7 @@ class Plots(QWidget):
         self._timer = QTimer(self, timerType=Qt.TimerType.PreciseTimer)
         self._timer.timeout.connect(self.draw)
         feed.streams_changed.connect(self._on_streams_changed)
-        look.theme_changed.connect(self._on_theme_changed)
+        look.theme_changed.connect(self._dress)
         self._fit_rows()
         follow_words(self, self._say)
 
@@ -140,9 +140,7 @@ class Plots(QWidget):
         for row in self.rows:
             row.is_fitting = True
         oldest_s = min((float(one.t[0]) for one in self._shown_samples()), default=self.now_s)
-        end_s = self.view.end(self.now_s)
-        if not self.view.is_live:
-            end_s = self._zero_s
+        end_s = self.now_s if self.view.is_live else self._zero_s
         length_s = fitting_length(max(1.0, end_s - oldest_s))
         view = TimeView(length_s, None if self.view.is_live else end_s)
         self.set_view(view, is_fit=True)
@@ -181,14 +179,8 @@ class Plots(QWidget):
             row.show_time(length_s, offset_s)
             row.fit(pairs)
             frame = row.frame(start_s, length_s)
-            row.draw(
-                pairs,
-                frame,
-                marks,
-                self.cursors,
-                has_words=place == 0,
-                pixels=pixels if self.view.is_live else 0,
-            )
+            live = pixels if self.view.is_live else 0
+            row.draw(pairs, frame, marks, self.cursors, has_words=place == 0, pixels=live)
         self._set_pace()
 
     def _pairs(
@@ -207,7 +199,7 @@ class Plots(QWidget):
 
     def _columns(self, key: StreamKey, width_s: float) -> Columns:
         if key in self._frozen:
-            return columns_of(self._frozen[key].around(*self.shown_s), width_s)
+            return columns_of(self._frozen[key].between(*self.shown_s, more=1), width_s)
         if not self.view.is_live:  # it came after the picture was paused
             return columns_of(Samples.none(len(self.feed.streams[key].channels)), width_s)
         live = self._live.get(key)
@@ -234,15 +226,15 @@ class Plots(QWidget):
         for row in self.rows:
             row.view.deleteLater()
         self.canvas.clear()
-        last = len(wanted) - 1
-        self.rows = [self._plot_row(row, at, at == last) for at, row in enumerate(wanted)]
+        self.rows = [self._plot_row(row, at, len(wanted)) for at, row in enumerate(wanted)]
         self._live = {key: one for key, one in self._live.items() if key in self.feed.streams}
         self._dress()
         self.rows_changed.emit()
 
-    def _plot_row(self, row: Row, place: int, is_last: bool) -> PlotRow:
-        view = CurvesView(self.canvas.viewport())
-        return PlotRow(row, new_plot(self.canvas, place), view, is_last=is_last)
+    def _plot_row(self, row: Row, place: int, count: int) -> PlotRow:
+        box = pyqtgraph.ViewBox(enableMenu=False)
+        plot = self.canvas.addPlot(row=place, col=0, viewBox=box)
+        return PlotRow(row, plot, CurvesView(self.canvas.viewport()), is_last=place == count - 1)
 
     def _dress(self) -> None:
         theme = self.look.theme
@@ -295,9 +287,6 @@ class Plots(QWidget):
     def _on_streams_changed(self) -> None:
         self._fit_rows()
         self._set_pace()
-
-    def _on_theme_changed(self) -> None:
-        self._dress()
 
     def _say(self) -> None:
         """Take the titles of the rows, which stay, in other words."""
@@ -378,15 +367,11 @@ class PlotRow:
         """Show all values of the curves, unless a person zoomed."""
         if not self.is_fitting:
             return
-        ends = [
-            (np.fmin.reduce(one.low[at]), np.fmax.reduce(one.high[at]))
-            for curve, one in columns
-            if len(one.number)
-            for at in (curve.key.channel,)
-        ]
-        if ends:
-            lows, highs = zip(*ends, strict=True)
-            self.set_values(self.values.fitted(float(np.fmin.reduce(lows)), np.fmax.reduce(highs)))
+        there = [(one, curve.key.channel) for curve, one in columns if len(one.number)]
+        if there:
+            low = np.fmin.reduce([np.fmin.reduce(one.low[at]) for one, at in there])
+            high = np.fmax.reduce([np.fmax.reduce(one.high[at]) for one, at in there])
+            self.set_values(self.values.fitted(float(low), float(high)))
 
     def set_values(self, values: ValueRange) -> None:
         """Show these values."""
@@ -428,13 +413,9 @@ class PlotRow:
                 [zero_s + tick for tick in self._ticks_of(self._bottom)],
                 self._ticks_of(self._left),
                 has_words,
-                self._title(),
+                self.row.heading,
             )
         )
-
-    def _title(self) -> str:
-        unit = f" ({self.row.unit})" if self.row.unit else ""
-        return f"{self.row.title}{unit}"
 
     def _ticks_of(self, axis: Any) -> list[float]:
         """Where an axis has its numbers."""
@@ -463,8 +444,3 @@ def new_canvas() -> Any:
     for part in (canvas, canvas.ci):  # time goes to the right in every language
         part.setLayoutDirection(Qt.LayoutDirection.LeftToRight)
     return canvas
-
-
-def new_plot(layout: Any, place: int) -> Any:
-    """Make a plot in a layout of pyqtgraph."""
-    return layout.addPlot(row=place, col=0, viewBox=pyqtgraph.ViewBox(enableMenu=False))

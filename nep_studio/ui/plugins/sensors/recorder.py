@@ -8,29 +8,22 @@ import os
 import queue
 import threading
 import time
+from itertools import count
 from pathlib import Path
 
 from PySide6.QtCore import QObject, QTimer, Signal
-from PySide6.QtGui import QColor
-from PySide6.QtWidgets import (
-    QCheckBox,
-    QComboBox,
-    QHBoxLayout,
-    QLabel,
-    QPushButton,
-    QToolButton,
-    QWidget,
-)
+from PySide6.QtWidgets import QCheckBox, QComboBox, QLabel, QPushButton, QToolButton, QWidget
 
 from faults import reason_of
 from nep_core.errors import RecordingError
 from nep_core.wire.messages import Imu
 from nep_studio.run.node_board import NodeStatus
 from nep_studio.run.plan import REPLAY, PlannedNode
-from nep_studio.ui.labels import follow_words, labelled
+from nep_studio.ui.labels import explained, follow_words, labelled
 from nep_studio.ui.theme.icons import icon, icon_pixmap
 from nep_studio.ui.theme.look import Look
 from nep_studio.ui.widgets.forms import ElidedLabel
+from nep_studio.ui.widgets.layouts import in_row
 from nep_studio.ui.words import tr
 from nodes.recordings import MAX_SAMPLES
 
@@ -139,10 +132,8 @@ class Recording:
 
     def add(self, batch: Imu) -> None:
         """Write a batch; one whose rows do not fit its times is left out."""
-        count = len(batch.t)
-        if not (
-            count > 0 and len(batch.acc) == count and (batch.gyr is None or len(batch.gyr) == count)
-        ):
+        columns = (batch.acc,) if batch.gyr is None else (batch.acc, batch.gyr)
+        if not batch.t or any(len(one) != len(batch.t) for one in columns):
             return
         try:
             part = self._part(batch)
@@ -181,14 +172,9 @@ class Recording:
         return made
 
     def _free_path(self) -> Path:
-        number = len(self.paths) + 1
-        while True:
-            path = self.folder / (
-                f"{self.stem}.csv" if number == 1 else f"{self.stem}_{number}.csv"
-            )
-            if not path.exists():
-                return path
-            number += 1
+        numbers = count(len(self.paths) + 1)
+        names = (f"{self.stem}.csv" if n == 1 else f"{self.stem}_{n}.csv" for n in numbers)
+        return next(self.folder / name for name in names if not (self.folder / name).exists())
 
 
 def _kind(batch: Imu) -> tuple[bool, bool, bool]:
@@ -306,10 +292,8 @@ class Recorder(QObject):
     def _lost_until_now(self) -> int:
         return sum(one.lost for one in self._feed.streams.values() if isinstance(one, ImuStream))
 
-    def _on_imu_heard(self, pairs: list[tuple[Imu, float]]) -> None:
-        if not self.is_recording:
-            return
-        for message, _ in pairs:
+    def _on_imu_heard(self, batch: list[Imu]) -> None:
+        for message in batch if self.is_recording else ():
             try:
                 self._waiting.put_nowait(message)
             except queue.Full:
@@ -345,17 +329,15 @@ _REFRESH_MS = 500
 class RecordBar(QWidget):
     """Is there while something is recorded."""
 
-    def __init__(self, recorder: Recorder, look: Look, parent: QWidget | None = None) -> None:
-        super().__init__(parent)
+    def __init__(self, recorder: Recorder, look: Look) -> None:
+        super().__init__()
         self._recorder, self._look = recorder, look
         self._sign = QLabel()
         self.words = ElidedLabel()
         self.stop_button = labelled(QPushButton(), text="Stop recording")
         self.stop_button.setProperty("kind", "stop")
-        row = QHBoxLayout(self)
-        row.setContentsMargins(*[self.fontMetrics().height() // 4] * 4)
-        for widget, stretch in ((self._sign, 0), (self.words, 1), (self.stop_button, 0)):
-            row.addWidget(widget, stretch)
+        room = self.fontMetrics().height() // 4
+        in_row(self._sign, (self.words, 1), self.stop_button, of=self, margins=room)
         self.stop_button.clicked.connect(recorder.stop)
         self._timer = QTimer(self, interval=_REFRESH_MS)
         self._timer.timeout.connect(self.refresh)
@@ -379,19 +361,16 @@ class RecordBar(QWidget):
         self.words.set_words("  ·  ".join(parts))
 
     def _on_changed(self) -> None:
-        is_recording = self._recorder.is_recording
-        self.setVisible(is_recording)
-        if is_recording:
+        self.setVisible(self._recorder.is_recording)
+        if self._recorder.is_recording:
             self._timer.start()
         else:
             self._timer.stop()
         self.refresh()
 
     def _dress(self) -> None:
-        colour = QColor(self._look.theme.colour("stop"))
-        size = self.fontMetrics().height()
-        ratio = self.devicePixelRatioF()
-        self._sign.setPixmap(icon_pixmap("circle-dot", colour, size, ratio))
+        colour, size = self._look.theme.colour("stop"), self.fontMetrics().height()
+        self._sign.setPixmap(icon_pixmap("circle-dot", colour, size, self.devicePixelRatioF()))
 
 
 def _size(size_bytes: int) -> str:
@@ -418,26 +397,21 @@ class ReplayBar(QWidget):
     start_asked = Signal(object)
     stop_asked = Signal()
 
-    def __init__(self, look: Look, parent: QWidget | None = None) -> None:
-        super().__init__(parent)
+    def __init__(self, look: Look) -> None:
+        super().__init__()
         self._look = look
         self.path: Path | None = None
         self.is_playing = self._has_begun = False
         self.words = ElidedLabel()
-        self.speed = QComboBox()
-        labelled(self.speed, name="Speed", tip="Speed")
+        self.speed = explained(QComboBox(), "Speed")
         for speed in _SPEEDS:
             self.speed.addItem(f"{speed:g} {_TIMES}", speed)
         self.speed.setCurrentIndex(_SPEEDS.index(1.0))
         self.again = labelled(QCheckBox(), text="Again and again")
         self.button = QPushButton()
-        self.close_button = QToolButton()
-        labelled(self.close_button, tip="Close", name="Close")
-        row = QHBoxLayout(self)
-        row.setContentsMargins(*[self.fontMetrics().height() // 4] * 4)
-        row.addWidget(self.words, 1)
-        for widget in (self.speed, self.again, self.button, self.close_button):
-            row.addWidget(widget)
+        self.close_button = explained(QToolButton(), "Close")
+        chosen = (self.speed, self.again, self.button, self.close_button)
+        in_row((self.words, 1), *chosen, of=self, margins=self.fontMetrics().height() // 4)
         self.button.clicked.connect(self.toggle)
         self.close_button.clicked.connect(self._on_close)
         self.speed.currentIndexChanged.connect(self._on_speed_changed)

@@ -36,17 +36,11 @@ class Samples:
     t: Floats
     values: Floats
 
-    def between(self, start_s: float, end_s: float) -> Samples:
-        """The samples from a time to another, both included."""
+    def between(self, start_s: float, end_s: float, *, more: int = 0) -> Samples:
+        """The samples from a time to another, both included, and so many more on each side."""
         first = int(np.searchsorted(self.t, start_s, side="left"))
         last = int(np.searchsorted(self.t, end_s, side="right"))
-        return Samples(self.t[first:last], self.values[:, first:last])
-
-    def around(self, start_s: float, end_s: float) -> Samples:
-        """The same, and one sample more on each side, so that lines go on to the edges."""
-        first = int(np.searchsorted(self.t, start_s, side="left"))
-        last = int(np.searchsorted(self.t, end_s, side="right"))
-        window = slice(max(0, first - 1), last + 1)
+        window = slice(max(0, first - more), last + more)
         return Samples(self.t[window], self.values[:, window])
 
     @staticmethod
@@ -251,6 +245,5 @@ def _rising(message: Imu) -> tuple[Floats, Floats]:
         return np.empty(0), np.empty((8, 0))
     latest = np.concatenate([[-np.inf], np.maximum.accumulate(t)[:-1]])
     kept = np.isfinite(t) & (t > latest)
-    magnitudes = [np.linalg.norm(acc, axis=1), np.linalg.norm(gyr, axis=1)]
-    values = np.vstack([acc.T, magnitudes[0], gyr.T, magnitudes[1]])
+    values = np.vstack([acc.T, np.linalg.norm(acc, axis=1), gyr.T, np.linalg.norm(gyr, axis=1)])
     return t[kept], values[:, kept]

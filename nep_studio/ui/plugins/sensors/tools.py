@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import partial
 from typing import cast
 
 from PySide6.QtCore import QEvent, QObject, QSize, Qt
 from PySide6.QtGui import QAction, QActionGroup, QKeyEvent, QMouseEvent, QWheelEvent
-from PySide6.QtWidgets import QMenu, QToolBar, QToolButton, QWidget
+from PySide6.QtWidgets import QMenu, QToolBar, QToolButton
 
 from faults import Words, text_of
 from nep_studio.ui.labels import explained, labelled
@@ -117,9 +118,8 @@ class Hand(QObject):
         elif seconds:
             self._plots.move_time(-seconds)
         if self._held is None and not row.is_fitting:
-            row.set_values(
-                row.values.moved((y - self._at[1]) / row.view.height() * row.values.height)
-            )
+            share = (y - self._at[1]) / row.view.height()
+            row.set_values(row.values.moved(share * row.values.height))
             self._plots.draw()
         self._at = (x, y)
 
@@ -186,15 +186,8 @@ _PAGE = 0.5
 class Tools(QToolBar):
     """What can be done with the plots; each action says its keys in its tool tip."""
 
-    def __init__(
-        self,
-        plots: Plots,
-        hand: Hand,
-        recorder: Recorder,
-        look: Look,
-        parent: QWidget | None = None,
-    ) -> None:
-        super().__init__(parent)
+    def __init__(self, plots: Plots, hand: Hand, recorder: Recorder, look: Look) -> None:
+        super().__init__()
         self._plots, self._look, self._recorder = plots, look, recorder
         self._icons: dict[QAction, str] = {}
         self.by_name: dict[str, QAction] = {}
@@ -223,7 +216,7 @@ class Tools(QToolBar):
         recorder.started.connect(self.refresh)
         recorder.stopped.connect(self.refresh)
         look.theme_changed.connect(self._dress)
-        self._dress()
+        self.refresh()
 
     def refresh(self) -> None:
         """Say what the plots do now, and what can be done."""
@@ -240,9 +233,9 @@ class Tools(QToolBar):
         self.by_name["fit"].setChecked(plots.is_fit)
         self.by_name["measure"].setChecked(bool(plots.cursors))
         self.by_name["record"].setEnabled(not self._recorder.is_recording)
-        for name in ("pause", "measure", "zoom_in", "zoom_out", "earlier", "later", "fit"):
+        views = ("zoom_in", "zoom_out", "earlier", "later", "fit")
+        for name in ("pause", "measure", *views, "export"):
             self.by_name[name].setEnabled(bool(plots.rows))
-        self.by_name["export"].setEnabled(bool(plots.rows))
         self._dress()
 
     def _add_time(self) -> None:
@@ -251,11 +244,11 @@ class Tools(QToolBar):
         group = QActionGroup(self)
         group.setExclusionPolicy(QActionGroup.ExclusionPolicy.ExclusiveOptional)
         for length_s in LENGTHS_S:
-            show, seconds = self._show_length(length_s), f"{length_s:g}"
+            seconds = f"{length_s:g}"
             action = self._add(
                 f"length_{seconds}",
                 "",
-                show,
+                partial(self._show_length, length_s),
                 words=text_of("{seconds} s", seconds=seconds),
                 tip=text_of("Show {seconds} seconds", seconds=seconds),
                 is_checkable=True,
@@ -271,9 +264,8 @@ class Tools(QToolBar):
         )
         group.addAction(fit)
 
-    def _show_length(self, length_s: float) -> Callable[[], None]:
-        plots = self._plots
-        return lambda: plots.set_view(plots.view.with_length(length_s))
+    def _show_length(self, length_s: float) -> None:
+        self._plots.set_view(self._plots.view.with_length(length_s))
 
     def _add_keeping(self) -> None:
         self.addSeparator()
@@ -308,11 +300,9 @@ class Tools(QToolBar):
         self.addAction(action)
         button = self.widgetForAction(action)
         if isinstance(button, QToolButton):
-            has_icon = bool(icon_name)
-            style = Qt.ToolButtonStyle.ToolButtonIconOnly
-            if has_words or not has_icon:
-                style = Qt.ToolButtonStyle.ToolButtonTextBesideIcon
-            button.setToolButtonStyle(style)
+            beside = Qt.ToolButtonStyle.ToolButtonTextBesideIcon
+            alone = Qt.ToolButtonStyle.ToolButtonIconOnly
+            button.setToolButtonStyle(beside if has_words or not icon_name else alone)
             button.setFocusPolicy(Qt.FocusPolicy.TabFocus)
             labelled(button, name=words)
         return action

@@ -9,15 +9,7 @@ from pathlib import Path
 import numpy as np
 from PySide6.QtCore import QPoint, Qt, QUrl, Signal
 from PySide6.QtGui import QDesktopServices, QHideEvent, QPixmap, QResizeEvent, QShowEvent
-from PySide6.QtWidgets import (
-    QLabel,
-    QPushButton,
-    QScrollArea,
-    QSplitter,
-    QStackedWidget,
-    QVBoxLayout,
-    QWidget,
-)
+from PySide6.QtWidgets import QLabel, QPushButton, QScrollArea, QSplitter, QStackedWidget, QWidget
 
 from nep_core.errors import NepError, RecordingError
 from nep_core.places import whole_file
@@ -28,6 +20,7 @@ from nep_studio.ui.messages import Answer, Messages
 from nep_studio.ui.network_feed import NetworkFeed
 from nep_studio.ui.running.runner import Runner
 from nep_studio.ui.theme.look import Look
+from nep_studio.ui.widgets.forms import hint
 from nep_studio.ui.widgets.layouts import in_column, in_row
 from nep_studio.ui.widgets.questions import ask_for_path
 from nep_studio.ui.words import count_words, tr
@@ -72,7 +65,7 @@ def export_csv(path: Path, plots: Plots) -> list[Path]:
     return written
 
 
-def export_picture(path: Path, widget: QWidget) -> None:
+def export_picture(path: Path, widget: QWidget) -> list[Path]:
     """Write a picture of the plots, twice as sharp as a usual screen; raises RecordingError."""
     ratio = max(_SHARPNESS, widget.devicePixelRatioF())
     pixmap = QPixmap(widget.size() * ratio)
@@ -82,6 +75,7 @@ def export_picture(path: Path, widget: QWidget) -> None:
         raise RecordingError(
             "The picture {path} cannot be written.", checklist=MAY_WRITE, path=path
         )
+    return [path]
 
 
 def _write(path: Path, plots: Plots, key: StreamKey, samples: Samples) -> None:
@@ -89,17 +83,16 @@ def _write(path: Path, plots: Plots, key: StreamKey, samples: Samples) -> None:
     if key.path:
         _write_numbers(path, plots.curves[CurveKey(key, 0)], samples)
         return
-    is_imu = isinstance(stream, ImuStream)
-    values = samples.values
-    has_rotation = bool(np.isfinite(values[4:7]).all())
+    sensor = stream if isinstance(stream, ImuStream) else None
+    acc, gyr = samples.values[:3].T, samples.values[4:7].T
     recording = Recording(
         source=key.sender,
         t=samples.t - samples.t[0],
-        acc=values[:3].T,
-        gyr=values[4:7].T if has_rotation else None,
+        acc=acc,
+        gyr=gyr if np.isfinite(gyr).all() else None,
         labels=None,
-        gravity_included=stream.gravity_included if isinstance(stream, ImuStream) else True,
-        simulated=stream.simulated if is_imu and isinstance(stream, ImuStream) else False,
+        gravity_included=sensor is None or sensor.gravity_included,
+        simulated=sensor is not None and sensor.simulated,
     )
     write_recording(path, recording)
 
@@ -119,32 +112,6 @@ def _named(path: Path, number: int) -> Path:
     return path if number == 0 else path.with_name(f"{path.stem}_{number + 1}{path.suffix}")
 
 
-# Asks for files: recordings to play, places for what is exported.
-
-OnChosen = Callable[[Path], object]
-
-
-class SensorFiles:
-    """Asks with the system's dialogs; nothing is called when the person thinks better of it."""
-
-    def choose_recording(self, parent: QWidget, folder: Path, on_chosen: OnChosen) -> None:
-        """Ask which recording to play."""
-        kinds = (tr("Recordings (*.csv)"), tr("All files (*)"))
-        ask_for_path(parent, tr("Replay a recording"), folder, on_chosen, kinds=kinds)
-
-    def choose_place(
-        self, parent: QWidget, suggested: Path, kind: str, on_chosen: OnChosen
-    ) -> None:
-        """Ask where a file is to be kept; ``kind`` says in words what it is."""
-        kinds = (f"{kind} (*{suggested.suffix})", tr("All files (*)"))
-        ask_for_path(parent, tr("Export"), suggested, on_chosen, "save", kinds)
-
-    def choose_folder(self, parent: QWidget, folder: Path, on_chosen: OnChosen) -> None:
-        """Ask for the folder of recordings."""
-        title = tr("Choose a folder for recordings")
-        ask_for_path(parent, title, folder, on_chosen, "folder")
-
-
 # What the panel says while nothing is measured: what belongs there, and the first steps.
 
 _WIDEST_LINES = 30
@@ -157,30 +124,24 @@ class EmptyPage(QScrollArea):
     replay_asked = Signal()
     choose_asked = Signal()
 
-    def __init__(self, parent: QWidget | None = None) -> None:
-        super().__init__(parent)
+    def __init__(self) -> None:
+        super().__init__()
         self.setWidgetResizable(True)
-        inside = QWidget()
-        box = in_column(1, of=inside)
-        title = labelled(QLabel(), text="What sensors measure is drawn here as curves.")
+        inside, middle = QWidget(), Qt.AlignmentFlag.AlignCenter
+        title = QLabel(wordWrap=True, alignment=middle)
+        labelled(title, text="What sensors measure is drawn here as curves.")
         title.setProperty("role", "heading")
-        hint = labelled(
-            QLabel(),
-            text="Start a simulated watch, play a recording, or connect a watch or phone: "
-            "its curves appear by themselves. You can also choose any number that a node sends.",
+        told = hint(
+            "Start a simulated watch, play a recording, or connect a watch or phone: "
+            "its curves appear by themselves. You can also choose any number that a node sends."
         )
-        hint.setProperty("role", "hint")
-        for label in (title, hint):
-            label.setWordWrap(True)
-            label.setAlignment(Qt.AlignmentFlag.AlignCenter)
-            box.addWidget(label)
+        told.setAlignment(middle)
         self.watch_button = labelled(QPushButton(), text="Start the virtual watch")
         self.watch_button.setProperty("kind", "primary")
         self.replay_button = labelled(QPushButton(), text="Replay a recording…")
         self.choose_button = labelled(QPushButton(), text="Choose numbers…")
         row = in_row(1, self.watch_button, self.replay_button, self.choose_button, 1)
-        box.addLayout(row)
-        box.addStretch(1)
+        in_column(1, title, told, row, 1, of=inside)
         self.setWidget(inside)
         self.watch_button.clicked.connect(self.watch_asked)
         self.replay_button.clicked.connect(self.replay_asked)
@@ -211,12 +172,11 @@ class Workspace(QWidget):
         messages: Messages,
         look: Look,
         folder: Callable[[], Path],
-        files: SensorFiles | None = None,
     ) -> None:
         super().__init__()
         self.feed, self.recorder = feed, recorder
         self._runner, self._messages, self._network = runner, messages, network
-        self._folder, self._files = folder, files or SensorFiles()
+        self._folder = folder
         self.plots = Plots(feed, look)
         self.hand = Hand(self.plots)
         self.tools = Tools(self.plots, self.hand, recorder, look)
@@ -224,7 +184,7 @@ class Workspace(QWidget):
         self.record_bar = RecordBar(recorder, look)
         self.replay_bar = ReplayBar(look)
         self.empty = EmptyPage()
-        self.measured = QLabel()
+        self.measured = QLabel(wordWrap=True)
         self.measured.hide()
         self.chooser: FieldChooser | None = None
         self._lay_out()
@@ -235,7 +195,6 @@ class Workspace(QWidget):
         side = QWidget()
         line = self.fontMetrics().height()
         self.measured.setContentsMargins(line // 2, line // 4, line // 2, line // 4)
-        self.measured.setWordWrap(True)
         in_column(self.measured, (self.list, 1), of=side, margins=0)
         self.split = QSplitter(Qt.Orientation.Horizontal, childrenCollapsible=False)
         self.split.addWidget(self.plots)
@@ -244,16 +203,12 @@ class Workspace(QWidget):
         self.pages = QStackedWidget()
         self.pages.addWidget(self.empty)
         self.pages.addWidget(self.split)
-        box = QVBoxLayout(self)
-        box.setContentsMargins(0, 0, 0, 0)
-        box.setSpacing(0)
-        for widget in (self.tools, self.record_bar, self.replay_bar):
-            box.addWidget(widget)
-        box.addWidget(self.pages, 1)
+        bars = (self.tools, self.record_bar, self.replay_bar)
+        in_column(*bars, (self.pages, 1), of=self, margins=0, spacing=0)
 
     def _connect(self) -> None:
         self.plots.rows_changed.connect(self._on_rows_changed)
-        self.plots.cursors_changed.connect(self._on_cursors_changed)
+        self.plots.cursors_changed.connect(self._share_room)
         self.list.measured.connect(self._on_measured)
         self.list.header().sectionCountChanged.connect(lambda *_: self._share_room())
         self.empty.watch_asked.connect(self.start_watch)
@@ -305,45 +260,39 @@ class Workspace(QWidget):
 
     def choose_recording(self) -> None:
         """Ask for a recording, and play it."""
-        self._files.choose_recording(self, self._folder(), self.replay_bar.choose)
+        kinds, title = (tr("Recordings (*.csv)"), tr("All files (*)")), tr("Replay a recording")
+        ask_for_path(self, title, self._folder(), self.replay_bar.choose, kinds=kinds)
 
     def _export(self, kind: str) -> None:
         name = time.strftime(f"sensors_%Y-%m-%d_%H-%M-%S.{kind}")
         words = tr("Numbers") if kind == "csv" else tr("Picture")
         keep = self.export_numbers if kind == "csv" else self.export_picture
-        self._files.choose_place(self, self._folder() / name, words, keep)
+        kinds = (f"{words} (*.{kind})", tr("All files (*)"))
+        ask_for_path(self, tr("Export"), self._folder() / name, keep, "save", kinds)
 
     def export_numbers(self, path: Path) -> None:
         """Keep the numbers of the time that is shown."""
-        try:
-            paths = export_csv(path, self.plots)
-        except RecordingError as error:
-            self._messages.tell_error(error)
-            return
-        self._messages.confirm(_kept(paths), self._show_folder(path.parent))
+        self._keep(lambda: export_csv(path, self.plots))
 
     def export_picture(self, path: Path) -> None:
         """Keep a picture of the plots and of the list of curves."""
+        self._keep(lambda: export_picture(path, self.split))
+
+    def _keep(self, write: Callable[[], list[Path]]) -> None:
         try:
-            export_picture(path, self.split)
+            paths = write()
         except RecordingError as error:
             self._messages.tell_error(error)
             return
-        self._messages.confirm(_kept([path]), self._show_folder(path.parent))
+        self._messages.confirm(_kept(paths), self._show_folder(paths[0].parent))
 
     # What happens
 
     def _on_rows_changed(self) -> None:
-        has_rows = bool(self.plots.rows)
-        self.pages.setCurrentIndex(1 if has_rows else 0)
-        self.tools.refresh()
-        if has_rows:
+        self.pages.setCurrentIndex(1 if self.plots.rows else 0)
+        if self.plots.rows:
             self.empty.show_starting(False)
             self._share_room()
-
-    def _on_cursors_changed(self) -> None:
-        self.tools.refresh()
-        self._share_room()
 
     def _share_room(self) -> None:
         """Give the list what it needs, as long as the plots keep the larger part."""
@@ -371,7 +320,8 @@ class Workspace(QWidget):
         self._messages.tell_error(error, answer)
 
     def _choose_folder(self) -> None:
-        self._files.choose_folder(self, self._folder(), self.record)
+        title = tr("Choose a folder for recordings")
+        ask_for_path(self, title, self._folder(), self.record, "folder")
 
     def _on_recording_stopped(self, paths: list[Path]) -> None:
         if not paths:
@@ -392,12 +342,12 @@ class Workspace(QWidget):
     def showEvent(self, event: QShowEvent) -> None:
         """Hear what is plotted."""
         super().showEvent(event)
-        self.feed.watch(self)
+        self.feed.watch(True)
 
     def hideEvent(self, event: QHideEvent) -> None:
         """Hear nothing while nobody looks."""
         super().hideEvent(event)
-        self.feed.unwatch(self)
+        self.feed.watch(False)
 
 
 def _kept(paths: list[Path]) -> str:

@@ -9,13 +9,7 @@ from PySide6.QtCore import QObject
 
 from nep_studio.blocks.deployment import names_used, node_entries
 from nep_studio.blocks.errors import EditRefused
-from nep_studio.blocks.operations.fixes import (
-    USUAL_NAME,
-    WATCH,
-    free_name,
-    use_watch,
-    watch_entry,
-)
+from nep_studio.blocks.operations.fixes import USUAL_NAME, WATCH, free_name, use_watch, watch_entry
 from nep_studio.blocks.own_gestures import own_gestures
 from nep_studio.run.plan import VIRTUAL_WATCH, PlannedNode, with_takes
 from nep_studio.ui.host import Host, NewAction, Parts, Plugin

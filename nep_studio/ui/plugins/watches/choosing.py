@@ -6,21 +6,19 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from PySide6.QtCore import QSize, Qt, Signal
+from PySide6.QtCore import QSignalBlocker, QSize, Qt, Signal
 from PySide6.QtGui import QKeyEvent
 from PySide6.QtWidgets import (
     QButtonGroup,
     QCheckBox,
     QComboBox,
     QFormLayout,
-    QHBoxLayout,
     QLabel,
     QLineEdit,
     QPushButton,
     QRadioButton,
     QSizePolicy,
     QSpinBox,
-    QVBoxLayout,
     QWidget,
 )
 
@@ -28,7 +26,7 @@ from nep_studio.run.plan import Setting
 from nep_studio.ui.theme.icons import icon
 from nep_studio.ui.theme.look import Look
 from nep_studio.ui.widgets.forms import column_in, hint, label_of, labelled, quiet_button
-from nep_studio.ui.widgets.layouts import Flow, in_column
+from nep_studio.ui.widgets.layouts import Flow, in_column, in_row
 from nep_studio.ui.widgets.questions import ask_for_path
 from nep_studio.ui.words import is_right_to_left, tr
 
@@ -47,8 +45,8 @@ class Entry(QLineEdit):
 
     written = Signal()
 
-    def __init__(self, text: str = "", parent: QWidget | None = None) -> None:
-        super().__init__(text, parent)
+    def __init__(self, text: str = "") -> None:
+        super().__init__(text)
         self.editingFinished.connect(self._on_finished)
 
     def _on_finished(self) -> None:
@@ -62,8 +60,8 @@ class NetworkQuestion(QWidget):
 
     changed = Signal()
 
-    def __init__(self, addresses: Sequence[str], parent: QWidget | None = None) -> None:
-        super().__init__(parent)
+    def __init__(self, addresses: Sequence[str]) -> None:
+        super().__init__()
         self.switch = QCheckBox(tr("Let this network in"))
         self.addresses = QComboBox()
         self.told = hint(
@@ -77,10 +75,8 @@ class NetworkQuestion(QWidget):
         )
         self.again = quiet_button(tr("Look again"))
         self.choice = labelled(tr("This computer is"), self.addresses)
-        box = column_in(self)
-        for widget in (self.switch, self.told, self.choice, self.missing, self.again):
-            box.addWidget(widget)
-        box.setAlignment(self.again, Qt.AlignmentFlag.AlignLeading)
+        again = (self.again, 0, Qt.AlignmentFlag.AlignLeading)
+        column_in(self, self.switch, self.told, self.choice, self.missing, again)
         self.show_addresses(addresses)
         self.switch.toggled.connect(self.changed)
         self.addresses.currentIndexChanged.connect(self.changed)
@@ -88,11 +84,10 @@ class NetworkQuestion(QWidget):
     def show_addresses(self, addresses: Sequence[str]) -> None:
         """Offer these; the first is the most likely one."""
         chosen = self.address
-        self.addresses.blockSignals(True)
-        self.addresses.clear()
-        self.addresses.addItems(list(addresses))
-        self.addresses.setCurrentText(chosen)
-        self.addresses.blockSignals(False)
+        with QSignalBlocker(self.addresses):
+            self.addresses.clear()
+            self.addresses.addItems(list(addresses))
+            self.addresses.setCurrentText(chosen)
         self.choice.setVisible(len(addresses) > 1)
         self.missing.setVisible(not addresses)
         self.again.setVisible(not addresses)
@@ -114,19 +109,18 @@ class WornQuestion(QWidget):
 
     changed = Signal()
 
-    def __init__(self, parent: QWidget | None = None) -> None:
-        super().__init__(parent)
+    def __init__(self) -> None:
+        super().__init__()
         words = {
             "left": tr("On the left wrist"),
             "right": tr("On the right wrist"),
             "hand": tr("In the hand"),
         }
         self._group = QButtonGroup(self)
-        flow = Flow(self, spacing=self.fontMetrics().height() // 2)
         self.buttons = {name: QRadioButton(said) for name, said in words.items()}
         for button in self.buttons.values():
             self._group.addButton(button)
-            flow.addWidget(button)
+        Flow(self, self.fontMetrics().height() // 2, self.buttons.values())
         policy = self.sizePolicy()
         policy.setHeightForWidth(True)
         self.setSizePolicy(policy)
@@ -149,14 +143,13 @@ class MoreSettings(QWidget):
 
     changed = Signal()
 
-    def __init__(self, connector: ConnectorKind, parent: QWidget | None = None) -> None:
-        super().__init__(parent)
+    def __init__(self, connector: ConnectorKind) -> None:
+        super().__init__()
         self._connector = connector
         self.toggle = QCheckBox(tr("More settings"))
-        self.port = QSpinBox()
-        self.port.setRange(1, LARGEST_PORT)
-        self.port.setValue(connector.port or 1)
+        self.port = QSpinBox(minimum=1, maximum=LARGEST_PORT)
         self.port.setKeyboardTracking(False)
+        self.port.setValue(connector.port or 1)
         self.columns = Entry()
         self.columns.setPlaceholderText("t,ax,ay,az,gx,gy,gz")
         self.columns.setLayoutDirection(Qt.LayoutDirection.LeftToRight)
@@ -184,11 +177,10 @@ class MoreSettings(QWidget):
             form.addRow(hint(words))
         if self._connector.asks_units:
             form.addRow(label_of(tr("How it counts"), self.units), self.units)
-        box = column_in(self)
-        box.addWidget(self.toggle)
-        box.addWidget(self.fields)
-        self.setVisible(form.rowCount() > 0)
+        column_in(self, self.toggle, self.fields)
         self.fields.hide()
+        if not form.rowCount():
+            self.hide()
 
     @property
     def settings(self) -> dict[str, Setting]:
@@ -223,10 +215,9 @@ def units_words() -> dict[str, str]:
 
 @dataclass(frozen=True)
 class Offer:
-    """A card: the way that it opens, its icon, what one has, and what is done with it."""
+    """A card: the way that it opens, what one has, and what is done with it."""
 
-    connector: str
-    icon: str
+    connector: ConnectorKind
     title: str
     sentence: str
 
@@ -235,38 +226,32 @@ def offers() -> list[Offer]:
     """All cards, the easiest first."""
     return [
         Offer(
-            PHONE_PAGE.name,
-            PHONE_PAGE.icon,
+            PHONE_PAGE,
             tr("A phone"),
             tr("Scan a code with its camera. Nothing is installed."),
         ),
         Offer(
-            APPS[0].name,
-            APPS[0].icon,
+            APPS[0],
             tr("A watch or phone with an app"),
             tr("Sensor Logger (also for Apple Watch and Wear OS), phyphox, SensorServer, others."),
         ),
         Offer(
-            PAPER_WATCH.name,
-            PAPER_WATCH.icon,
+            PAPER_WATCH,
             tr("The watch of the paper"),
             tr("An Android watch with NEP's own app of 2016."),
         ),
         Offer(
-            BLUETOOTH.name,
-            BLUETOOTH.icon,
+            BLUETOOTH,
             tr("A Bluetooth sensor"),
             tr("A micro:bit, a PineTime or another motion sensor."),
         ),
         Offer(
-            VIRTUAL.name,
-            VIRTUAL.icon,
+            VIRTUAL,
             tr("Nothing yet"),
             tr("A simulated person makes the gestures, so that all can be tried."),
         ),
         Offer(
-            RECORDING.name,
-            RECORDING.icon,
+            RECORDING,
             tr("A recording"),
             tr("A file of movements is played as if somebody moved now."),
         ),
@@ -276,31 +261,24 @@ def offers() -> list[Offer]:
 class OfferCard(QPushButton):
     """One thing that a person may have; the whole card is a button."""
 
-    def __init__(self, offer: Offer, look: Look, parent: QWidget | None = None) -> None:
-        super().__init__(parent)
-        self.offer = offer
-        self.setAutoDefault(False)
+    def __init__(self, offer: Offer, look: Look) -> None:
+        super().__init__(autoDefault=False)
         self.setAccessibleName(offer.title)
         self.setAccessibleDescription(offer.sentence)
         line = self.fontMetrics().height()
-        row = QHBoxLayout(self)
-        row.setContentsMargins(line * 2 // 3, line // 2, line * 2 // 3, line // 2)
-        row.setSpacing(line * 2 // 3)
+        wide, high = line * 2 // 3, line // 2
         self._look = look
         self._pictures: list[tuple[QLabel, str, int]] = []
-        row.addWidget(self._picture(offer.icon, round(line * 1.7)))
-        title, sentence = QLabel(offer.title), QLabel(offer.sentence)
+        title, sentence = QLabel(offer.title, wordWrap=True), QLabel(offer.sentence, wordWrap=True)
         title.setProperty("role", "heading")
         sentence.setProperty("role", "hint")
-        words = QVBoxLayout()
-        words.setSpacing(0)
         for label in (title, sentence):
-            label.setWordWrap(True)
             label.setAttribute(Qt.WidgetAttribute.WA_TransparentForMouseEvents)
-            words.addWidget(label)
-        row.addLayout(words, 1)
+        words = in_column(title, sentence, spacing=0)
+        before = self._picture(offer.connector.icon, round(line * 1.7))
         chevron = "chevron-left" if is_right_to_left() else "chevron-right"
-        row.addWidget(self._picture(chevron, round(line * 1.1)))
+        behind = self._picture(chevron, round(line * 1.1))
+        in_row(before, (words, 1), behind, of=self, margins=(wide, high, wide, high), spacing=wide)
         self.redraw()
         policy = QSizePolicy(QSizePolicy.Policy.Preferred, QSizePolicy.Policy.Preferred)
         policy.setHeightForWidth(True)
@@ -347,17 +325,16 @@ class ChoosingPage(QWidget):
 
     chosen = Signal(str)
 
-    def __init__(self, look: Look, parent: QWidget | None = None) -> None:
-        super().__init__(parent)
+    def __init__(self, look: Look) -> None:
+        super().__init__()
         line = self.fontMetrics().height()
         heading = QLabel(tr("What do you have?"), wordWrap=True)
         heading.setProperty("role", "title")
-        box = in_column(heading, of=self, margins=(0, 0, line // 2, 0), spacing=line // 2)
-        self.cards = {one.connector: OfferCard(one, look) for one in offers()}
+        self.cards = {one.connector.name: OfferCard(one, look) for one in offers()}
         for connector, card in self.cards.items():
             card.clicked.connect(lambda _=False, connector=connector: self.chosen.emit(connector))
-            box.addWidget(card)
-        box.addStretch(1)
+        margins = (0, 0, line // 2, 0)
+        in_column(heading, *self.cards.values(), 1, of=self, margins=margins, spacing=line // 2)
 
 
 # What is asked for the sources that need no device: gestures to make, a recording to play.
@@ -368,16 +345,14 @@ class GesturesQuestion(QWidget):
 
     changed = Signal()
 
-    def __init__(self, gestures: str, parent: QWidget | None = None) -> None:
-        super().__init__(parent)
+    def __init__(self, gestures: str) -> None:
+        super().__init__()
         self.gestures = Entry(gestures)
         self.gestures.setAccessibleName(tr("Gestures to make"))
         self.gestures.setPlaceholderText("karate, hand_up")
         self.repeats = QCheckBox(tr("Make them again and again"))
         self.repeats.setChecked(True)
-        box = column_in(self)
-        box.addWidget(self.gestures)
-        box.addWidget(self.repeats)
+        column_in(self, self.gestures, self.repeats)
         self.gestures.written.connect(self.changed)
         self.repeats.toggled.connect(self.changed)
 
@@ -397,8 +372,8 @@ class RecordingQuestion(QWidget):
 
     changed = Signal()
 
-    def __init__(self, folder: Path, look: Look, parent: QWidget | None = None) -> None:
-        super().__init__(parent)
+    def __init__(self, folder: Path, look: Look) -> None:
+        super().__init__()
         self.path = ""
         self._folder = folder
         self._look = look
@@ -409,10 +384,8 @@ class RecordingQuestion(QWidget):
         self.name = QLabel(wordWrap=True)
         self.repeats = QCheckBox(tr("Play it again and again"))
         self.repeats.setChecked(True)
-        box = column_in(self)
-        for widget in (self.button, self.name, self.repeats):
-            box.addWidget(widget)
-        box.setAlignment(self.button, Qt.AlignmentFlag.AlignLeading)
+        button = (self.button, 0, Qt.AlignmentFlag.AlignLeading)
+        column_in(self, button, self.name, self.repeats)
         self.name.hide()
         self.button.clicked.connect(self._on_choose)
         self.repeats.toggled.connect(self.changed)

@@ -14,7 +14,6 @@ from PySide6.QtWidgets import (
     QFrame,
     QGridLayout,
     QLabel,
-    QVBoxLayout,
     QWidget,
 )
 
@@ -68,15 +67,9 @@ MOST_FIGURES = 5
 class LiveView(QFrame):
     """A card; ``show_state`` says what it is about, the ear gives the rest."""
 
-    def __init__(
-        self,
-        listener: WatchListener,
-        look: Look,
-        has_columns: bool = False,
-        parent: QWidget | None = None,
-    ) -> None:
+    def __init__(self, listener: WatchListener, look: Look, has_columns: bool = False) -> None:
         """``has_columns``: what arrives are lines, of which the columns can be corrected."""
-        super().__init__(parent)
+        super().__init__()
         self._has_columns = has_columns
         self.setProperty("kind", "card")
         self._listener, self._look = listener, look
@@ -104,11 +97,6 @@ class LiveView(QFrame):
         head = in_row((self.dot, 0, Qt.AlignmentFlag.AlignTop), (words, 1), spacing=line // 2)
         self.advice_card.setProperty("kind", "warning")
         in_column(self.advice, of=self.advice_card)
-        box = QVBoxLayout(self)
-        box.setContentsMargins(line // 2, line // 2, line // 2, line // 2)
-        box.setSpacing(line // 2)
-        box.addLayout(head)
-        box.addWidget(self.curve)
         grid = QGridLayout()
         grid.setColumnStretch(3, 1)
         grid.setHorizontalSpacing(line // 2)
@@ -118,10 +106,9 @@ class LiveView(QFrame):
             row[3].setProperty("role", "hint")
             for column, label in enumerate(row):
                 grid.addWidget(label, at, column, Qt.AlignmentFlag.AlignTop)
-        box.addLayout(grid)
-        box.addWidget(self.understood)
-        box.addWidget(self.correct_button, 0, Qt.AlignmentFlag.AlignLeading)
-        box.addWidget(self.advice_card)
+        correct = (self.correct_button, 0, Qt.AlignmentFlag.AlignLeading)
+        parts = (head, self.curve, grid, self.understood, correct, self.advice_card)
+        in_column(*parts, of=self, margins=line // 2, spacing=line // 2)
 
     def show_waiting(self, title: str, sentence: str, advice: Sequence[str] = ()) -> None:
         """Nothing has arrived yet; ``advice``: what to look at."""
@@ -203,9 +190,9 @@ class LiveView(QFrame):
 
     def redraw(self) -> None:
         """Draw the signs in another theme."""
-        for at, row in enumerate(self.rows):
-            if self._grades[at]:
-                self._draw_sign(row[0], self._grades[at])
+        for (sign, *_), grade in zip(self.rows, self._grades, strict=True):
+            if grade:
+                self._draw_sign(sign, grade)
 
     def _draw_sign(self, sign: QLabel, grade: str) -> None:
         name, colour = SIGNS[grade]
@@ -215,9 +202,8 @@ class LiveView(QFrame):
 
     def _on_heard(self, batch: list[Imu]) -> None:
         self.curve.take(batch)
-        receiving = self._listener.receiving
         if self.dot.state in ("still", "moved"):
-            self.dot.show_movement(self.dot.state, receiving.movement_m_s2)
+            self.dot.show_movement(self.dot.state, self._listener.receiving.movement_m_s2)
 
 
 # The page of one way: its steps, what is asked, the QR code, and what arrives.
@@ -250,14 +236,9 @@ class WayPage(QWidget):
     came_into_view = Signal(QWidget)
 
     def __init__(
-        self,
-        connector: ConnectorKind,
-        known: Known,
-        listener: WatchListener,
-        look: Look,
-        parent: QWidget | None = None,
+        self, connector: ConnectorKind, known: Known, listener: WatchListener, look: Look
     ) -> None:
-        super().__init__(parent)
+        super().__init__()
         self.connector, self._known = connector, known
         self._had_code = self._is_sending = False
         self.network = NetworkQuestion(known.addresses)
@@ -270,9 +251,10 @@ class WayPage(QWidget):
         self.qr_code, self.qr_hint = QrCode(), hint("")
         self.live = LiveView(listener, look, connector.asks_columns)
         self._take(known.settings)
-        self.steps = StepsList(steps(connector, self.place), self._extras(), look)
-        asked = {step.extra for step in steps(self.connector, self.place)}
-        for name, question in self._extras().items():
+        told, questions = steps(connector, self.place), self._extras()
+        self.steps = StepsList(told, questions, look)
+        asked = {step.extra for step in told}
+        for name, question in questions.items():
             if name not in asked:
                 question.setParent(self)
                 question.hide()
@@ -364,39 +346,26 @@ class WayPage(QWidget):
         line = self.fontMetrics().height()
         heading = QLabel(title_of(self.connector), wordWrap=True)
         heading.setProperty("role", "title")
-        left, right = QVBoxLayout(), QVBoxLayout()
-        for column in (left, right):
-            column.setSpacing(line * 2 // 3)
-        left.addWidget(self.steps)
-        where = QLabel(tr("Where is it?"))
+        where, between = QLabel(tr("Where is it?")), line * 2 // 3
         where.setProperty("role", "heading")
-        for one in (where, self.worn, self.more):
-            left.addWidget(one)
-        left.addStretch(1)
-        right.addWidget(self.qr_code)
-        right.addWidget(self.qr_hint)
-        right.addWidget(self.live)
-        right.addStretch(1)
+        left = in_column(self.steps, where, self.worn, self.more, 1, spacing=between)
+        right = in_column(self.qr_code, self.qr_hint, self.live, 1, spacing=between)
+        self._both = in_row((left, 6), (right, 5), spacing=line)
+        margins = (0, 0, line // 2, 0)
+        in_column(heading, self.app, (self._both, 1), of=self, margins=margins, spacing=between)
         for widget in (where, self.worn):
             widget.setVisible(self.connector.asks_wrist)
-        self._both = QBoxLayout(QBoxLayout.Direction.LeftToRight)
-        self._both.setSpacing(line)
-        self._both.addLayout(left, 6)
-        self._both.addLayout(right, 5)
-        box = in_column(heading, of=self, margins=(0, 0, line // 2, 0), spacing=line * 2 // 3)
-        if self.connector in APPS:
-            box.addWidget(self._app_choice())
-        box.addLayout(self._both, 1)
+        self._offer_apps()
 
-    def _app_choice(self) -> QComboBox:
+    def _offer_apps(self) -> None:
         for connector in APPS:
             self.app.addItem(app_words(connector), connector.name)
-        self.app.setCurrentIndex(APPS.index(self.connector))
+        self.app.setCurrentIndex(self.app.findData(self.connector.name))
         self.app.setAccessibleName(tr("Which app?"))
         self.app.setSizeAdjustPolicy(
             QComboBox.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon
         )
-        return self.app
+        self.app.setVisible(self.connector in APPS)
 
     def _connect(self) -> None:
         for question in (self.network, self.worn, self.more, self.gestures, self.recording):

@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Literal
 
-from PySide6.QtCore import QRectF, QSize, Qt
+from PySide6.QtCore import QRectF, Qt
 from PySide6.QtGui import QFont, QPainter, QPaintEvent
 from PySide6.QtWidgets import QGridLayout, QLabel, QWidget
 
@@ -15,7 +15,7 @@ from nep_studio.blocks.operations.fixes import WATCH
 from nep_studio.run.plan import REPLAY, VIRTUAL_WATCH
 from nep_studio.ui.theme.look import Look
 from nep_studio.ui.widgets.forms import UNKNOWN, CopyLine
-from nep_studio.ui.widgets.layouts import in_column
+from nep_studio.ui.widgets.layouts import InLines, in_column
 from nep_studio.ui.words import tr
 
 OWN_PROFILE = "six_int16"
@@ -263,18 +263,15 @@ MOST_LETTERS = 24
 """So many letters fit beside the button."""
 
 
-class StepNumber(QWidget):
+class StepNumber(InLines):
     """A number in a disc."""
 
-    def __init__(self, number: int, look: Look, parent: QWidget | None = None) -> None:
-        super().__init__(parent)
+    usual_lines = (1.5, 1.5)
+
+    def __init__(self, number: int, look: Look) -> None:
+        super().__init__()
         self._number, self._look = number, look
         self.setFixedSize(self.sizeHint())
-
-    def sizeHint(self) -> QSize:
-        """As high as one line and a half."""
-        side = round(self.fontMetrics().height() * 1.5)
-        return QSize(side, side)
 
     def paintEvent(self, _event: QPaintEvent) -> None:
         """Draw it."""
@@ -293,40 +290,28 @@ class StepNumber(QWidget):
 class StepsList(QWidget):
     """The steps of one way; ``extras`` are the questions that stand below steps, by name."""
 
-    def __init__(
-        self,
-        steps: Sequence[Step],
-        extras: Mapping[str, QWidget],
-        look: Look,
-        parent: QWidget | None = None,
-    ) -> None:
-        super().__init__(parent)
+    def __init__(self, steps: Sequence[Step], extras: Mapping[str, QWidget], look: Look) -> None:
+        super().__init__()
         self.words: list[QLabel] = []
         self.copy_lines: list[CopyLine | None] = []
-        self._look = look
         line = self.fontMetrics().height()
         grid = QGridLayout(self)
         grid.setContentsMargins(0, 0, 0, 0)
         grid.setColumnStretch(1, 1)
-        grid.setHorizontalSpacing(line // 2)
-        grid.setVerticalSpacing(line // 2)
+        grid.setSpacing(line // 2)
         for number, step in enumerate(steps):
             if len(steps) > 1:
                 badge = StepNumber(number + 1, look)
                 grid.addWidget(badge, number, 0, Qt.AlignmentFlag.AlignTop)
-            extra = extras.get(step.extra)
             label = QLabel(wordWrap=True)
-            column = in_column(label, spacing=self.fontMetrics().height() // 3)
-            self.words.append(label)
             is_address = step.copied.startswith("http") or "." in step.copied
             words = tr("Copy the address") if is_address else tr("Copy")
             is_long = len(step.copied) > MOST_LETTERS
-            copy_line = CopyLine(self._look, words, is_long) if step.copied else None
+            copy_line = CopyLine(look, words, is_long) if step.copied else None
+            self.words.append(label)
             self.copy_lines.append(copy_line)
-            for below in (copy_line, extra):
-                if below is not None:
-                    column.addWidget(below)
-            grid.addLayout(column, number, 1)
+            below = [one for one in (copy_line, extras.get(step.extra)) if one is not None]
+            grid.addLayout(in_column(label, *below, spacing=line // 3), number, 1)
         self.fill(steps)
 
     def fill(self, steps: Sequence[Step]) -> None:

@@ -118,9 +118,8 @@ class WatchTrial(QObject):
         wanted = self._wanted
         if wanted is None:
             return
-        if is_same(wanted, self._runner.local.planned.get(self.name)) and _runs(
-            self._runner, self.name
-        ):
+        is_known = is_same(wanted, self._runner.local.planned.get(self.name))
+        if is_known and _runs(self._runner, self.name):
             self._started = wanted
             self._set_state("listening")
             return
@@ -161,10 +160,9 @@ class WatchTrial(QObject):
             problem = problem_of(error)
             launched = self._runner.launched(name)
             outcome = launched.outcome if launched is not None else None
-            if outcome is not None and outcome.why:
-                # its own words are plainer than those about its process
-                problem = replace(problem, sentence=outcome.why)
-            self.problem = problem
+            # Its own words are plainer than those about its process
+            why = outcome.why if outcome is not None else ""
+            self.problem = replace(problem, sentence=why or problem.sentence)
             self._go_on("failed")
 
     def _go_on(self, state: State) -> None:
@@ -191,13 +189,8 @@ def _runs(runner: Runner, name: str) -> bool:
 
 def is_same(one: PlannedNode, other: PlannedNode | None) -> bool:
     """Whether two plans start the same process."""
-    if other is None:
-        return False
-    return (one.node, one.name, dict(one.parameters)) == (
-        other.node,
-        other.name,
-        dict(other.parameters),
-    )
+    names = ("node", "name", "parameters")
+    return other is not None and all(getattr(one, name) == getattr(other, name) for name in names)
 
 
 # The dialog that connects a watch or phone: what one has, the steps, what arrives, using it.
@@ -316,9 +309,8 @@ class WatchDialog(QDialog):
         settings = dict(plan.settings) if is_known else {}
         is_running = is_known and self.trial.before is not None
         token = str(settings.get("token") or "") if is_running else ""
-        known = Known(
-            self._find_addresses(), token or self._token, plan.gestures, plan.folder, settings
-        )
+        token, addresses = token or self._token, self._find_addresses()
+        known = Known(addresses, token, plan.gestures, plan.folder, settings)
         self._drop_page()
         page = self.page = WayPage(connector, known, self.listener, self._look)
         page.changed.connect(self._settling.start)

@@ -27,8 +27,8 @@ Modules = Sequence[Sequence[int]]
 class QrCode(QWidget):
     """Black on white in every theme: cameras do not all read a code in other colours."""
 
-    def __init__(self, parent: QWidget | None = None) -> None:
-        super().__init__(parent)
+    def __init__(self) -> None:
+        super().__init__()
         self.url = ""
         self._modules: Modules = ()
         self.setSizePolicy(QSizePolicy.Policy.Preferred, QSizePolicy.Policy.Fixed)
@@ -63,8 +63,7 @@ class QrCode(QWidget):
         """Draw it in the middle."""
         if not self._modules:
             return
-        painter = QPainter(self)
-        ratio = self.devicePixelRatioF()
+        painter, ratio = QPainter(self), self.devicePixelRatioF()
         painter.scale(1 / ratio, 1 / ratio)
         module = self.module_pixels()
         side = (len(self._modules) + 2 * QUIET) * module
@@ -103,8 +102,8 @@ def picture_path(phone: str, is_dark: bool) -> Path | None:
 class Picture(QWidget):
     """A picture from a file, as wide as there is room, sharp on every screen."""
 
-    def __init__(self, parent: QWidget | None = None) -> None:
-        super().__init__(parent)
+    def __init__(self) -> None:
+        super().__init__()
         self._picture = QPixmap()
         policy = QSizePolicy(QSizePolicy.Policy.Preferred, QSizePolicy.Policy.Fixed)
         policy.setHeightForWidth(True)
@@ -170,24 +169,21 @@ def _read(path: Path, width: int) -> QPixmap:
 class WarningHelp(QWidget):
     """Two buttons for the kinds of phone; below, the picture of its warning and what to press."""
 
-    def __init__(self, look: Look, parent: QWidget | None = None) -> None:
-        super().__init__(parent)
+    def __init__(self, look: Look) -> None:
+        super().__init__()
         self._look = look
         self.buttons = {"android": QPushButton("Android"), "ios": QPushButton("iPhone")}
         self.words = QLabel(wordWrap=True)
         self.picture = Picture()
         self._group = QButtonGroup(self)
         row = QWidget()
-        flow = Flow(row, spacing=self.fontMetrics().height() // 3)
+        Flow(row, self.fontMetrics().height() // 3, self.buttons.values())
         for phone, button in self.buttons.items():
             button.setCheckable(True)
             button.setAutoDefault(False)
             button.clicked.connect(lambda _=False, phone=phone: self.show_phone(phone))
             self._group.addButton(button)
-            flow.addWidget(button)
-        box = column_in(self)
-        for widget in (row, self.words, self.picture):
-            box.addWidget(widget)
+        column_in(self, row, self.words, self.picture)
         self.words.hide()
         self.picture.hide()
 

@@ -171,12 +171,11 @@ def headline(findings: Findings) -> str:
     """The result in one sentence."""
     if not findings.is_checked:
         return tr("Learned, but not checked yet")
-    right, made = findings.right, findings.made
     return count_words(
-        made,
+        findings.made,
         "{right} of 1 take was recognised by what the others taught",
         "{right} of {n} takes were recognised by what the others taught",
-        right=right,
+        right=findings.right,
     )
 
 
@@ -210,17 +209,13 @@ def false_triggers(findings: Findings, *, is_simulated: bool) -> str:
 def _too_few_to_check(findings: Findings, known: Known) -> Iterator[Advice]:
     for name, count in findings.takes.items():
         if count < 2:
-            yield Advice(
-                "tip",
-                tr(
-                    "“{gesture}” was recorded once. Record it {more} more times:"
-                    " then it is checked how well it is recognised.",
-                    gesture=known.title(name),
-                    more=ENOUGH_TAKES - 1,
-                ),
-                "record",
-                name,
+            words = tr(
+                "“{gesture}” was recorded once. Record it {more} more times:"
+                " then it is checked how well it is recognised.",
+                gesture=known.title(name),
+                more=ENOUGH_TAKES - 1,
             )
+            yield Advice("tip", words, "record", name)
 
 
 def _mistaken(findings: Findings, known: Known) -> Iterator[Advice]:
@@ -241,9 +236,8 @@ def _mistaken(findings: Findings, known: Known) -> Iterator[Advice]:
             both = (*takes, *takes_of_pair(findings, known.gestures, found, made))
             yield _alike(findings, known, made, found, count + back, both)
         else:
-            yield Advice(
-                "problem", _mistaken_words(findings, known, made, found), "record", made, takes
-            )
+            words = _mistaken_words(findings, known, made, found)
+            yield Advice("problem", words, "record", made, takes)
 
 
 def _alike(
@@ -326,7 +320,7 @@ def _outliers(findings: Findings, known: Known) -> Iterator[Advice]:
         values = {
             "gesture": known.title(one.gesture),
             "other": known.title(one.recognised),
-            "number": _number_of(take, known.gestures[one.gesture]),
+            "number": [each.id for each in known.gestures[one.gesture].takes].index(take) + 1,
         }
         if one.recognised not in (NOTHING, one.gesture):
             words = tr(
@@ -348,10 +342,6 @@ def _is_outlier(one: LeftOut, findings: Findings) -> bool:
     if right < _MOSTLY_FOUND * findings.takes.get(one.gesture, 0):
         return False
     return one.recognised != one.gesture or one.certainty < _FAR_BELOW
-
-
-def _number_of(take: str, gesture: OwnGesture) -> int:
-    return [one.id for one in gesture.takes].index(take) + 1
 
 
 def _rounded(rate: float) -> str:
@@ -392,8 +382,8 @@ class AdviceList(QWidget):
     asked = Signal(object)
     takes_asked = Signal(object)
 
-    def __init__(self, look: Look, parent: QWidget | None = None) -> None:
-        super().__init__(parent)
+    def __init__(self, look: Look) -> None:
+        super().__init__()
         self._look = look
         self._advice: tuple[Advice, ...] = ()
         self._shows_all = False
@@ -425,7 +415,7 @@ class AdviceList(QWidget):
     def _on_more(self) -> None:
         self._shows_all = True
         self._fill()
-        if self.rows and self.rows[MOST_SHOWN:]:
+        if len(self.rows) > MOST_SHOWN:
             self.rows[MOST_SHOWN].button.setFocus()
 
 
@@ -436,22 +426,19 @@ class AdviceRow(QWidget):
         super().__init__(of)
         self.advice = advice
         self.setAccessibleName(f"{_kind_words(advice.kind)}: {advice.words}")
-        sign = StatusIcon(look, self)
-        sign.show_icon(*_SIGNS[advice.kind])
+        sign, self.words = StatusIcon(look), Words(advice.words)
         sign.setToolTip(_kind_words(advice.kind))
-        self.words = Words(advice.words)
         self.button = QPushButton(_button_words(advice.what))
-        self.button.setProperty("kind", "quiet")
-        self.button.setAccessibleDescription(advice.words)
         self.button.clicked.connect(lambda: of.asked.emit(advice))
-        self.button.setVisible(bool(advice.what))
         self.show_takes = QPushButton(_button_words("takes"))
-        self.show_takes.setProperty("kind", "quiet")
-        self.show_takes.setAccessibleDescription(advice.words)
         self.show_takes.clicked.connect(lambda: of.takes_asked.emit(advice.takes))
-        self.show_takes.setVisible(bool(advice.takes) and advice.what != "takes")
-        buttons = FlowLayout(spacing=4)
-        buttons.addWidget(self.button)
-        buttons.addWidget(self.show_takes)
+        for button in (self.button, self.show_takes):
+            button.setProperty("kind", "quiet")
+            button.setAccessibleDescription(advice.words)
+        buttons = FlowLayout(spacing=4, widgets=(self.button, self.show_takes))
         words = in_column(self.words, buttons, spacing=0)
         in_row((sign, 0, Qt.AlignmentFlag.AlignTop), (words, 1), of=self, margins=0)
+        # Not before: what is shown without a parent is a window for a moment
+        sign.show_icon(*_SIGNS[advice.kind])
+        self.button.setVisible(bool(advice.what))
+        self.show_takes.setVisible(bool(advice.takes) and advice.what != "takes")

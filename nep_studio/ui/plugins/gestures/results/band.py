@@ -6,9 +6,9 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
-from PySide6.QtCore import QPointF, QRectF, QSignalBlocker, Qt
-from PySide6.QtGui import QColor, QPainter, QPaintEvent, QPen, QPolygonF
-from PySide6.QtWidgets import QComboBox, QHBoxLayout, QSizePolicy, QWidget
+from PySide6.QtCore import QPointF, QRectF, Qt
+from PySide6.QtGui import QPainter, QPaintEvent, QPen, QPolygonF
+from PySide6.QtWidgets import QSizePolicy, QWidget
 
 from nep_core.errors import RecordingError
 from nep_studio.ui.labels import follow_words, labelled
@@ -17,7 +17,8 @@ from nep_studio.ui.plugins.gestures.live import Samples
 from nep_studio.ui.ring import Floats
 from nep_studio.ui.theme.colours import Theme
 from nep_studio.ui.theme.look import Look
-from nep_studio.ui.widgets.layouts import InLines, in_column
+from nep_studio.ui.widgets.choices import Choices
+from nep_studio.ui.widgets.layouts import InLines, in_column, in_row
 from nep_studio.ui.words import tr
 from nodes.perceptual.recognition.features import POINTS, Detection, Integers, Singles, cut_windows
 from nodes.perceptual.recognition.gmr import Gmr
@@ -25,7 +26,7 @@ from nodes.perceptual.recognition.model import Model, Recogniser
 from nodes.perceptual.recognition.streams import EvenStream, mirrored
 
 from .certainties import CertaintyHistory, is_mirrored
-from .labels import Words
+from .labels import Words, curve_pen, paint_legend
 
 WIDE = 2.0
 """The band is so many standard deviations wide, to each side."""
@@ -129,12 +130,11 @@ def _windows(movement: Samples, recogniser: Recogniser, lengths: Integers) -> Si
 
 def kind_words(kind: str) -> str:
     """What the signals of a kind are called."""
-    words = {
+    return {
         "body": tr("Movement"),
         "rotation": tr("Rotation"),
         "gravity": tr("How the watch is held"),
-    }
-    return words[kind]
+    }[kind]
 
 
 def in_words(band: Band, title: str) -> str:
@@ -183,13 +183,11 @@ _AXES = "xyz"
 class BandView(InLines):
     """Three strips, one for each axis, over the duration of the movement."""
 
-    usual_lines, least_lines = (
-        (16, LINES_HIGH * len(_AXES) + 1.5),
-        (9, LINES_HIGH * len(_AXES) + 1.5),
-    )
+    usual_lines = (16, LINES_HIGH * len(_AXES) + 1.5)
+    least_lines = (9, LINES_HIGH * len(_AXES) + 1.5)
 
-    def __init__(self, look: Look, parent: QWidget | None = None) -> None:
-        super().__init__(parent)
+    def __init__(self, look: Look) -> None:
+        super().__init__()
         self._look = look
         self.band: Band | None = None
         self.kind = "body"
@@ -230,14 +228,11 @@ class BandView(InLines):
             painter.setPen(theme.colour("muted"))
             room = QRectF(0, strip.top(), strip.left(), strip.height())
             painter.drawText(room, Qt.AlignmentFlag.AlignCenter, axis)
-        line, metrics = self.fontMetrics().height(), self.fontMetrics()
-        x, middle = self.strip(0).left(), line * 0.7
-        for colour, words in (("plot_1", tr("expected")), ("plot_2", tr("yours"))):
-            painter.setPen(self._pen(theme, colour, is_dashed=colour == "plot_2"))
-            painter.drawLine(QPointF(x, middle), QPointF(x + line * 1.6, middle))
-            painter.setPen(theme.colour("text"))
-            painter.drawText(QPointF(x + line * 1.9, middle + metrics.ascent() * 0.4), words)
-            x += line * 2.9 + metrics.horizontalAdvance(words)
+        legend = {
+            tr("expected"): self._pen(theme, "plot_1"),
+            tr("yours"): self._pen(theme, "plot_2"),
+        }
+        paint_legend(painter, self.strip(0).left(), legend, theme.colour("text"))
         painter.end()
 
     def _paint_strip(
@@ -252,7 +247,7 @@ class BandView(InLines):
             return [QPointF(float(x), float(y)) for x, y in zip(xs, ys, strict=True)]
 
         mean, wide = band.mean[:, column], WIDE * band.spread[:, column]
-        pale = QColor(theme.colour("plot_1"))
+        pale = theme.colour("plot_1")
         pale.setAlphaF(0.25)
         painter.setPen(Qt.PenStyle.NoPen)
         painter.setBrush(pale)
@@ -261,14 +256,11 @@ class BandView(InLines):
         painter.setPen(self._pen(theme, "plot_1"))
         painter.drawPolyline(QPolygonF(line_of(mean)))
         if band.live is not None:
-            painter.setPen(self._pen(theme, "plot_2", is_dashed=True))
+            painter.setPen(self._pen(theme, "plot_2"))
             painter.drawPolyline(QPolygonF(line_of(band.live[:, column])))
 
-    def _pen(self, theme: Theme, colour: str, *, is_dashed: bool = False) -> QPen:
-        pen = QPen(theme.colour(colour), max(2.0, self.fontMetrics().height() / 9))
-        if is_dashed:
-            pen.setDashPattern([3.0, 2.0])
-        return pen
+    def _pen(self, theme: Theme, colour: str) -> QPen:
+        return curve_pen(theme, colour, max(2.0, self.fontMetrics().height() / 9))
 
 
 def _range(band: Band, columns: list[int]) -> tuple[float, float]:
@@ -292,49 +284,37 @@ _LEAST = 0.25
 class BandPanel(QWidget):
     """Follows what is tried out."""
 
-    def __init__(
-        self,
-        controller: GestureController,
-        title: Callable[[str], str],
-        parent: QWidget | None = None,
-    ) -> None:
-        super().__init__(parent)
+    def __init__(self, controller: GestureController, title: Callable[[str], str]) -> None:
+        super().__init__()
         self._controller, self._title = controller, title
         self._model: Model | None = None
         self._shown: Detection | None = None
         self.band: Band | None = None
-        self.gesture = QComboBox()
-        labelled(self.gesture, name="Gesture of the curve")
-        self.kind = QComboBox()
-        labelled(self.kind, name="What is drawn")
+        self.gesture = labelled(Choices(self._gestures), name="Gesture of the curve")
+        self.kind = labelled(Choices(self._kinds), name="What is drawn")
         self.view = BandView(controller.look)
         self.sentence = Words()
-        row = QHBoxLayout()
         for box in (self.gesture, self.kind):
             box.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Fixed)
-            row.addWidget(box, 1)
+        row = in_row((self.gesture, 1), (self.kind, 1))
         in_column(row, self.view, self.sentence, of=self, margins=0)
         self.gesture.currentIndexChanged.connect(self._on_chosen)
         self.kind.currentIndexChanged.connect(self._show)
         self.use_model(None)
-        follow_words(self, self._say)
+        follow_words(self, self._show)
 
-    def _say(self) -> None:
-        self.gesture.setItemText(0, tr("Best fit"))
-        for at in range(self.kind.count()):
-            self.kind.setItemText(at, kind_words(self.kind.itemData(at)))
-        self._show()
+    def _gestures(self) -> dict[str, str]:
+        names = self._model.names if self._model is not None else ()
+        return {"": tr("Best fit")} | {name: self._title(name) for name in names}
+
+    def _kinds(self) -> dict[str, str]:
+        kinds = self.band.kinds if self.band is not None else KINDS[:1]
+        return {kind: kind_words(kind) for kind in kinds}
 
     def use_model(self, model: Model | None) -> None:
         """Show the curves of this model."""
         self._model, self._shown = model, None
-        chosen = self.gesture.currentData()
-        with QSignalBlocker(self.gesture):
-            self.gesture.clear()
-            self.gesture.addItem(tr("Best fit"), "")
-            for name in model.names if model is not None else ():
-                self.gesture.addItem(self._title(name), name)
-            self.gesture.setCurrentIndex(max(0, self.gesture.findData(chosen)))
+        self.gesture.refill()
         self._on_chosen()
 
     def follow(self, history: CertaintyHistory) -> None:
@@ -360,23 +340,12 @@ class BandPanel(QWidget):
             movement = live.between(shown.t_start - AROUND_S, shown.t_end + AROUND_S)
             if self._model is not None and is_mirrored(self._controller.wrist, self._model):
                 movement = Samples(movement.t, *mirrored(movement.acc, movement.gyr))
-        gravity = live.gravity_included if live is not None else True
+        gravity = live is None or live.gravity_included
         self.band = None
         if self._model is not None:
             self.band = band_of(self._model, name, movement, gravity_included=gravity)
-        self._offer_kinds()
+        self.kind.refill()
         self._show()
-
-    def _offer_kinds(self) -> None:
-        kinds = self.band.kinds if self.band is not None else KINDS[:1]
-        if [self.kind.itemData(at) for at in range(self.kind.count())] == list(kinds):
-            return
-        chosen = self.kind.currentData()
-        with QSignalBlocker(self.kind):
-            self.kind.clear()
-            for kind in kinds:
-                self.kind.addItem(kind_words(kind), kind)
-            self.kind.setCurrentIndex(max(0, self.kind.findData(chosen)))
 
     def _show(self) -> None:
         if self.band is None:

@@ -49,10 +49,8 @@ class CertaintyHistory:
     def __init__(self, gestures: Sequence[Gesture] = ()) -> None:
         self.gestures = tuple(gestures)
         self.kept: deque[Certainties] = deque()
-        self.triggers: list[Detection] = []
         self._points: dict[str, float] = {}
-        self._picker = self._new_picker()
-        self._last_s = -np.inf
+        self._begin()
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -91,12 +89,9 @@ class CertaintyHistory:
         return dict(zip(self.names, self.kept[-1].certainties.tolist(), strict=True))
 
     def _begin(self) -> None:
-        self._picker, self._last_s = self._new_picker(), -np.inf
-        self.triggers = []
-
-    def _new_picker(self) -> PeakPicker:
         wanted = {name: self._points.get(name, TRIGGER) for name in self.names}
-        return PeakPicker(self.gestures, wanted)
+        self._picker, self._last_s = PeakPicker(self.gestures, wanted), -np.inf
+        self.triggers: list[Detection] = []
 
     def _pick(self, look: Certainties) -> None:
         found = []
@@ -115,8 +110,7 @@ class CertaintyHistory:
         if not recent:
             return None
         look = max(recent, key=lambda one: float(one.certainties[column]))
-        length_s = float(look.lengths_s[column])
-        certainty = float(look.certainties[column])
+        certainty, length_s = float(look.certainties[column]), float(look.lengths_s[column])
         return Detection(name, certainty, look.end_s - length_s, look.end_s)
 
     def most_certain(self, since_s: float) -> Detection | None:

@@ -30,11 +30,12 @@ from PySide6.QtWidgets import (
 )
 
 from nep_studio.ui.labels import follow_words, labelled
+from nep_studio.ui.theme.colours import mixed
 from nep_studio.ui.theme.look import Look
 from nep_studio.ui.words import tr
 
 from .findings import NOTHING, Findings
-from .labels import legible, mixed
+from .labels import legible
 
 Index = QModelIndex | QPersistentModelIndex
 SHARE = int(Qt.ItemDataRole.UserRole)
@@ -157,10 +158,8 @@ class ConfusionView(QTableView):
 
     cell_chosen = Signal(str, str)
 
-    def __init__(
-        self, title: Callable[[str], str], look: Look, parent: QWidget | None = None
-    ) -> None:
-        super().__init__(parent)
+    def __init__(self, title: Callable[[str], str], look: Look) -> None:
+        super().__init__()
         self._look = look
         self.confusion = Confusion(title, self)
         self.setModel(self.confusion)
@@ -220,7 +219,7 @@ class ConfusionView(QTableView):
             self.headings.setMinimumSectionSize(wide)
             self.headings.setDefaultSectionSize(wide)
 
-    def _fit(self, _theme: object = None) -> None:
+    def _fit(self) -> None:
         cell, rows = self._cell(), self.verticalHeader()
         for header in (self.headings, rows):
             header.setSectionResizeMode(QHeaderView.ResizeMode.Fixed)

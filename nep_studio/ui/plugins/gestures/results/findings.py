@@ -7,7 +7,8 @@ from dataclasses import dataclass, field
 from typing import Any
 
 import msgspec
-from msgspec.structs import replace
+import numpy as np
+from msgspec.structs import astuple, replace
 from PySide6.QtCore import QObject, Signal
 
 from nep_studio.blocks.own_gestures import TRIGGER, OwnGesture, keep_gesture
@@ -21,29 +22,26 @@ _NEAR_S = 0.25
 """A take that was left out begins within so much of the take that a person marked."""
 
 
-@dataclass(frozen=True)
-class Point:
+class Point(msgspec.Struct, frozen=True):
     """What a certainty, as recognition point of one gesture, catches and what it lets through."""
 
     certainty: float
     caught: float
-    false_per_hour: float
-    false_in_others: float
+    false_per_hour: float = msgspec.field(default=0.0, name="false_everyday_per_hour")
+    false_in_others: float = 0.0
 
 
-@dataclass(frozen=True)
-class LeftOut:
+class LeftOut(msgspec.Struct, frozen=True):
     """A take that the recogniser had not seen, and what it took it for (NOTHING for none)."""
 
     gesture: str
-    recording: str
+    recording: str = msgspec.field(name="source")
     start_s: float
     certainty: float
     recognised: str
 
 
-@dataclass(frozen=True)
-class Person:
+class Person(msgspec.Struct, frozen=True):
     """How many of a person's gestures were recognised by what the others taught."""
 
     made: int
@@ -103,19 +101,8 @@ def between(points: tuple[Point, ...], certainty: float) -> Point | None:
     """The curve at a certainty; None when there is none."""
     if not points:
         return None
-    later = next((at for at, point in enumerate(points) if point.certainty >= certainty), None)
-    if later is None:
-        return points[-1]
-    if later == 0:
-        return points[0]
-    low, high = points[later - 1], points[later]
-    part = (certainty - low.certainty) / (high.certainty - low.certainty)
-    return Point(
-        certainty,
-        low.caught + part * (high.caught - low.caught),
-        low.false_per_hour + part * (high.false_per_hour - low.false_per_hour),
-        low.false_in_others + part * (high.false_in_others - low.false_in_others),
-    )
+    columns = list(zip(*map(astuple, points), strict=True))
+    return Point(*(float(np.interp(certainty, columns[0], column)) for column in columns))
 
 
 def findings_of(report: Mapping[str, Any]) -> dict[str, Findings]:
@@ -139,34 +126,14 @@ def id_of_take(left_out: LeftOut, gestures: Mapping[str, OwnGesture]) -> str:
     return near.id
 
 
-class _Point(msgspec.Struct):
-    certainty: float
-    caught: float
-    false_everyday_per_hour: float = 0.0
-    false_in_others: float = 0.0
-
-
-class _Take(msgspec.Struct):
-    gesture: str
-    source: str
-    start_s: float
-    certainty: float
-    recognised: str
-
-
-class _Person(msgspec.Struct):
-    made: int
-    right: int
-
-
 class _Report(msgspec.Struct):
     takes: dict[str, int]
     confusion: list[tuple[str, str, int]]
     everyday_triggers: int = 0
     everyday_s: float = 0.0
-    curves: dict[str, list[_Point]] = {}
-    left_out: list[_Take] = []
-    people: dict[str, _Person] = {}
+    curves: dict[str, tuple[Point, ...]] = {}
+    left_out: tuple[LeftOut, ...] = ()
+    people: dict[str, Person] = {}
 
 
 def _findings(report: _Report) -> Findings:
@@ -175,21 +142,13 @@ def _findings(report: _Report) -> Findings:
         confusion={(made, found): count for made, found, count in report.confusion},
         everyday_triggers=report.everyday_triggers,
         everyday_s=report.everyday_s,
-        curves={name: _curve(points) for name, points in report.curves.items()},
-        left_out=tuple(
-            LeftOut(one.gesture, one.source, one.start_s, one.certainty, one.recognised)
-            for one in report.left_out
-        ),
-        people={name: Person(one.made, one.right) for name, one in report.people.items()},
+        curves={
+            name: tuple(sorted(points, key=lambda point: point.certainty))
+            for name, points in report.curves.items()
+        },
+        left_out=report.left_out,
+        people=report.people,
     )
-
-
-def _curve(points: list[_Point]) -> tuple[Point, ...]:
-    made = (
-        Point(one.certainty, one.caught, one.false_everyday_per_hour, one.false_in_others)
-        for one in points
-    )
-    return tuple(sorted(made, key=lambda point: point.certainty))
 
 
 # What results and try-out share: the recogniser that is looked at, and the recognition points.
@@ -199,13 +158,12 @@ LOWEST, HIGHEST = 0.05, 0.95
 """Between these the certainty of a recognition point is."""
 
 
-def method_words(method: str) -> str:
-    """What a recogniser is called, for people."""
-    words = {
+def method_words() -> dict[str, str]:
+    """What the recognisers are called, for people."""
+    return {
         "trees": tr("Trees, the usual recogniser"),
         "gmr": tr("Expected curves, as in the paper"),
     }
-    return words.get(method, method)
 
 
 class Tuning(QObject):

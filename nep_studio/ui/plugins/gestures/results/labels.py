@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
-from PySide6.QtCore import Qt
-from PySide6.QtGui import QColor
-from PySide6.QtWidgets import QFrame, QLabel, QSizePolicy, QWidget
+from collections.abc import Mapping
 
+from PySide6.QtCore import QLineF, QPointF, Qt
+from PySide6.QtGui import QColor, QPainter, QPen
+from PySide6.QtWidgets import QLabel
+
+from nep_studio.ui.theme.colours import Theme
 from nep_studio.ui.theme.icons import icon_pixmap
 from nep_studio.ui.theme.look import Look
 
@@ -13,8 +16,8 @@ from nep_studio.ui.theme.look import Look
 class Words(QLabel):
     """Plain words that wrap; ``role`` is heading, hint, or none."""
 
-    def __init__(self, text: str = "", role: str = "", parent: QWidget | None = None) -> None:
-        super().__init__(text, parent)
+    def __init__(self, text: str = "", role: str = "") -> None:
+        super().__init__(text)
         self.setTextFormat(Qt.TextFormat.PlainText)
         self.setWordWrap(True)
         self.setMinimumWidth(1)
@@ -25,8 +28,8 @@ class Words(QLabel):
 class StatusIcon(QLabel):
     """An icon in a colour of the theme, as large as the text."""
 
-    def __init__(self, look: Look, parent: QWidget | None = None) -> None:
-        super().__init__(parent)
+    def __init__(self, look: Look) -> None:
+        super().__init__()
         self._look, self._icon, self._colour = look, "", "text"
         look.theme_changed.connect(self._draw)
 
@@ -36,7 +39,7 @@ class StatusIcon(QLabel):
             self._icon, self._colour = name, colour
             self._draw()
 
-    def _draw(self, _theme: object = None) -> None:
+    def _draw(self) -> None:
         self.setVisible(bool(self._icon))
         if self._icon:
             size = round(self.fontMetrics().height() * 1.2)
@@ -44,27 +47,31 @@ class StatusIcon(QLabel):
             self.setPixmap(icon_pixmap(self._icon, colour, size, self.devicePixelRatioF()))
 
 
-def card(parent: QWidget | None = None) -> QFrame:
-    """A frame around what belongs together."""
-    frame = QFrame(parent)
-    frame.setProperty("kind", "card")
-    frame.setSizePolicy(QSizePolicy.Policy.Preferred, QSizePolicy.Policy.Maximum)
-    return frame
+# The two curves of a picture, and colours that can be read on another.
 
 
-# Colours between two of the table, and those that can be read on another.
+def curve_pen(theme: Theme, colour: str, width: float) -> QPen:
+    """What a curve is drawn with; the second one is dashed too."""
+    pen = QPen(theme.colour(colour), width)
+    if colour == "plot_2":
+        pen.setDashPattern([3.0, 2.0])
+    return pen
+
+
+def paint_legend(painter: QPainter, x: float, pens: Mapping[str, QPen], ink: QColor) -> None:
+    """Above the curves, each word with a piece of its line."""
+    metrics = painter.fontMetrics()
+    line = metrics.height()
+    for words, pen in pens.items():
+        painter.setPen(pen)
+        painter.drawLine(QLineF(x, line * 0.7, x + line * 1.6, line * 0.7))
+        painter.setPen(ink)
+        painter.drawText(QPointF(x + line * 1.9, line * 0.7 + metrics.ascent() * 0.4), words)
+        x += line * 2.9 + metrics.horizontalAdvance(words)
+
 
 READABLE = 4.5
 """The contrast that words need on what is behind them."""
-
-
-def mixed(one: QColor, other: QColor, part: float) -> QColor:
-    """A colour on the way from one to another; ``part`` is how far, from 0 to 1."""
-    return QColor(
-        round(one.red() + part * (other.red() - one.red())),
-        round(one.green() + part * (other.green() - one.green())),
-        round(one.blue() + part * (other.blue() - one.blue())),
-    )
 
 
 def legible(ground: QColor, *colours: QColor) -> QColor:

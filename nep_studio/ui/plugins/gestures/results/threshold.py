@@ -5,18 +5,20 @@ from __future__ import annotations
 import math
 
 from PySide6.QtCore import QLineF, QPointF, QRectF, QSignalBlocker, QSize, Qt, QTimer, Signal
-from PySide6.QtGui import QColor, QMouseEvent, QPainter, QPaintEvent, QPen, QPolygonF
-from PySide6.QtWidgets import QComboBox, QLabel, QPushButton, QSizePolicy, QSlider, QWidget
+from PySide6.QtGui import QMouseEvent, QPainter, QPaintEvent, QPen, QPolygonF
+from PySide6.QtWidgets import QLabel, QPushButton, QSizePolicy, QSlider, QWidget
 
 from faults import text_of
 from nep_studio.blocks.own_gestures import TRIGGER
 from nep_studio.ui.labels import follow_words, labelled
 from nep_studio.ui.theme.colours import HIGH_CONTRAST, Theme
 from nep_studio.ui.theme.look import Look
+from nep_studio.ui.widgets.choices import Choices
 from nep_studio.ui.widgets.layouts import InLines, in_column, in_row
 from nep_studio.ui.words import count_words, tr
 
 from .findings import HIGHEST, LOWEST, Findings, Point, Tuning, between
+from .labels import curve_pen, paint_legend
 
 # What a recognition point of a gesture means, in one sentence with both of its sides.
 
@@ -31,10 +33,8 @@ def both_sides(findings: Findings, name: str, certainty: float) -> str:
         return ""
     takes = findings.takes.get(name, 0)
     caught = tr("Caught {caught} of {all}", caught=round(point.caught * takes), all=takes)
-    false = _false_words(findings, point.false_per_hour)
-    others = round(point.false_in_others)
-    parts = [caught, false]
-    if others:
+    parts = [caught, _false_words(findings, point.false_per_hour)]
+    if others := round(point.false_in_others):
         parts.append(count_words(others, "once at another gesture", "{n} times at other gestures"))
     return " — ".join(parts)
 
@@ -49,9 +49,8 @@ def _false_words(findings: Findings, rate: float) -> str:
             "no false one in a minute of everyday movement",
             "no false one in {n} minutes of everyday movement",
         )
-    return tr(
-        "false about {rate} times an hour", rate=f"{rate:.0f}" if rate >= 3 else f"{rate:.1f}"
-    )
+    told = f"{rate:.0f}" if rate >= 3 else f"{rate:.1f}"
+    return tr("false about {rate} times an hour", rate=told)
 
 
 # Draws what each recognition point of a gesture catches, and what it lets through.
@@ -72,8 +71,8 @@ class PointCurve(InLines):
     dragged = Signal(float)
     let_go = Signal()
 
-    def __init__(self, look: Look, parent: QWidget | None = None) -> None:
-        super().__init__(parent)
+    def __init__(self, look: Look) -> None:
+        super().__init__()
         self._look = look
         self.points: tuple[Point, ...] = ()
         self.certainty = 0.75
@@ -109,9 +108,8 @@ class PointCurve(InLines):
     def area(self) -> QRectF:
         """Where the curves are; as wide as the groove of a slider below."""
         line = self.fontMetrics().height()
-        return QRectF(
-            line * 0.5, line * 1.4, max(self.width() - line, 1.0), self.height() - line * 2.8
-        )
+        width = max(self.width() - line, 1.0)
+        return QRectF(line * 0.5, line * 1.4, width, self.height() - line * 2.8)
 
     def certainty_at(self, x: float) -> float:
         """The certainty at a place."""
@@ -144,34 +142,23 @@ class PointCurve(InLines):
             most = self.most_per_hour
             caught = [self._place(point.certainty, point.caught) for point in self.points]
             false = [self._place(p.certainty, _height(p.false_per_hour, most)) for p in self.points]
-            pale = QColor(theme.colour("plot_1"))
+            pale = theme.colour("plot_1")
             pale.setAlphaF(0.15)
             painter.setPen(Qt.PenStyle.NoPen)
             painter.setBrush(pale)
-            bottom = self.area().bottom()
-            ends = [QPointF(caught[-1].x(), bottom), QPointF(caught[0].x(), bottom)]
+            ends = [QPointF(one.x(), area.bottom()) for one in (caught[-1], caught[0])]
             painter.drawPolygon(QPolygonF([*caught, *ends]))
             painter.setBrush(Qt.BrushStyle.NoBrush)
-            painter.setPen(self._pen(theme, "plot_2", is_dashed=True))
-            painter.drawPolyline(QPolygonF(false))
-            painter.setPen(self._pen(theme, "plot_1"))
-            painter.drawPolyline(QPolygonF(caught))
-            self._paint_legend(painter, theme)
+            wide = max(2.0, self.fontMetrics().height() / 8)
+            wide *= 1.5 if theme.name == HIGH_CONTRAST else 1
+            pens = [curve_pen(theme, colour, wide) for colour in ("plot_1", "plot_2")]
+            for pen, curve in zip(reversed(pens), (false, caught), strict=True):
+                painter.setPen(pen)
+                painter.drawPolyline(QPolygonF(curve))
+            legend = dict(zip((tr("caught"), tr("false alarms")), pens, strict=True))
+            paint_legend(painter, area.left(), legend, theme.colour("text"))
         self._paint_place(painter, theme)
         painter.end()
-
-    def _paint_legend(self, painter: QPainter, theme: Theme) -> None:
-        """Above the curves, each word with a piece of its line."""
-        line, metrics = self.fontMetrics().height(), self.fontMetrics()
-        x, middle = self.area().left(), line * 0.7
-        for colour, words in (("plot_1", tr("caught")), ("plot_2", tr("false alarms"))):
-            painter.setPen(self._pen(theme, colour, is_dashed=colour == "plot_2"))
-            painter.drawLine(QLineF(x, middle, x + line * 1.6, middle))
-            painter.setPen(theme.colour("text"))
-            room = QRectF(x + line * 1.9, 0, self.width() - x - line * 1.9, line * 1.4)
-            flags = Qt.AlignmentFlag.AlignVCenter | Qt.AlignmentFlag.AlignLeft
-            painter.drawText(room, flags, words)
-            x += line * 2.9 + metrics.horizontalAdvance(words)
 
     def _paint_place(self, painter: QPainter, theme: Theme) -> None:
         area, line, x = self.area(), self.fontMetrics().height(), self.x_of(self.certainty)
@@ -192,13 +179,6 @@ class PointCurve(InLines):
         room = QRectF(left, area.bottom() + line * 0.25, wide + 1, line * 1.1)
         painter.drawText(room, Qt.AlignmentFlag.AlignCenter, words)
 
-    def _pen(self, theme: Theme, colour: str, *, is_dashed: bool = False) -> QPen:
-        wide = max(2.0, self.fontMetrics().height() / 8)
-        pen = QPen(theme.colour(colour), wide * (1.5 if theme.name == HIGH_CONTRAST else 1))
-        if is_dashed:
-            pen.setDashPattern([3.0, 2.0])
-        return pen
-
     def _place(self, certainty: float, share: float) -> QPointF:
         area = self.area()
         return QPointF(self.x_of(certainty), area.bottom() - min(share, 1.0) * area.height())
@@ -216,11 +196,10 @@ KEEP_MS = 700
 class PointPanel(QWidget):
     """A gesture is chosen, its curves are shown, a slider below them sets its point."""
 
-    def __init__(self, tuning: Tuning, look: Look, parent: QWidget | None = None) -> None:
-        super().__init__(parent)
+    def __init__(self, tuning: Tuning, look: Look) -> None:
+        super().__init__()
         self.tuning = tuning
-        self.gesture = QComboBox()
-        labelled(self.gesture, name="Gesture")
+        self.gesture = labelled(Choices(self._gestures), name="Gesture")
         self.gesture.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Fixed)
         self.curve = PointCurve(look)
         self.slider = PointSlider(tuning)
@@ -239,7 +218,6 @@ class PointPanel(QWidget):
         self.reset.clicked.connect(lambda: tuning.reset(self.name))
         tuning.point_changed.connect(self._on_point_changed)
         tuning.method_changed.connect(self.refresh)
-        self.fill()
         follow_words(self, self.refresh)
 
     @property
@@ -249,15 +227,13 @@ class PointPanel(QWidget):
 
     def fill(self) -> None:
         """Offer the gestures that were learned."""
-        findings, gestures = self.tuning.findings, self.tuning.controller.gestures
-        known = [name for name in gestures if findings is not None and name in findings.takes]
-        chosen = self.name
-        with QSignalBlocker(self.gesture):
-            self.gesture.clear()
-            for name in known:
-                self.gesture.addItem(gestures[name].title, name)
-            self.gesture.setCurrentIndex(max(0, self.gesture.findData(chosen)))
+        self.gesture.refill()
         self.refresh()
+
+    def _gestures(self) -> dict[str, str]:
+        findings, gestures = self.tuning.findings, self.tuning.controller.gestures
+        known = findings.takes if findings is not None else {}
+        return {name: one.title for name, one in gestures.items() if name in known}
 
     def choose(self, name: str) -> None:
         """Show a gesture."""
@@ -284,8 +260,8 @@ class PointPanel(QWidget):
 class PointSlider(QSlider):
     """The recognition point of a gesture in hundredths; a drag is one step of undo."""
 
-    def __init__(self, tuning: Tuning, parent: QWidget | None = None) -> None:
-        super().__init__(Qt.Orientation.Horizontal, parent)
+    def __init__(self, tuning: Tuning) -> None:
+        super().__init__(Qt.Orientation.Horizontal)
         self.tuning, self.name = tuning, ""
         self.setLayoutDirection(Qt.LayoutDirection.LeftToRight)
         self.setRange(round(LOWEST * 100), round(HIGHEST * 100))

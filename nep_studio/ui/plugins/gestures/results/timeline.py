@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 
 from PySide6.QtCore import QLineF, QPointF, QRectF, QSize, Qt
-from PySide6.QtGui import QColor, QMouseEvent, QPainter, QPaintEvent, QPen, QPolygonF
-from PySide6.QtWidgets import QSizePolicy, QWidget
+from PySide6.QtGui import QMouseEvent, QPainter, QPaintEvent, QPen, QPolygonF
+from PySide6.QtWidgets import QSizePolicy
 
 from nep_studio.ui.labels import follow_words, labelled
 from nep_studio.ui.theme.colours import Theme
@@ -29,10 +29,8 @@ class TriggerTimeline(InLines):
 
     usual_lines, least_lines = (16, LINES_HIGH), (9, LINES_HIGH)
 
-    def __init__(
-        self, title: Callable[[str], str], look: Look, parent: QWidget | None = None
-    ) -> None:
-        super().__init__(parent)
+    def __init__(self, title: Callable[[str], str], look: Look) -> None:
+        super().__init__()
         self._title, self._look = title, look
         self._history = CertaintyHistory()
         self._triggers: Sequence[Detection] = ()
@@ -105,24 +103,20 @@ class TriggerTimeline(InLines):
     def _paint_curve(self, painter: QPainter, theme: Theme) -> None:
         area, line = self.area(), self.fontMetrics().height()
         high = area.height() - line * 1.4  # above it is room for flags
-        points = [
-            QPointF(
-                self.x_of(look.end_s),
-                area.bottom() - min(float(look.certainties.max()), 1.0) * high,
-            )
-            for look in self._history.kept
-        ]
+        curve = QPolygonF()
+        for look in self._history.kept:
+            certainty = min(float(look.certainties.max()), 1.0)
+            curve.append(QPointF(self.x_of(look.end_s), area.bottom() - certainty * high))
         painter.setPen(QPen(theme.colour("plot_1"), max(1.5, line / 10)))
-        painter.drawPolyline(QPolygonF(points))
+        painter.drawPolyline(curve)
 
     def _paint_flag(self, painter: QPainter, theme: Theme, x: float) -> None:
         area, line = self.area(), self.fontMetrics().height()
         painter.setPen(QPen(theme.colour("success"), max(2.0, line / 8)))
         painter.drawLine(QLineF(x, area.top(), x, area.bottom()))
         painter.setBrush(theme.colour("success"))
-        top = area.top()
-        corners = ((0.0, 0.0), (0.6, 0.3), (0.0, 0.6))
-        painter.drawPolygon(QPolygonF([QPointF(x + line * a, top + line * b) for a, b in corners]))
+        flag = QPolygonF([QPointF(0, 0), QPointF(line * 0.6, line * 0.3), QPointF(0, line * 0.6)])
+        painter.drawPolygon(flag.translated(x, area.top()))
 
     def _paint_name(
         self, painter: QPainter, theme: Theme, title: str, x: float, end: float
@@ -151,10 +145,8 @@ BAR_LINES_HIGH = 2.5
 class GestureBar(PointSlider):
     """A slider: its value is the recognition point, the bar behind it is the certainty now."""
 
-    def __init__(
-        self, tuning: Tuning, name: str, look: Look, parent: QWidget | None = None
-    ) -> None:
-        super().__init__(tuning, parent)
+    def __init__(self, tuning: Tuning, name: str, look: Look) -> None:
+        super().__init__(tuning)
         self._look = look
         self.certainty = 0.0
         self.is_flashing = False
@@ -238,12 +230,8 @@ class GestureBar(PointSlider):
         right = Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter
         painter.drawText(room, right, percent)
         if self.is_flashing:
-            paint_icon(
-                painter,
-                QRectF(room.left(), room.top(), line, line),
-                "circle-check",
-                QColor(theme.colour("success")),
-            )
+            sign = QRectF(room.left(), room.top(), line, line)
+            paint_icon(painter, sign, "circle-check", theme.colour("success"))
             room.setLeft(room.left() + line * 1.3)
         room.setRight(room.right() - metrics.horizontalAdvance("100 %") - line * 0.4)
         title = gesture.title if gesture is not None else self.name

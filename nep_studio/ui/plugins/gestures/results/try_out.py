@@ -75,12 +75,9 @@ class CorrectionBar(QWidget):
     """``history`` gives what the recogniser saw in the last half minute."""
 
     def __init__(
-        self,
-        controller: GestureController,
-        history: Callable[[], CertaintyHistory],
-        parent: QWidget | None = None,
+        self, controller: GestureController, history: Callable[[], CertaintyHistory]
     ) -> None:
-        super().__init__(parent)
+        super().__init__()
         self._controller, self._history = controller, history
         self.missed = labelled(
             QPushButton(),
@@ -94,9 +91,7 @@ class CorrectionBar(QWidget):
         self.menu.aboutToShow.connect(self.fill_menu)
         self.missed.setMenu(self.menu)
         self.false_alarm.clicked.connect(self.keep_false_alarm)
-        row = FlowLayout(self, 4)
-        row.addWidget(self.missed)
-        row.addWidget(self.false_alarm)
+        FlowLayout(self, 4, (self.missed, self.false_alarm))
 
     def fill_menu(self) -> None:
         """Offer the gestures that may have been missed."""
@@ -152,10 +147,8 @@ class TryOut(QWidget):
 
     recognised = Signal(object)
 
-    def __init__(
-        self, controller: GestureController, training: Training, parent: QWidget | None = None
-    ) -> None:
-        super().__init__(parent)
+    def __init__(self, controller: GestureController, training: Training) -> None:
+        super().__init__()
         self.controller, self.training, self.tuning = controller, training, training.tuning
         self.history = CertaintyHistory()
         self.model: Model | None = None
@@ -232,10 +225,8 @@ class TryOut(QWidget):
             if recogniser is None:
                 self._begin(None)
             return
-        gravity = (
-            self.controller.live.gravity_included if self.controller.live is not None else True
-        )
-        wrist = self.controller.wrist
+        live, wrist = self.controller.live, self.controller.wrist
+        gravity = live is None or live.gravity_included
         self.listening.listen_for(Wanted(recogniser.file, self.tuning.method, gravity, wrist))
 
     def _begin(self, model: Model | None) -> None:

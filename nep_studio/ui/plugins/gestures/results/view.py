@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from PySide6.QtCore import QSize, Qt, Signal
+from PySide6.QtCore import Qt, Signal
 from PySide6.QtGui import QShowEvent
 from PySide6.QtWidgets import (
     QCheckBox,
+    QFrame,
     QProgressBar,
     QPushButton,
     QSizePolicy,
@@ -25,8 +26,8 @@ from nep_studio.ui.words import language_code, tr
 
 from .advice import Advice, AdviceList, Known, advice_on, false_triggers, headline, takes_of_pair
 from .confusion import ConfusionView
-from .findings import METHODS, method_words
-from .labels import StatusIcon, Words, card
+from .findings import method_words
+from .labels import StatusIcon, Words
 from .threshold import PointPanel
 from .training import QUICK_S, Training
 
@@ -39,16 +40,15 @@ BAR_WIDE_LINES = 30
 class TrainBar(QWidget):
     """Follows a training."""
 
-    def __init__(self, training: Training, look: Look, parent: QWidget | None = None) -> None:
-        super().__init__(parent)
+    def __init__(self, training: Training, look: Look) -> None:
+        super().__init__()
         self.training, self._look = training, look
         self.button = labelled(QPushButton(), text="Train")
         self.button.setProperty("kind", "primary")
         self.cancel = labelled(
             QPushButton(), text="Cancel", tip="Stop the training; what was learned before stays"
         )
-        self.progress = QProgressBar(textVisible=False)
-        self.progress.setRange(0, 100)
+        self.progress = QProgressBar(textVisible=False, minimum=0, maximum=100)
         labelled(self.progress, name="Progress of the training")
         self.progress.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Fixed)
         self.sign = StatusIcon(look)
@@ -104,32 +104,24 @@ class TrainBar(QWidget):
         if training.why_not:
             return "info", "info", training.why_not
         if training.is_stale:
-            return "refresh-cw", "warning", self._stale_words()
+            words = tr("Something has changed: train again.")
+            if training.trains_by_itself and not training.is_quick:
+                words = tr(
+                    "Something has changed: train again. It took longer than {seconds} s, so it is"
+                    " not done by itself.",
+                    seconds=round(QUICK_S),
+                )
+            return "refresh-cw", "warning", words
         if training.controller.recogniser is None:
-            return (
-                "info",
-                "info",
-                tr("Train, and it is told how well your gestures are told apart."),
-            )
+            words = tr("Train, and it is told how well your gestures are told apart.")
+            return "info", "info", words
         if training.seconds:
             seconds = f"{training.seconds:.1f}"
             return "circle-check", "success", tr("Learned in {seconds} s", seconds=seconds)
         return "circle-check", "success", tr("Learned, and up to date")
 
-    def _stale_words(self) -> str:
-        training = self.training
-        if training.trains_by_itself and not training.is_quick:
-            return tr(
-                "Something has changed: train again. It took longer than {seconds} s, so it is not"
-                " done by itself.",
-                seconds=round(QUICK_S),
-            )
-        return tr("Something has changed: train again.")
-
-    def _dress(self, _theme: object = None) -> None:
-        theme, line = self._look.theme, self.fontMetrics().height()
-        for button in (self.button, self.cancel):
-            button.setIconSize(QSize(line, line))
+    def _dress(self) -> None:
+        theme = self._look.theme
         self.button.setIcon(icon("brain", theme.colour("accent_text")))
         self.cancel.setIcon(icon("x", theme))
 
@@ -157,19 +149,17 @@ class ResultsView(QWidget):
     gesture_asked = Signal()
     trial_asked = Signal()
 
-    def __init__(
-        self, controller: GestureController, training: Training, parent: QWidget | None = None
-    ) -> None:
-        super().__init__(parent)
+    def __init__(self, controller: GestureController, training: Training) -> None:
+        super().__init__()
         self.controller, self.training, self.tuning = controller, training, training.tuning
         self.bar = TrainBar(training, controller.look)
         self.headline = Words(role="heading")
         self.everyday = Words(role="hint")
         self.advice = AdviceList(controller.look)
-        self.method = Choices(_methods)
+        self.method = Choices(method_words)
         self.table = ConfusionView(self._title, controller.look)
         self.points = PointPanel(self.tuning, controller.look)
-        self.failure = card()
+        self.failure = QFrame()
         self._told_problem: object = None
         self._shown: object = None
         self._lay_out()
@@ -204,10 +194,14 @@ class ResultsView(QWidget):
         self.area = scrolled(inner)
         self.area.setFocusPolicy(Qt.FocusPolicy.NoFocus)
         in_column(self.area, of=self, margins=0)
+        self.failure.setProperty("kind", "card")
+        self.failure.setSizePolicy(QSizePolicy.Policy.Preferred, QSizePolicy.Policy.Maximum)
         QVBoxLayout(self.failure)
 
     def _connect(self) -> None:
-        self.method.currentIndexChanged.connect(self._on_method_chosen)
+        self.method.currentIndexChanged.connect(
+            lambda: self.tuning.use_method(str(self.method.currentData()))
+        )
         self.advice.asked.connect(self._on_asked)
         self.advice.takes_asked.connect(self.takes_asked)
         self.table.cell_chosen.connect(self._on_cell_chosen)
@@ -220,7 +214,7 @@ class ResultsView(QWidget):
         self._show_failure()
         findings = self.tuning.findings
         self.found.setVisible(findings is not None)
-        self.method.setCurrentIndex(self.method.findData(self.tuning.method))
+        self.method.choose(self.tuning.method)
         self._show_advice()
         shown = (
             language_code(),
@@ -268,15 +262,12 @@ class ResultsView(QWidget):
             told = Message("error", tr(problem.title), tr(problem.sentence), steps, problem.details)
             box.addWidget(MessageText(told))
 
-    def _on_method_chosen(self) -> None:
-        self.tuning.use_method(str(self.method.currentData()))
-
     def _on_cell_chosen(self, made: str, found: str) -> None:
         findings = self.tuning.findings
-        if findings is not None:
-            takes = takes_of_pair(findings, self.controller.gestures, made, found)
-            if takes:
-                self.takes_asked.emit(takes)
+        if findings is None:
+            return
+        if takes := takes_of_pair(findings, self.controller.gestures, made, found):
+            self.takes_asked.emit(takes)
 
     def _on_asked(self, advice: Advice) -> None:
         match advice.what:
@@ -299,7 +290,3 @@ class ResultsView(QWidget):
         """Somebody may want to train soon."""
         super().showEvent(event)
         self.training.warm()
-
-
-def _methods() -> dict[object, str]:
-    return {method: method_words(method) for method in METHODS}
