@@ -35,7 +35,6 @@ Fix = Literal[
     "stop",
 ]
 
-BAD = frozenset({"warning", "frozen", "crashed"})
 WELL = frozenset({"ready", "busy"})
 BAD = frozenset({"frozen", "warning", "crashed", "stopped"})
 """What may have to be told."""
@@ -82,10 +81,8 @@ def notice_of(before: NodeStatus | None, after: NodeStatus, at: Circumstances) -
         return _no_connection(after, at)
     if after.health == "warning":
         return _warning(after, at)
-    if after.health == "crashed":
-        if at.is_program:
-            return None if at.is_ending else _program_ended(after)
-        return None if at.is_ending else _ended(after, at)
+    if after.health == "crashed" and not at.is_ending:
+        return _program_ended(after) if at.is_program else _ended(after, at)
     if after.health == "stopped" and before is not None:
         return _stopped(after, at)
     return None
@@ -105,10 +102,9 @@ def _no_connection(status: NodeStatus, at: Circumstances) -> Notice:
     )
     title = tr("{name} does not answer", name=status.name)
     problem = Problem(title, fault.sentence or where, fault.checklist)
-    fixes: tuple[Fix, ...] = (
-        ("use_virtual", "test_connection", "change_address") if at.has_block else ()
-    )
-    return Notice(status.name, f"connection {at.address}", "error", problem, fixes)
+    fixes: tuple[Fix, ...] = ("use_virtual", "test_connection", "change_address")
+    told = fixes if at.has_block else ()
+    return Notice(status.name, f"connection {at.address}", "error", problem, told)
 
 
 def _frozen(status: NodeStatus, at: Circumstances) -> Notice:
@@ -142,10 +138,9 @@ def _warning(status: NodeStatus, at: Circumstances) -> Notice:
         title = tr("“{name}” needs attention", name=name)
         steps = (tr("Look into its log."), tr("Look at its settings."))
     problem = Problem(title, status.fault.sentence, status.fault.checklist or steps)
-    fixes: list[Fix] = ["show_log"] if at.is_ours or at.is_program else []
-    if at.has_block:
-        fixes.append("show_settings")
-    return Notice(name, f"warning {status.fault}", "warning", problem, tuple(fixes))
+    log: tuple[Fix, ...] = ("show_log",) if at.is_ours or at.is_program else ()
+    settings: tuple[Fix, ...] = ("show_settings",) if at.has_block else ()
+    return Notice(name, f"warning {status.fault}", "warning", problem, log + settings)
 
 
 def _ended(status: NodeStatus, at: Circumstances) -> Notice | None:
@@ -159,9 +154,8 @@ def _ended(status: NodeStatus, at: Circumstances) -> Notice | None:
     if status.fault.code == PROCESS_RESTARTS:
         title = tr("“{name}” ended unexpectedly and is started again", name=name)
         steps = (tr("Wait a moment: it comes back by itself."), tr("Look into its log."))
-        return Notice(
-            name, "restarting", "warning", Problem(title, described, steps), ("show_log",)
-        )
+        problem = Problem(title, described, steps)
+        return Notice(name, "restarting", "warning", problem, ("show_log",))
     if status.fault.code != PROCESS_ENDED:
         return None  # its own last words; what became of its process follows at once
     if not at.was_ready:
@@ -192,10 +186,7 @@ def _how_it_ended(status: NodeStatus) -> Text:
 
 def started_again(name: str, problem: Problem) -> Notice:
     """What stands there for a while when a node is well again: it was too quick to be read."""
-    titles = {
-        PROGRAM: tr("The program has begun again"),
-        MASTER: tr("The network is open again"),
-    }
+    titles = {PROGRAM: tr("The program has begun again"), MASTER: tr("The network is open again")}
     title = titles.get(name) or tr("“{name}” was started again", name=name)
     again = Problem(title, problem.sentence)
     return Notice(name, "started again", "info", again, ("show_log",), passes=True)
@@ -227,10 +218,8 @@ def _stopped(status: NodeStatus, at: Circumstances) -> Notice | None:
 
 def could_not_start(name: str, problem: Problem, at: Circumstances) -> Notice:
     """What to tell when a node that a person started did not come up."""
-    fixes: list[Fix] = ["start", "show_log"]
-    if at.has_block:
-        fixes.insert(0, "show_settings")
-    return Notice(name, "could not start", "error", problem, tuple(fixes))
+    settings: tuple[Fix, ...] = ("show_settings",) if at.has_block else ()
+    return Notice(name, "could not start", "error", problem, (*settings, "start", "show_log"))
 
 
 # Does what the buttons of the messages about nodes say.
