@@ -187,7 +187,7 @@ def test_a_number_of_a_message_can_be_plotted(bench: Bench, start: Start, qtbot:
 
     pane._on_plot_menu()
     [action] = [one for one in pane.bar.plot_menu.actions() if one.text() == "acc"]
-    with qtbot.waitSignal(bench.network.plot_requested) as asked:
+    with qtbot.waitSignal(bench.network.pane.plot_requested) as asked:
         action.trigger()
 
     assert asked.args == ["/imu", "acc"]
