@@ -55,21 +55,6 @@ class Entry:
         return self.name == PROGRAM
 
     @property
-    def can_start(self) -> bool:
-        """Whether the studio can start it now."""
-        return not is_running(self.status) and (self.planned is not None or self.is_program)
-
-    @property
-    def can_stop(self) -> bool:
-        """Whether the studio can stop it now."""
-        return is_running(self.status) and (self.is_ours or self.is_program)
-
-    @property
-    def can_restart(self) -> bool:
-        """Whether the studio can stop and start it: the program is started by Run alone."""
-        return is_running(self.status) and self.is_ours
-
-    @property
     def has_log(self) -> bool:
         """Whether the studio keeps what it writes."""
         return self.is_ours or self.is_program
@@ -166,9 +151,10 @@ class NodeCard(QFrame):
     def _show(self) -> None:
         entry = self.entry
         self._draw_signs()
-        self.start_button.setEnabled(entry.can_start)
-        self.stop_button.setEnabled(entry.can_stop)
-        self.restart_button.setEnabled(entry.can_restart)
+        runs, is_known = is_running(entry.status), entry.planned is not None or entry.is_program
+        self.start_button.setEnabled(is_known and not runs)
+        self.stop_button.setEnabled(runs and (entry.is_ours or entry.is_program))
+        self.restart_button.setEnabled(runs and entry.is_ours)  # the program is started by Run
         self.log_button.setEnabled(entry.has_log)
         for button in self.buttons:
             button.setVisible(not entry.is_foreign)

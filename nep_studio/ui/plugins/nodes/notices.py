@@ -245,45 +245,34 @@ class NodeFixes:
 
     def answer(self, fix: Fix, name: str) -> Answer:
         """The button of a fix."""
-        words: Mapping[Fix, str] = {
-            "start": tr("Start it again"),
-            "restart": tr("Restart it"),
-            "show_log": tr("Show its log"),
-            "show_settings": tr("Show its settings"),
-            "use_virtual": tr("Use the robot on the screen"),
-            "test_connection": tr("Find it and test the connection"),
-            "change_address": tr("Change the address"),
-            "run": tr("Run again"),
-            "stop": tr("Stop"),
+        runner = self._host.services.runner
+        buttons: Mapping[Fix, tuple[str, Callable[[], object]]] = {
+            "start": (tr("Start it again"), lambda: self.start(name)),
+            "restart": (tr("Restart it"), lambda: runner.restart_node(name)),
+            "show_log": (tr("Show its log"), lambda: self._open_log(name)),
+            "show_settings": (tr("Show its settings"), lambda: self._show_settings(name)),
+            "use_virtual": (tr("Use the robot on the screen"), lambda: self._use_virtual(name)),
+            "test_connection": (
+                tr("Find it and test the connection"),
+                lambda: self._host.ask("connecting.open", name),
+            ),
+            "change_address": (tr("Change the address"), lambda: self._change_address(name)),
+            "run": (tr("Run again"), runner.run),
+            "stop": (tr("Stop"), lambda: self._host.services.running.stop()),
         }
-        look = "primary" if fix in ("start", "restart", "use_virtual", "run") else "quiet"
-        return Answer(words[fix], lambda: self.do(fix, name), look)  # type: ignore[arg-type]
+        words, do = buttons[fix]
+        is_first = fix in ("start", "restart", "use_virtual", "run")
+        return Answer(words, do, "primary" if is_first else "quiet")
 
-    def do(self, fix: Fix, name: str) -> None:
-        """Do what a fix says."""
-        match fix:
-            case "start":
-                self.start(name)
-            case "restart":
-                self._host.services.runner.restart_node(name)
-            case "show_log":
-                self._open_log(name)
-            case "show_settings":
-                self._host.workbench.show_block(self.block_of(name))
-            case "use_virtual":
-                self._use_virtual(name)
-            case "test_connection":
-                self._host.ask("connecting.open", name)
-            case "change_address":
-                # Show the robot's block with its address open to be written
-                block, workbench = self._robot_block(name), self._host.workbench
-                if block:
-                    workbench.show_block(block)
-                    workbench.canvas.fields.open(block, "address")
-            case "run":
-                self._host.services.runner.run()
-            case "stop":
-                self._host.services.running.stop()
+    def _show_settings(self, name: str) -> None:
+        self._host.workbench.show_block(self.block_of(name))
+
+    def _change_address(self, name: str) -> None:
+        """Show the robot's block with its address open to be written."""
+        block, workbench = self._robot_block(name), self._host.workbench
+        if block:
+            workbench.show_block(block)
+            workbench.canvas.fields.open(block, "address")
 
     def start(self, name: str) -> None:
         """Start a node as it is wanted now; or the network, when its master is gone."""
