@@ -519,8 +519,8 @@ class Faults(QObject):
             self.is_sure = True
             if at_s >= 0.0:
                 words = tr("The robot would fall at {time} s.", time=f"{at_s:.2f}")
-                end_s = max(self.controller.motion.duration_s, at_s + 0.05)
-                self.now = [*self.now, Fault("fall", at_s, end_s, words)]
+                to_s = max(self.controller.motion.duration_s, at_s + 0.05)
+                self.now = [*self.now, Fault("fall", at_s, to_s, words)]
             self.found.emit(self.now)
             return
 
