@@ -119,7 +119,7 @@ def test_posing_pauses_the_play(motion: MotionWindow, drag, qtbot: QtBot) -> Non
 def test_too_fast_is_told_and_gets_its_time(motion: MotionWindow, qtbot: QtBot) -> None:
     motion.controller.set_joints({"RShoulderPitch": -1.9}, "pose")
     motion.controller.move_chosen(-0.9, "move")
-    qtbot.waitUntil(lambda: motion.faults.has_too_fast)
+    qtbot.waitUntil(lambda: any(fault.kind == "fast" for fault in motion.faults.now))
     assert "Too fast" in motion.notes.words.text()
 
     qtbot.mouseClick(motion.notes.give_time, Qt.MouseButton.LeftButton)

@@ -14,6 +14,7 @@ from nep_core.networks.zmq_networks import PeerNetwork
 from nep_core.wire import messages as m
 from nep_core.wire.pubsub import Publisher
 from nep_studio.run.plan import PlannedNode
+from nep_studio.ui.network_feed import TopicSeen
 from nep_studio.ui.plugins.network.graph import Key
 from tests.ui.panels.conftest import KARATE, WAIT_MS, WATCH, Bench
 
@@ -187,7 +188,7 @@ def test_a_number_of_a_message_can_be_plotted(bench: Bench, start: Start, qtbot:
 
     pane._on_plot_menu()
     [action] = [one for one in pane.bar.plot_menu.actions() if one.text() == "acc"]
-    with qtbot.waitSignal(bench.network.plot_requested) as asked:
+    with qtbot.waitSignal(bench.network.pane.plot_requested) as asked:
         action.trigger()
 
     assert asked.args == ["/imu", "acc"]
@@ -241,3 +242,14 @@ def test_5000_messages_a_second_do_not_stop_the_window(
 
     assert bench.network.pane.heard.count > 500
     assert max(busy) < 0.05
+
+
+def test_a_topic_of_which_nothing_is_known_says_nothing_of_the_one_before(bench: Bench) -> None:
+    pane = bench.network.pane
+    pane.show_topic("/imu", TopicSeen("/imu", publishers=("watch",)))
+    assert "watch" in pane.about.text()
+
+    pane.show_topic("/other")
+    pane._say()  # in another language
+
+    assert pane.about.text() == ""

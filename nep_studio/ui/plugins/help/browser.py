@@ -174,10 +174,8 @@ class HelpBrowser(QTextBrowser):
     def _text_option(self) -> QTextOption:
         option = QTextOption()
         option.setWrapMode(QTextOption.WrapMode.WrapAtWordBoundaryOrAnywhere)
-        direction = Qt.LayoutDirection
-        option.setTextDirection(
-            direction.RightToLeft if is_right_to_left() else direction.LeftToRight
-        )
+        right, left = Qt.LayoutDirection.RightToLeft, Qt.LayoutDirection.LeftToRight
+        option.setTextDirection(right if is_right_to_left() else left)
         return option
 
     def _picture(self, url: QUrl, look: PictureLook) -> QPixmap:
@@ -226,15 +224,12 @@ class HelpBrowser(QTextBrowser):
         page = self.page
         if not address.startswith(DRAG) or page is None or page.example is None:
             return False
-        clip = page.example.clip(self._book().language, language_code(), self._canvas_page())
+        kind = self._canvas.editor.project.kind_of_page(self._canvas.page)
+        clip = page.example.clip(self._book().language, language_code(), kind)
         if clip.stacks:
-            self._canvas.begin_external_drag(
-                clip, event.globalPosition().toPoint(), self.viewport()
-            )
+            where = event.globalPosition().toPoint()
+            self._canvas.begin_external_drag(clip, where, self.viewport())
         return True
-
-    def _canvas_page(self) -> str:
-        return self._canvas.editor.project.kind_of_page(self._canvas.page)
 
     def wheelEvent(self, event: QWheelEvent) -> None:
         """Scroll, or zoom with Ctrl."""
@@ -270,11 +265,11 @@ class ExampleBar(QWidget):
         self._example: Example | None = None
         self._title = ""
         self.can_insert = True
-        self.insert = labelled(QPushButton(), text="Put it on the page")
-        self.try_it = labelled(QPushButton(), text="Try it")
-        self.try_it.setProperty("kind", "primary")
+        self.insert, self.try_it = QPushButton(), QPushButton()
+        labelled(self.insert, text="Put it on the page")
         labelled(self.insert, tip="Put the blocks of the example into your program")
-        labelled(self.try_it, tip="Run the example as a project of its own")
+        labelled(self.try_it, text="Try it", tip="Run the example as a project of its own")
+        self.try_it.setProperty("kind", "primary")
         self.insert.clicked.connect(self.put_on_page)
         self.try_it.clicked.connect(self.ask_to_try)
         gap = self.fontMetrics().height() // 3

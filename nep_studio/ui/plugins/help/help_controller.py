@@ -132,8 +132,8 @@ def page_at(widget: QWidget | None) -> str:
 def _page_of(widget: QWidget) -> str:
     if widget.property(PROPERTY):
         return str(widget.property(PROPERTY))
-    if isinstance(widget, Shelf):
-        return page_of_sample(widget)
+    if isinstance(widget, Shelf):  # the block that is marked, by the mouse before the keyboard
+        return block_page(widget.marked_type) if widget.marked_type else ""
     if isinstance(widget, Canvas):
         return page_of_field(widget) or page_of_block(widget)
     if isinstance(widget, MessageCard):
@@ -144,15 +144,10 @@ def _page_of(widget: QWidget) -> str:
 
 def page_of_message(title: str) -> str:
     """The page about a message with this title, in the language in use."""
-    known = (each for each in error_texts(language_code()) if tr(each) == title)
-    found = next(known, None)
-    return f"{PROBLEMS}#{error_anchor(found)}" if found is not None else PROBLEMS
-
-
-def page_of_sample(shelf: Shelf) -> str:
-    """The page of the block of the palette that is marked, by the mouse before the keyboard."""
-    sample_type = shelf.marked_type
-    return block_page(sample_type) if sample_type else ""
+    for english in error_texts(language_code()):
+        if tr(english) == title:
+            return f"{PROBLEMS}#{error_anchor(english)}"
+    return PROBLEMS
 
 
 def page_of_field(canvas: Canvas) -> str:
@@ -332,6 +327,5 @@ def open_documentation(messages: Messages) -> None:
         sentence = tr("No browser could be started for the page {page}.", page=page)
         steps = [tr("Open that file in a browser by hand.")]
     steps.append(tr("Press F1: the help in this window has most of it."))
-    messages.tell(
-        Message("warning", tr("The documentation cannot be shown"), sentence, tuple(steps))
-    )
+    title = tr("The documentation cannot be shown")
+    messages.tell(Message("warning", title, sentence, tuple(steps)))

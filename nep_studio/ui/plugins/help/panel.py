@@ -12,7 +12,6 @@ from PySide6.QtPrintSupport import QPrintDialog, QPrinter
 from PySide6.QtWidgets import (
     QAbstractItemView,
     QDialog,
-    QHBoxLayout,
     QLineEdit,
     QListWidget,
     QListWidgetItem,
@@ -34,7 +33,7 @@ from nep_studio.ui.messages import announce
 from nep_studio.ui.theme.colours import Theme
 from nep_studio.ui.theme.icons import UnknownIcon, icon
 from nep_studio.ui.theme.look import Look
-from nep_studio.ui.widgets.layouts import InLines, in_column
+from nep_studio.ui.widgets.layouts import InLines, in_column, in_row
 from nep_studio.ui.words import is_right_to_left, tr
 
 from .browser import ZOOM_STEP, ExampleBar, HelpBrowser
@@ -53,12 +52,10 @@ class ContentsView(QStackedWidget):
 
     def __init__(self, parent: QWidget) -> None:
         super().__init__(parent)
-        self.tree = QTreeWidget()
+        self.tree = labelled(QTreeWidget(), name="Contents of the help")
         self.tree.setHeaderHidden(True)
         self.tree.setUniformRowHeights(True)
-        labelled(self.tree, name="Contents of the help")
-        self.found = FoundList()
-        labelled(self.found, name="Pages found")
+        self.found = labelled(FoundList(), name="Pages found")
         self.found.setUniformItemSizes(True)
         for view in (self.tree, self.found):
             view.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
@@ -67,8 +64,8 @@ class ContentsView(QStackedWidget):
             self.addWidget(view)
         self.tree.itemClicked.connect(self._on_tree_used)
         self.tree.itemActivated.connect(self._on_tree_used)
-        self.found.itemClicked.connect(self._on_found_used)
-        self.found.itemActivated.connect(self._on_found_used)
+        self.found.itemClicked.connect(self.choose_found)
+        self.found.itemActivated.connect(self.choose_found)
 
     def fill(self, contents: Iterable[Content], theme: Theme) -> None:
         """Show these contents."""
@@ -83,8 +80,8 @@ class ContentsView(QStackedWidget):
 
     def mark(self, name: str) -> None:
         """Show in the tree which page is shown."""
-        page = split(name)[0]
-        if page == self._marked():
+        page, marked = split(name)[0], self.tree.currentItem()
+        if marked is not None and marked.data(0, PAGE) == page:
             return
         each = QTreeWidgetItemIterator(self.tree)
         while (item := each.value()) is not None:
@@ -98,22 +95,17 @@ class ContentsView(QStackedWidget):
         """Show what a search found, the best first."""
         self.found.clear()
         for hit in hits:
-            item = QListWidgetItem(_icon(_kind_icon(hit.page), theme), hit.title)
+            kinds = (name for kind, name in KIND_ICONS.items() if hit.page.startswith(kind))
+            item = QListWidgetItem(_icon(next(kinds, "book-open"), theme), hit.title)
             item.setData(PAGE, hit.page)
             item.setToolTip(hit.title)
             self.found.addItem(item)
         if self.found.count():
             self.found.setCurrentRow(0)
         else:
-            words = tr("Nothing says “{typed}”. Try another word.", typed=typed)
-            nothing = QListWidgetItem(words)
-            nothing.setFlags(Qt.ItemFlag.NoItemFlags)
-            self.found.addItem(nothing)
+            self.found.addItem(tr("Nothing says “{typed}”. Try another word.", typed=typed))
+            self.found.item(0).setFlags(Qt.ItemFlag.NoItemFlags)
         self.setCurrentWidget(self.found)
-
-    def show_contents(self) -> None:
-        """Show the tree again."""
-        self.setCurrentWidget(self.tree)
 
     def choose_found(self) -> None:
         """Choose what is marked among what was found."""
@@ -121,19 +113,11 @@ class ContentsView(QStackedWidget):
         if item is not None and item.data(PAGE):
             self.chosen.emit(item.data(PAGE))
 
-    def _marked(self) -> str:
-        item = self.tree.currentItem()
-        return str(item.data(0, PAGE)) if item is not None else ""
-
     def _on_tree_used(self, item: QTreeWidgetItem, column: int) -> None:
         if item.parent() is None:
             item.setExpanded(not item.isExpanded())
         else:
             self.chosen.emit(item.data(0, PAGE))
-
-    def _on_found_used(self, item: QListWidgetItem) -> None:
-        if item.data(PAGE):
-            self.chosen.emit(item.data(PAGE))
 
 
 class FoundList(QListWidget):
@@ -166,11 +150,6 @@ def _icon(name: str, theme: Theme) -> QIcon:
         return icon("box", theme)
 
 
-def _kind_icon(page: str) -> str:
-    kinds = (name for kind, name in KIND_ICONS.items() if page.startswith(kind))
-    return next(kinds, "book-open")
-
-
 # The row above the help: back and forth, search, contents, size, print.
 
 
@@ -179,25 +158,21 @@ class ToolRow(QWidget):
 
     def __init__(self, parent: QWidget) -> None:
         super().__init__(parent)
-        self.back = explained(_button(), "Back")
-        self.forward = explained(_button(), "Forward")
-        self.home = explained(_button(), "First page of the help")
-        self.contents = explained(_button(), "Contents")
+        self.back = explained(QToolButton(autoRaise=True), "Back")
+        self.forward = explained(QToolButton(autoRaise=True), "Forward")
+        self.home = explained(QToolButton(autoRaise=True), "First page of the help")
+        self.contents = explained(QToolButton(autoRaise=True), "Contents")
         self.contents.setCheckable(True)
-        self.smaller = explained(_button(), "Smaller text")
-        self.larger = explained(_button(), "Larger text")
-        self.print = explained(_button(), "Print this page…")
+        self.smaller = explained(QToolButton(autoRaise=True), "Smaller text")
+        self.larger = explained(QToolButton(autoRaise=True), "Larger text")
+        self.print = explained(QToolButton(autoRaise=True), "Print this page…")
         self.search = QLineEdit(clearButtonEnabled=True)
         labelled(self.search, placeholder="Search the help", name="Search the help")
         self._sign = QAction(self.search)
         self.search.addAction(self._sign, QLineEdit.ActionPosition.LeadingPosition)
-        buttons = QHBoxLayout()
-        buttons.setSpacing(0)
-        for button in (self.back, self.forward, self.home, self.contents):
-            buttons.addWidget(button)
-        buttons.addStretch(1)
-        for button in (self.smaller, self.larger, self.print):
-            buttons.addWidget(button)
+        ways = self.back, self.forward, self.home, self.contents
+        sizes = self.smaller, self.larger, self.print
+        buttons = in_row(*ways, 1, *sizes, spacing=0)
         gap = self.fontMetrics().height() // 4
         in_column(buttons, self.search, of=self, margins=gap, spacing=gap)
 
@@ -220,10 +195,6 @@ class ToolRow(QWidget):
             button.setIcon(icon(name, theme))
             button.setIconSize(QSize(side, side))
         self._sign.setIcon(icon("search", theme))
-
-
-def _button() -> QToolButton:
-    return QToolButton(autoRaise=True)
 
 
 # The pages that were read, to go back and forth between.
@@ -280,15 +251,8 @@ class Trail:
         del self._steps[:-MOST_STEPS]
         self._at = len(self._steps) - 1
 
-    def back(self, place: int) -> bool:
-        """Go to the page before; False when there is none."""
-        return self._move(-1, place)
-
-    def forward(self, place: int) -> bool:
-        """Go to the page after; False when there is none."""
-        return self._move(1, place)
-
-    def _move(self, way: int, place: int) -> bool:
+    def move(self, way: int, place: int) -> bool:
+        """Go to the page before (-1) or after (1) one at a place; False when there is none."""
         self.leave(place)
         if not 0 <= self._at + way < len(self._steps):
             return False
@@ -366,8 +330,6 @@ class Searching(QObject):
 
 WIDE_LINES = 46
 """So many lines of text wide, the contents stand beside the page."""
-
-
 CONTENTS_LINES = 15
 """How wide the contents are at least then."""
 
@@ -408,8 +370,6 @@ class HelpPanel(InLines):
         self.body.addWidget(self.browser)
         self.body.setStretchFactor(1, 1)
         in_column(self.tools, (self.body, 1), self.example, of=self, margins=0, spacing=0)
-        self.tools.dress(self._look.theme)
-        self.example.dress(self._look.theme)
         self._connect()
         labelled(self, name="Help")
         self.setProperty("help_page", "howto/window#help")
@@ -434,13 +394,10 @@ class HelpPanel(InLines):
         self._are_contents_asked = False
         self._fit()
 
-    def go_back(self) -> None:
-        """Show the page before, where it was read."""
-        self._step(self.trail.back)
-
-    def go_forward(self) -> None:
-        """Show the page that was gone back from."""
-        self._step(self.trail.forward)
+    def step(self, way: int) -> None:
+        """Show the page before (-1), where it was read, or that was gone back from (1)."""
+        if self.trail.move(way, self.browser.verticalScrollBar().value()):
+            self._show(self.trail.current, self.trail.place)
 
     def start_search(self, words: str = "") -> None:
         """Give the search the keyboard; with words, search for them."""
@@ -471,15 +428,6 @@ class HelpPanel(InLines):
         self.searching.forget()
         self.refresh()
 
-    def print_page(self) -> None:
-        """Ask for a printer, and print the page."""
-
-        ask_to_print(self.browser, self)
-
-    def _step(self, step: Callable[[int], bool]) -> None:
-        if step(self.browser.verticalScrollBar().value()):
-            self._show(self.trail.current, self.trail.place)
-
     def _show(self, name: str, place: int = 0) -> None:
         page = self.book.page(name)
         anchor = "" if place else split(name)[1]
@@ -499,13 +447,13 @@ class HelpPanel(InLines):
 
     def _connect(self) -> None:
         tools = self.tools
-        tools.back.clicked.connect(self.go_back)
-        tools.forward.clicked.connect(self.go_forward)
+        tools.back.clicked.connect(lambda: self.step(-1))
+        tools.forward.clicked.connect(lambda: self.step(1))
         tools.home.clicked.connect(lambda: self.open(HOME))
         tools.contents.toggled.connect(self._on_contents_asked)
         tools.smaller.clicked.connect(lambda: self._zoom(1 / ZOOM_STEP))
         tools.larger.clicked.connect(lambda: self._zoom(ZOOM_STEP))
-        tools.print.clicked.connect(self.print_page)
+        tools.print.clicked.connect(lambda: ask_to_print(self.browser, self))
         self.search.textChanged.connect(self._on_search_changed)
         self.search.installEventFilter(self)
         self.browser.installEventFilter(self)
@@ -521,11 +469,11 @@ class HelpPanel(InLines):
 
     def _fit(self) -> None:
         """Contents beside the page where there is room, else above it, when they are asked for."""
-        is_wide = self.width() >= WIDE_LINES * self.fontMetrics().height()
+        line = self.fontMetrics().height()
+        is_wide = self.width() >= WIDE_LINES * line
         direction = Qt.Orientation.Horizontal if is_wide else Qt.Orientation.Vertical
         if self.body.orientation() != direction:
             self.body.setOrientation(direction)
-        line = self.fontMetrics().height()
         self.contents.setMinimumWidth(CONTENTS_LINES * line if is_wide else 0)
         is_searched = bool(self.search.text().strip())
         self.contents.setVisible(is_wide or is_searched or self._are_contents_asked)
@@ -545,7 +493,7 @@ class HelpPanel(InLines):
         if typed:
             self.searching.search(typed)
         else:
-            self.contents.show_contents()
+            self.contents.setCurrentWidget(self.contents.tree)
         self._fit()
 
     def _on_found(self, hits: list[Hit], typed: str) -> None:
@@ -583,9 +531,9 @@ class HelpPanel(InLines):
         is_alt = bool(event.modifiers() & Qt.KeyboardModifier.AltModifier)
         key = event.key()
         if key == Qt.Key.Key_Backspace or (is_alt and key == Qt.Key.Key_Left):
-            self.go_back()
+            self.step(-1)
         elif is_alt and key == Qt.Key.Key_Right:
-            self.go_forward()
+            self.step(1)
         elif key == Qt.Key.Key_Slash:
             self.start_search()
         elif key == Qt.Key.Key_Escape:
@@ -597,10 +545,10 @@ class HelpPanel(InLines):
     def showEvent(self, event: QShowEvent) -> None:
         """Read the first page when the panel is first seen."""
         super().showEvent(event)
+        if self._is_stale:
+            self.refresh()
         if not self.trail.current:
             self.open(HOME)
-        elif self._is_stale:
-            self.refresh()
         self.searching.begin()
 
     def resizeEvent(self, event: QResizeEvent) -> None:

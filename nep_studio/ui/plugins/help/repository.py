@@ -112,13 +112,14 @@ def tip_html(tip: str) -> str:
 def slots_html(language: Language, definition: Definition, told: BlockText) -> str:
     """A table of the places of a block: what goes in, and what is in it at first."""
     rows = [_slot_row(language, definition, told, slot) for slot in definition.slots.values()]
-    if not rows:
-        return ""
-    heads = "".join(f"<th>{escape(words)}</th>" for words in (tr("Name"), tr("What goes in")))
-    return (
-        f"<h2>{escape(tr('Its places'))}</h2>"
-        f'<table class="table" width="100%" cellspacing="0"><tr>{heads}</tr>{"".join(rows)}</table>'
-    )
+    heads = tr("Name"), tr("What goes in")
+    return f"<h2>{escape(tr('Its places'))}</h2>{_table(heads, rows)}" if rows else ""
+
+
+def _table(heads: Iterable[str], rows: Iterable[str]) -> str:
+    head = "".join(f"<th>{escape(words)}</th>" for words in heads)
+    told = "".join(rows)
+    return f'<table class="table" width="100%" cellspacing="0"><tr>{head}</tr>{told}</table>'
 
 
 def _slot_row(language: Language, definition: Definition, told: BlockText, slot: Slot) -> str:
@@ -159,9 +160,7 @@ def _kind(language: Language, block: Block, slot: Slot) -> str:
 
 
 def _default(language: Language, definition: Definition, block: Block, slot: Slot) -> str:
-    if slot.name not in definition.defaults:
-        return ""
-    value = definition.defaults[slot.name]
+    value = definition.defaults.get(slot.name, "")
     return "" if value == "" else field_text(Project(), language, block, slot, value)
 
 
@@ -170,13 +169,12 @@ def example_html(language: Language, example: Example | None, page: str) -> str:
     if example is None:
         return ""
     picture = f'<a href="{DRAG}{example.name}"><img src="{EXAMPLE}{example.name}"></a>'
-    code = python(language, example, page)
     return (
         f'<h2><a name="example"></a>{escape(tr("Example"))}</h2>'
         f"<p>{picture}</p>"
         f'<p class="hint">{escape(tr("Drag it onto the page, or use the buttons below."))}</p>'
         f"<h2>{escape(tr('In Python'))}</h2>"
-        f"{code_html(code)}"
+        f"{code_html(python(language, example, page))}"
     )
 
 
@@ -194,19 +192,12 @@ def python(language: Language, example: Example, page: str = "behaviour") -> str
 
 def _see_html(definition: Definition, told: BlockText, titles: dict[str, str]) -> str:
     """Links to what is near: other blocks, pages, the category."""
-    links = list(_links(told.see, titles))
-    category = CATEGORY + definition.category.id
+    near = (BLOCK + name if "." in name else HOW_TO + name for name in told.see)
+    links = [link(page, titles[page]) for page in near if page in titles]
     words = tr("All blocks of “{category}”", category=definition.category.title)
-    links.append(link(category, words))
+    links.append(link(CATEGORY + definition.category.id, words))
     items = "".join(f"<li>{each}</li>" for each in links)
     return f"<h2>{escape(tr('See also'))}</h2><ul>{items}</ul>"
-
-
-def _links(names: Iterable[str], titles: dict[str, str]) -> Iterator[str]:
-    for name in names:
-        page = BLOCK + name if "." in name else HOW_TO + name
-        if page in titles:
-            yield link(page, titles[page])
 
 
 def link(page: str, words: str) -> str:
@@ -224,12 +215,6 @@ def sample_clip(language: Language, definition: Definition) -> Clip:
     if names:
         AddVariable("v1", tr("variable"), 0).apply(clip.project)
     return clip
-
-
-def sample_words(language: Language, definition: Definition) -> str:
-    """What a new block says."""
-    clip = sample_clip(language, definition)
-    return sentence(clip.project, language, clip.roots[0][0])
 
 
 # The page of a node, made from its manifest: what it does, its settings, its topics.
@@ -277,15 +262,9 @@ def _type(name: str) -> str:
 
 
 def _settings(manifest: Manifest) -> str:
-    if not manifest.parameters:
-        return ""
-    heads = (tr("Setting"), tr("What it is"), tr("Usually"))
-    head = "".join(f"<th>{escape(words)}</th>" for words in heads)
-    rows = "".join(_row(name, each) for name, each in manifest.parameters.items())
-    return (
-        f"<h2>{escape(tr('Its settings'))}</h2>"
-        f'<table class="table" width="100%" cellspacing="0"><tr>{head}</tr>{rows}</table>'
-    )
+    heads = tr("Setting"), tr("What it is"), tr("Usually")
+    rows = [_row(name, each) for name, each in manifest.parameters.items()]
+    return f"<h2>{escape(tr('Its settings'))}</h2>{_table(heads, rows)}" if rows else ""
 
 
 def _row(name: str, parameter: Parameter) -> str:
@@ -373,7 +352,9 @@ class Book:
         for category in self.language.categories:
             titles[CATEGORY + category.id] = category.title
         for definition in self.language.definitions.values():
-            titles[BLOCK + definition.id] = sample_words(self.language, definition)
+            clip = sample_clip(self.language, definition)
+            said = sentence(clip.project, self.language, clip.roots[0][0])
+            titles[BLOCK + definition.id] = said
         nodes = self.language.choices.get("nodes", {})
         for name, manifest in self._manifests.items():
             titles[NODE + name] = node_title(manifest, nodes)
@@ -412,9 +393,8 @@ class Book:
                 words = markdown.inline(text_of(definition.id).about)
                 parts.append(f"<p>{picture}<br>{words} {link(page, tr('More'))}</p>")
             if rest == "my":
-                parts.append(
-                    f"<p>{link(HOW_TO + 'own-blocks', self.titles[HOW_TO + 'own-blocks'])}</p>"
-                )
+                own = HOW_TO + "own-blocks"
+                parts.append(f"<p>{link(own, self.titles[own])}</p>")
             html = "".join(parts)
         elif kind == NODE:
             html = node_html(self._manifests[rest], self.titles[name])
@@ -455,9 +435,8 @@ class Book:
             for slot in definition.slots.values()
             if slot.table
         ]
-        words = (
-            f"{definition.in_words} {told.words} {definition.call.name if definition.call else ''}"
-        )
+        called = definition.call.name if definition.call else ""
+        words = f"{definition.in_words} {told.words} {called}"
         text = " ".join((told.about, told.tip, *told.slots.values(), *choices))
         title = self.titles[BLOCK + definition.id]
         return Findable(BLOCK + definition.id, title, words, text)
@@ -518,14 +497,13 @@ class Book:
         return "".join(parts)
 
     def _how_to_html(self, name: str) -> str:
-        inserts = {"shortcuts": _table(self._shortcuts()), "errors": _errors_html()}
+        keys = (
+            f"<tr><td>{escape(key)}</td><td>{escape(words)}</td></tr>"
+            for words, key in self._shortcuts()
+        )
+        table = _table((tr("Keys"), tr("What it does")), keys)
+        inserts = {"shortcuts": table, "errors": _errors_html()}
         return markdown.read(page_texts(language_code())[name], inserts).html
-
-
-def _table(rows: Rows) -> str:
-    told = "".join(f"<tr><td>{escape(k)}</td><td>{escape(w)}</td></tr>" for w, k in rows)
-    heads = f"<tr><th>{escape(tr('Keys'))}</th><th>{escape(tr('What it does'))}</th></tr>"
-    return f'<table class="table" width="100%" cellspacing="0">{heads}{told}</table>'
 
 
 def _errors_html() -> str:

@@ -10,7 +10,6 @@ from PySide6.QtWidgets import QDialog
 
 from nep_studio.blocks.operations.animations import Use, use_of
 from nep_studio.blocks.own_animations import own_animations
-from nep_studio.run.plan import PlannedNode
 from nep_studio.ui.canvas.editing.menu import MenuEntry, MenuPlace
 from nep_studio.ui.host import Host, NewAction, Parts, Plugin
 from nep_studio.ui.words import tr
@@ -20,9 +19,6 @@ if TYPE_CHECKING:
 
     from .teleoperation import TeleoperationWindow
     from .window import MotionWindow
-
-
-# Puts making motions and driving robots by hand into the window.
 
 MOTION_WINDOW = "motion_window"
 
@@ -83,7 +79,8 @@ class MotionKit(QObject):
     def _model(self) -> str:
         """The model of the project's robots; a NAO's where they are different ones."""
         planned = self._host.services.runner.planned()
-        models = {str(node.parameters.get("model", "")) for node in planned if is_robot(node)}
+        robots = [node for node in planned if node.node.startswith("action/")]
+        models = {str(node.parameters.get("model", "")) for node in robots}
         return models.pop() if len(models) == 1 else ""
 
     def make_for(self, use: Use) -> None:
@@ -98,9 +95,7 @@ class MotionKit(QObject):
 
     def section(self, canvas: CanvasHost, place: MenuPlace) -> list[MenuEntry]:
         """What the menu of a block that plays a motion offers."""
-        if place.hit is None:
-            return []
-        block = canvas.editor.project.blocks.get(place.hit.block)
+        block = canvas.editor.project.blocks.get(place.hit.block) if place.hit else None
         use = use_of(canvas.editor, block.id) if block is not None else None
         if block is None or use is None:
             return []
@@ -132,11 +127,6 @@ class MotionKit(QObject):
     def _close_all(self, motion: MotionWindow) -> None:
         motion.close_now()
         self._host.widget.close()
-
-
-def is_robot(node: PlannedNode) -> bool:
-    """Whether a node plays a robot."""
-    return node.node.startswith("action/")
 
 
 plugin = Plugin("motion", make, order=170, needs_project=True)

@@ -8,7 +8,6 @@ from PySide6.QtCore import QLocale, Qt, Signal
 from PySide6.QtWidgets import (
     QComboBox,
     QFrame,
-    QHBoxLayout,
     QLabel,
     QLineEdit,
     QPushButton,
@@ -24,6 +23,7 @@ from nep_studio.ui.messages import announce
 from nep_studio.ui.theme.icons import icon_pixmap
 from nep_studio.ui.theme.look import Look
 from nep_studio.ui.widgets.choices import Choices
+from nep_studio.ui.widgets.forms import label_of
 from nep_studio.ui.widgets.layouts import in_row
 from nep_studio.ui.words import count_words, tr
 from robots.body.body import Body, posture_name
@@ -37,27 +37,17 @@ from .timeline import Timeline
 class Header(QWidget):
     """Three fields over the robot."""
 
-    def __init__(
-        self,
-        controller: MotionController,
-        language: Callable[[], Language],
-        parent: QWidget | None = None,
-    ) -> None:
-        super().__init__(parent)
+    def __init__(self, controller: MotionController, language: Callable[[], Language]) -> None:
+        super().__init__()
         self.controller = controller
         self.title = QLineEdit(maxLength=100)
         labelled(self.title, placeholder="Name of the motion", name="Name of the motion")
         self.start = Choices(
             lambda: {"": tr("any posture"), **posture_words(language(), controller.body)}
         )
-        labelled(self.start, name="Starts from")
-        self.kind = labelled(Choices(kind_words), name="Used to")
-        row = in_row((self.title, 1), of=self, margins=0)
-        starts, used = labelled(QLabel(), text="Starts from"), labelled(QLabel(), text="Used to")
-        for label, field in ((starts, self.start), (used, self.kind)):
-            label.setBuddy(field)
-            row.addWidget(label)
-            row.addWidget(field)
+        self.kind = Choices(kind_words)
+        starts, used = label_of("Starts from", self.start), label_of("Used to", self.kind)
+        in_row((self.title, 1), starts, self.start, used, self.kind, of=self, margins=0)
         self.title.textEdited.connect(self._on_title_edited)
         self.title.editingFinished.connect(controller.seal)
         self.start.activated.connect(self._on_start_chosen)
@@ -113,26 +103,18 @@ class NotesBar(QFrame):
     time_asked = Signal()
     open_asked = Signal()
 
-    def __init__(
-        self, controller: MotionController, look: Look, parent: QWidget | None = None
-    ) -> None:
-        super().__init__(parent)
+    def __init__(self, controller: MotionController, look: Look) -> None:
+        super().__init__()
         self.controller, self.look = controller, look
         self.faults: list[Fault] = []
         self.sign, self.words = QLabel(), QLabel(wordWrap=True)
-        self.give_time = labelled(QPushButton(), text="Give it the time it needs")
-        self.show_place = labelled(QPushButton(), text="Show the place")
-        self.open = labelled(QPushButton(), text="Open one as a start…")
-        for button in (self.give_time, self.show_place, self.open):
-            button.setAutoDefault(False)
-        line = self.fontMetrics().height()
-        row = QHBoxLayout(self)
-        row.setContentsMargins(0, 0, 0, 0)
-        row.addWidget(self.sign, 0, Qt.AlignmentFlag.AlignVCenter)
-        row.addWidget(self.words, 1)
-        for button in (self.open, self.show_place, self.give_time):
-            row.addWidget(button)
-        self.setMinimumHeight(line * 2)
+        self.open = labelled(QPushButton(autoDefault=False), text="Open one as a start…")
+        self.show_place = labelled(QPushButton(autoDefault=False), text="Show the place")
+        self.give_time = labelled(QPushButton(autoDefault=False), text="Give it the time it needs")
+        sign = self.sign, 0, Qt.AlignmentFlag.AlignVCenter
+        buttons = self.open, self.show_place, self.give_time
+        in_row(sign, (self.words, 1), *buttons, of=self, margins=0)
+        self.setMinimumHeight(self.fontMetrics().height() * 2)
         self.give_time.clicked.connect(self.time_asked)
         self.open.clicked.connect(self.open_asked)
         self.show_place.clicked.connect(self._on_show_asked)
@@ -154,7 +136,11 @@ class NotesBar(QFrame):
         self.give_time.setVisible(any(fault.kind == "fast" for fault in self.faults))
         self.show_place.setVisible(bool(self.faults))
         if is_empty:
-            self._say("lightbulb", "info", self._how_to_begin())
+            words = tr(
+                "Drag a hand, a foot or the head of the robot, or move a slider: that is the first "
+                "key pose. Then choose a later moment on the timeline, and pose it again."
+            )
+            self._say("lightbulb", "info", words)
         elif self.faults:
             more = len(self.faults) - 1
             rest = count_words(more, "One more place is marked.", "{n} more places are marked.")
@@ -163,48 +149,30 @@ class NotesBar(QFrame):
         else:
             self._say("circle-check", "success", tr("The robot can do this."))
 
-    def _how_to_begin(self) -> str:
-        return tr(
-            "Drag a hand, a foot or the head of the robot, or move a slider: that is the first "
-            "key pose. Then choose a later moment on the timeline, and pose it again."
-        )
-
     def _say(self, sign: str, colour: str, words: str) -> None:
-        line = self.fontMetrics().height()
-        drawn = icon_pixmap(
-            sign, self.look.theme.colour(colour), line * 1.2, self.devicePixelRatioF()
-        )
-        self.sign.setPixmap(drawn)
+        side, ratio = self.fontMetrics().height() * 1.2, self.devicePixelRatioF()
+        self.sign.setPixmap(icon_pixmap(sign, self.look.theme.colour(colour), side, ratio))
         self.words.setText(words)
 
     def _on_show_asked(self) -> None:
-        if self.faults:
-            fault = self.faults[0]
-            is_fall = fault.kind == "fall"
-            self.controller.show(fault.from_s if is_fall else (fault.from_s + fault.to_s) / 2)
+        fault = self.faults[0]
+        is_fall = fault.kind == "fall"
+        self.controller.show(fault.from_s if is_fall else (fault.from_s + fault.to_s) / 2)
 
 
 # Plays and pauses a motion, and says how fast and how often; a row of buttons.
 
 SPEEDS = (0.25, 0.5, 1.0, 2.0)
 SNAPS_S = (0.0, 0.01, 0.05, 0.1, 0.25)
-VIEW_BUTTONS = ("show_curve",)
-BUTTONS = ("first_pose", "play_motion", "loop_motion")
-KEY_BUTTONS = ("add_pose", "copy_pose", "delete_pose")
 
 
 class Transport(QWidget):
     """The row between the robot and the timeline."""
 
     def __init__(
-        self,
-        controller: MotionController,
-        player: Player,
-        timeline: Timeline,
-        actions: Actions,
-        parent: QWidget | None = None,
+        self, controller: MotionController, player: Player, timeline: Timeline, actions: Actions
     ) -> None:
-        super().__init__(parent)
+        super().__init__()
         self.controller, self.player, self.timeline = controller, player, timeline
         self.time = QLabel()
         self.speed = QComboBox()
@@ -212,14 +180,16 @@ class Transport(QWidget):
             self.speed, name="Speed", tip="How fast it is shown here; the motion stays as it is"
         )
         for speed in SPEEDS:
-            self.speed.addItem(
-                f"\N{MULTIPLICATION SIGN} {QLocale().toString(speed, 'g', 3)}", speed
-            )
+            words = f"\N{MULTIPLICATION SIGN} {QLocale().toString(speed, 'g', 3)}"
+            self.speed.addItem(words, speed)
         self.speed.setCurrentIndex(SPEEDS.index(1.0))
         self.snap = Choices(snap_words)
         labelled(self.snap, name="Grid", tip="To which times key poses go when they are moved")
         self.snap.setCurrentIndex(SNAPS_S.index(timeline.snap_s))
-        self._lay_out(actions)
+        playing = [_button(actions, name) for name in ("first_pose", "play_motion", "loop_motion")]
+        adding, curve = _button(actions, "add_pose", has_words=True), _button(actions, "show_curve")
+        poses = adding, _button(actions, "copy_pose"), _button(actions, "delete_pose"), self.snap
+        in_row(*playing, self.speed, self.time, 1, *poses, curve, of=self, margins=0)
         self.speed.currentIndexChanged.connect(self._on_speed_changed)
         self.snap.currentIndexChanged.connect(self._on_snap_changed)
         for signal in (controller.changed, controller.moved):
@@ -232,20 +202,6 @@ class Transport(QWidget):
         local = QLocale()
         words = (local.toString(place, "f", 2), local.toString(whole, "f", 2))
         self.time.setText(tr("{now} of {all} s", now=words[0], all=words[1]))
-
-    def _lay_out(self, actions: Actions) -> None:
-        row = QHBoxLayout(self)
-        row.setContentsMargins(0, 0, 0, 0)
-        for name in BUTTONS:
-            row.addWidget(_button(actions, name))
-        row.addWidget(self.speed)
-        row.addWidget(self.time)
-        row.addStretch(1)
-        for name in KEY_BUTTONS:
-            row.addWidget(_button(actions, name, has_words=name == "add_pose"))
-        row.addWidget(self.snap)
-        for name in VIEW_BUTTONS:
-            row.addWidget(_button(actions, name))
 
     def _on_speed_changed(self) -> None:
         self.player.speed = float(self.speed.currentData())
@@ -264,8 +220,6 @@ def snap_words() -> dict[float, str]:
 def _button(actions: Actions, name: str, *, has_words: bool = False) -> QToolButton:
     button = QToolButton()
     button.setDefaultAction(actions[name])
-    style = Qt.ToolButtonStyle
-    button.setToolButtonStyle(
-        style.ToolButtonTextBesideIcon if has_words else style.ToolButtonIconOnly
-    )
+    if has_words:
+        button.setToolButtonStyle(Qt.ToolButtonStyle.ToolButtonTextBesideIcon)
     return button

@@ -4,11 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from functools import partial
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QPoint, Qt
-from PySide6.QtGui import QCursor, QKeySequence
+from PySide6.QtGui import QKeySequence
 from PySide6.QtWidgets import QInputDialog, QMenu
 
 from faults import FaultError
@@ -19,7 +18,7 @@ from nep_studio.problems import problem_of
 from nep_studio.project.kept_files import to_toml
 from nep_studio.ui.labels import labelled
 from nep_studio.ui.message_cards import QuestionDialog
-from nep_studio.ui.messages import Answer, Message, Messages, announce
+from nep_studio.ui.messages import Answer, Message, announce
 from nep_studio.ui.theme.icons import icon
 from nep_studio.ui.widgets.forms import add_title
 from nep_studio.ui.widgets.questions import save_text
@@ -68,8 +67,6 @@ class Commands:
         """Let those actions be used that have something to do."""
         actions, controller = self.window.actions_by_name, self.controller
         is_there = bool(controller.motion.joints)
-        actions.enable(bool(controller.undo_label), "undo_motion")
-        actions.enable(bool(controller.redo_label), "redo_motion")
         actions.enable(bool(controller.chosen), "copy_pose", "delete_pose")
         names = ("first_pose", "play_motion", "mirror", "backwards", "stretch", "all_poses")
         actions.enable(is_there, *names)
@@ -77,6 +74,7 @@ class Commands:
             ("undo_motion", controller.undo_label, tr("Undo")),
             ("redo_motion", controller.redo_label, tr("Redo")),
         ):
+            actions.enable(bool(label), name)
             actions[name].setText(f"{words}: {label}" if label else words)
         self._tell_keys()
 
@@ -112,8 +110,9 @@ class Commands:
 
     def _add_changes(self) -> None:
         add = self.window.actions_by_name.add
-        add("mirror", "Mirror: left is right", self.mirror)
-        add("backwards", "Backwards", self.turn_around)
+        flip, turn = editing.mirrored, editing.backwards
+        add("mirror", "Mirror: left is right", lambda: self._do(tr("Mirror: left is right"), flip))
+        add("backwards", "Backwards", lambda: self._do(tr("Backwards"), turn))
         add("stretch", "Slower or faster…", self.ask_stretch, icon_name="gauge")
         look = add("look_from", "Look from", lambda: None, icon_name="eye")
         menu = QMenu(self.window)
@@ -124,14 +123,6 @@ class Commands:
 
     # What they do
 
-    def mirror(self) -> None:
-        """Let the left do what the right did."""
-        self._do(tr("Mirror: left is right"), editing.mirrored)
-
-    def turn_around(self) -> None:
-        """Let it go from its end to its beginning."""
-        self._do(tr("Backwards"), editing.backwards)
-
     def add_pose(self) -> None:
         """Keep the pose that is shown."""
         self.player.pause()
@@ -139,16 +130,13 @@ class Commands:
 
     def copy(self) -> None:
         """Copy the chosen poses to the moment that is shown, or behind the last one."""
-        controller = self.controller
+        controller, now_s = self.controller, self.controller.cursor_s
         if not controller.chosen:
             return
-        first = controller.chosen[0]
-        is_away = all(
-            abs(controller.cursor_s - time) > editing.SAME_S for time in controller.chosen
-        )
+        is_away = all(abs(now_s - time) > editing.SAME_S for time in controller.chosen)
         end_s = controller.motion.duration_s + COPY_GAP_S
-        target = controller.cursor_s if is_away and controller.cursor_s > 0 else end_s
-        controller.copy_chosen(target - first, tr("copy key poses"))
+        target = now_s if is_away and now_s > 0 else end_s
+        controller.copy_chosen(target - controller.chosen[0], tr("copy key poses"))
         controller.show(controller.chosen[0])
 
     def delete(self) -> None:
@@ -245,19 +233,18 @@ class ProjectCommands:
         actions.enable(is_kept, "delete_motion")
 
     def _add_menus(self) -> None:
-        actions, add = self.window.actions_by_name, self.window.actions_by_name.add
-        change = add("change_motion", "Change", lambda: None, icon_name="sliders-horizontal")
-        menu = QMenu(self.window)
-        menu.addActions([actions[n] for n in ("mirror", "backwards", "stretch", "give_time")])
-        change.setMenu(menu)
-        robot = add("robot_pose", "From a robot", lambda: None, icon_name="bot")
-        self.robot_menu = QMenu(self.window)
+        def add_menu(name: str, words: str, icon_name: str, *entries: str) -> QMenu:
+            menu, actions = QMenu(self.window), self.window.actions_by_name
+            menu.addActions([actions[entry] for entry in entries])
+            actions.add(name, words, lambda: None, icon_name=icon_name).setMenu(menu)
+            return menu
+
+        changes = "mirror", "backwards", "stretch", "give_time"
+        add_menu("change_motion", "Change", "sliders-horizontal", *changes)
+        self.robot_menu = add_menu("robot_pose", "From a robot", "bot")
         self.robot_menu.aboutToShow.connect(self._fill_robot_menu)
-        robot.setMenu(self.robot_menu)
-        more = add("more_motion", "More", lambda: None, icon_name="ellipsis")
-        menu = QMenu(self.window)
-        menu.addActions([actions[n] for n in ("import_motion", "export_motion", "delete_motion")])
-        more.setMenu(menu)
+        files = "import_motion", "export_motion", "delete_motion"
+        add_menu("more_motion", "More", "ellipsis", *files)
 
     def _fill_robot_menu(self) -> None:
         self.window.player.pause()
@@ -277,13 +264,8 @@ class ProjectCommands:
 
     def show_open_menu(self) -> None:
         """Show the motions that there are."""
-        menu = self.open_menu()
-        bar_button = self.window.actions_by_name["open_motion"]
-        widgets = [w for w in bar_button.associatedObjects() if w.isWidgetType()]
-        holder = next((w for w in widgets if hasattr(w, "widgetForAction")), None)
-        button = holder.widgetForAction(bar_button) if holder is not None else None
-        place = button.mapToGlobal(button.rect().bottomLeft()) if button else QCursor.pos()
-        menu.popup(place)
+        button = self.window.toolbar.widgetForAction(self.window.actions_by_name["open_motion"])
+        self.open_menu().popup(button.mapToGlobal(button.rect().bottomLeft()))
 
     def open_menu(self) -> QMenu:
         """The motions of the project, then those that come with the robot."""
@@ -322,21 +304,19 @@ class ProjectCommands:
         self.window.player.pause()
         self._use = None
         self.controller.open(motion, name)
-        self.controller.moved.emit()
-        self.controller.chosen_changed.emit()
 
     # Keeping
 
     def save(self) -> bool:
         """Keep the motion in the project; whether that went well."""
         if self.kept.editor is None:
-            self._tell(tr("No project is open"), "", tr("Open a project, then keep the motion."))
+            self._tell(tr("No project is open"), tr("Open a project, then keep the motion."))
             return False
         try:
             name = self.kept.save(self.controller.motion, self.controller.name, self._use)
         except EditRefused as refused:
             step = tr("Give it a name and at least one pose, then keep it again.")
-            self._tell(tr("The motion could not be kept"), tr(refused.sentence), step)
+            self._tell(tr("The motion could not be kept"), step, tr(refused.sentence))
             return False
         self._use = None
         self.controller.saved(name)
@@ -393,24 +373,15 @@ class ProjectCommands:
         """Show a motion that was read; it is not kept yet."""
         self.window.player.pause()
         self.controller.open(joints, is_kept=False)
-        self.controller.moved.emit()
 
     def export(self) -> None:
         """Ask for a file, and write the motion into it."""
         text = to_toml(self.controller.motion)
         name = f"{free_name(self.controller.motion.title, ())}.toml"
-
-        def save(path: Path) -> None:
-            path.write_text(text, encoding="utf-8")
-
-        save_text(self.window, self.messages, name, save)
+        messages = self.window.host.services.messages
+        save_text(self.window, messages, name, lambda path: path.write_text(text, encoding="utf-8"))
 
     # Telling
-
-    @property
-    def messages(self) -> Messages:
-        """The door for messages; they are shown in the main window."""
-        return self.window.host.services.messages
 
     def tell_error(self, error: FaultError) -> None:
         """Say what went wrong, over this window."""
@@ -418,13 +389,11 @@ class ProjectCommands:
         ok = Answer(tr("OK"), lambda: None, "primary")
         checklist = tuple(map(tr, problem.checklist))
         title, sentence = tr(problem.title), tr(problem.sentence)
-        message = Message("error", title, sentence, checklist, problem.details, (ok,))
-        self.ask(message)
+        self.ask(Message("error", title, sentence, checklist, problem.details, (ok,)))
 
-    def _tell(self, title: str, sentence: str, step: str) -> None:
+    def _tell(self, title: str, step: str, sentence: str = "") -> None:
         ok = Answer(tr("OK"), lambda: None, "primary")
-        message = Message("warning", title, sentence, checklist=(step,), answers=(ok,))
-        self.ask(message)
+        self.ask(Message("warning", title, sentence, checklist=(step,), answers=(ok,)))
 
     def ask(self, message: Message) -> None:
         """Ask, or tell what has to be read, over this window."""

@@ -17,7 +17,7 @@ from nep_studio.ui.words import tr
 
 from . import editing
 from .motion_controller import MotionController, joint_words, limb_of_joint_words
-from .timeline import Scale, Timeline, shift_of, snapped
+from .timeline import Timeline, shift_of, snapped
 
 SMALL_STEP, LARGE_STEP = 1.0, 5.0
 """Degrees, or hundredths of a hand, for an arrow key."""
@@ -43,11 +43,6 @@ class CurveView(QWidget):
         self.update()
 
     @property
-    def scale(self) -> Scale:
-        """Where moments are."""
-        return self.timeline.scale
-
-    @property
     def keys(self) -> list[tuple[float, float]]:
         """The times and angles of the joint's keys."""
         joint = self.controller.motion.joints.get(self.joint)
@@ -57,7 +52,7 @@ class CurveView(QWidget):
         """Where a moment and an angle are."""
         low, high, area = *self._limits(), self._area()
         share = (angle - low) / (high - low)
-        return QPointF(self.scale.x(time), area.bottom() - share * area.height())
+        return QPointF(self.timeline.scale.x(time), area.bottom() - share * area.height())
 
     def angle_at(self, y: float) -> float:
         """The angle at a height, within the limits."""
@@ -77,9 +72,7 @@ class CurveView(QWidget):
             return
         self.key_s = self._key_at(event.position())
         if self.key_s is None:
-            self.controller.show(
-                snapped(self.scale.time(event.position().x()), self.timeline.snap_s)
-            )
+            self.controller.show(self._time_at(event.position()))
         else:
             self.controller.show(self.key_s)
             self._grip = event.position()
@@ -91,13 +84,9 @@ class CurveView(QWidget):
             return
         place = event.position()
         if self._grip is None:
-            self.controller.show(snapped(self.scale.time(place.x()), self.timeline.snap_s))
-            return
-        near = self.fontMetrics().height() * 0.25
-        if (place - self._grip).manhattanLength() < near:
-            return
-        time = snapped(self.scale.time(place.x()), self.timeline.snap_s)
-        self._move(time, self.angle_at(place.y()), merge="curve")
+            self.controller.show(self._time_at(place))
+        elif (place - self._grip).manhattanLength() >= self.fontMetrics().height() * 0.25:
+            self._move(self._time_at(place), self.angle_at(place.y()))
 
     def mouseReleaseEvent(self, event: QMouseEvent) -> None:
         """Let go."""
@@ -106,9 +95,9 @@ class CurveView(QWidget):
 
     def mouseDoubleClickEvent(self, event: QMouseEvent) -> None:
         """Set a key of this joint there."""
-        if self._key_at(event.position()) is None:
-            time = snapped(self.scale.time(event.position().x()), self.timeline.snap_s)
-            self._set(editing.usable(time), self.angle_at(event.position().y()))
+        place = event.position()
+        if self._key_at(place) is None:
+            self._set(editing.usable(self._time_at(place)), self.angle_at(place.y()))
 
     # The keyboard
 
@@ -135,9 +124,8 @@ class CurveView(QWidget):
                 self.key_s = None
                 self.controller.do(tr("delete a key"), motion)
             case _ if step_s is not None:
-                self.controller.show(
-                    snapped(self.controller.cursor_s + step_s, self.timeline.snap_s)
-                )
+                time = snapped(self.controller.cursor_s + step_s, self.timeline.snap_s)
+                self.controller.show(time)
             case _:
                 super().keyPressEvent(event)
 
@@ -155,15 +143,18 @@ class CurveView(QWidget):
         self.key_s = time
         self.controller.set_key(self.joint, time, angle, tr("move a key"), merge=merge)
 
-    def _move(self, time: float, angle: float, *, merge: str) -> None:
+    def _move(self, time: float, angle: float) -> None:
         assert self.key_s is not None
         before, time = self.key_s, editing.usable(time)
         others = [t for t, _ in self.keys if abs(t - before) >= editing.SAME_S]
         if any(abs(t - time) < editing.SAME_S for t in others):
             time = before  # it does not push another key of this joint away
         self.key_s = time
-        self.controller.move_key(self.joint, before, time, angle, tr("move a key"), merge=merge)
+        self.controller.move_key(self.joint, before, time, angle, tr("move a key"), merge="curve")
         self.controller.show(time)
+
+    def _time_at(self, place: QPointF) -> float:
+        return snapped(self.timeline.scale.time(place.x()), self.timeline.snap_s)
 
     def _key_at(self, place: QPointF) -> float | None:
         near = self.fontMetrics().height() * 0.6
@@ -204,17 +195,13 @@ class CurveView(QWidget):
         rehearsal = self.controller.rehearsal
         column = self.controller.body.index[self.joint]
         every = max(1, len(rehearsal.times) // 1000)
-        curve = [
-            self.place_of(float(t), float(a))
-            for t, a in zip(
-                rehearsal.times[::every], rehearsal.angles[::every, column], strict=True
-            )
-        ]
+        times, angles = rehearsal.times[::every], rehearsal.angles[::every, column]
+        curve = [self.place_of(float(t), float(a)) for t, a in zip(times, angles, strict=True)]
         painter.setPen(QPen(theme.colour("plot_1"), line / 7))
         painter.drawPolyline(QPolygonF(curve))
         for time, angle in self.keys:
             self._paint_key(painter, time, angle)
-        x = self.scale.x(self.controller.cursor_s)
+        x = self.timeline.scale.x(self.controller.cursor_s)
         painter.setPen(QPen(theme.colour("snap"), max(1.5, line / 9)))
         painter.drawLine(QLineF(x, 0.0, x, self.height()))
         if self.hasFocus():
@@ -228,9 +215,9 @@ class CurveView(QWidget):
         y = self.place_of(0.0, angle).y()
         style = Qt.PenStyle.DashLine if is_limit else Qt.PenStyle.SolidLine
         painter.setPen(QPen(theme.colour("line"), max(1.0, line / 16), style))
-        painter.drawLine(QLineF(self.scale.x(0.0), y, self.width(), y))
+        painter.drawLine(QLineF(self.timeline.scale.x(0.0), y, self.width(), y))
         painter.setPen(theme.colour("muted"))
-        place = QRectF(0.0, y - line / 2, self.scale.x(0.0) - line * 0.4, line)
+        place = QRectF(0.0, y - line / 2, self.timeline.scale.x(0.0) - line * 0.4, line)
         painter.drawText(place, Qt.AlignmentFlag.AlignRight, self._words(angle))
 
     def _paint_key(self, painter: QPainter, time: float, angle: float) -> None:
@@ -261,8 +248,7 @@ class CurvePanel(QWidget):
         super().__init__()
         self.controller, self._language = controller, language
         self.curve = CurveView(controller, timeline, look)
-        self.joint = QComboBox()
-        labelled(self.joint, name="Joint")
+        self.joint = labelled(QComboBox(), name="Joint")
         self._moving: tuple[str, ...] | None = None
         in_column(self.joint, (self.curve, 1), of=self, margins=0)
         self.joint.currentIndexChanged.connect(self._on_chosen)

@@ -8,8 +8,9 @@ import os
 import struct
 import sys
 import uuid
-from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Iterable
+from dataclasses import astuple, dataclass, replace
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -39,9 +40,8 @@ class Drive:
 
     def slowed(self, part: float) -> Drive:
         """The same with slower legs."""
-        return Drive(
-            self.forward * part, self.left * part, self.turn * part, self.head_left, self.head_up
-        )
+        forward, left, turn = self.forward * part, self.left * part, self.turn * part
+        return replace(self, forward=forward, left=left, turn=turn)
 
 
 STILL = Drive()
@@ -63,18 +63,8 @@ KEYS: dict[int, Drive] = {
 
 def sum_of(drives: Iterable[Drive]) -> Drive:
     """What several keys or devices want together; none goes beyond the highest speed."""
-    found = list(drives)
-
-    def within(value: float) -> float:
-        return max(-1.0, min(1.0, value))
-
-    return Drive(
-        within(sum(one.forward for one in found)),
-        within(sum(one.left for one in found)),
-        within(sum(one.turn for one in found)),
-        within(sum(one.head_left for one in found)),
-        within(sum(one.head_up for one in found)),
-    )
+    parts = zip(*map(astuple, drives), strict=True)
+    return Drive(*(max(-1.0, min(1.0, sum(part))) for part in parts))
 
 
 # Asks a robot to do what its pilot wants; it stops when it is not asked any more.
@@ -93,7 +83,7 @@ class Pilot(QObject):
 
     sent = Signal(object)
 
-    def __init__(self, runner: Runner, parent: QObject | None = None) -> None:
+    def __init__(self, runner: Runner, parent: QObject) -> None:
         super().__init__(parent)
         self._runner = runner
         self.robot = ""
@@ -123,11 +113,20 @@ class Pilot(QObject):
         if not self.robot or drive == self.drive:
             return
         self.drive = drive
-        self._follow_walk()
         if drive.head_left or drive.head_up:
             self._timer.start()
         else:
             self._timer.stop()
+        if drive.walk == self._walk:
+            return
+        self._walk = drive.walk
+        if any(self._walk):
+            self._walk_id = f"drive-{uuid.uuid4().hex}"
+            self._ask_again()
+            self._again.start()
+        else:
+            self._again.stop()
+            self._ask("stop", {"request": self._walk_id})
 
     def let_go(self) -> None:
         """Nobody holds on any more: the legs stop."""
@@ -144,19 +143,6 @@ class Pilot(QObject):
         if self.robot:
             self._ask("set_angles", {"angles": angles, "speed": HEAD_SPEED})
 
-    def _follow_walk(self) -> None:
-        walk = self.drive.walk
-        if walk == self._walk:
-            return
-        self._walk = walk
-        if any(walk):
-            self._walk_id = f"drive-{uuid.uuid4().hex}"
-            self._ask_again()
-            self._again.start()
-        else:
-            self._again.stop()
-            self._ask("stop", {"request": self._walk_id})
-
     def _ask_again(self) -> None:
         forward, left, turn = self._walk
         args = {"forward": forward, "left": left, "turn": turn, "unless_asked_s": UNLESS_ASKED_S}
@@ -170,12 +156,8 @@ class Pilot(QObject):
         self.set_angles({"HeadYaw": yaw, "HeadPitch": pitch})
 
     def _ask(self, action: str, args: dict[str, Any], request_id: str = "") -> None:
-        request = m.ActionRequest(
-            id=request_id or f"drive-{uuid.uuid4().hex}",
-            robots=[self.robot],
-            action=action,
-            args=args,
-        )
+        request_id = request_id or f"drive-{uuid.uuid4().hex}"
+        request = m.ActionRequest(id=request_id, robots=[self.robot], action=action, args=args)
         self._runner.send(m.ACTION_REQUEST, request)
         self.sent.emit(request)
 
@@ -189,8 +171,6 @@ DEAD_RAD = math.radians(12)
 FULL_RAD = math.radians(45)
 SILENT_S = 0.5
 """A watch that says nothing for so long is gone."""
-
-Vector = Sequence[float]
 
 
 class Tilt:
@@ -213,12 +193,8 @@ class Tilt:
         step_s = 1.0 / max(imu.rate_hz, 1.0)
         part = step_s / (SMOOTHING_S + step_s)
         for sample in imu.acc:
-            if not self._gravity:
-                self._gravity = list(sample)
-            else:
-                self._gravity = [
-                    old + part * (new - old) for old, new in zip(self._gravity, sample, strict=True)
-                ]
+            before = zip(self._gravity or sample, sample, strict=True)
+            self._gravity = [old + part * (new - old) for old, new in before]
         self._heard_s += step_s * len(imu.acc)
         if self._gravity:
             x, y, z = self._gravity
@@ -232,7 +208,8 @@ class Tilt:
 
     def drive(self) -> Drive:
         """What the tilt asks for."""
-        forward, aside = _share(self.forward_rad), _share(self.aside_rad)
+        forward = _share(self.forward_rad, DEAD_RAD, FULL_RAD)
+        aside = _share(self.aside_rad, DEAD_RAD, FULL_RAD)
         return Drive(forward=forward, turn=-aside) if forward or aside else STILL
 
     def arm(self) -> dict[str, float]:
@@ -243,10 +220,10 @@ class Tilt:
         }
 
 
-def _share(angle: float) -> float:
-    """A part of full speed for a tilt; a little tilt is none."""
-    beyond = max(0.0, abs(angle) - DEAD_RAD) / (FULL_RAD - DEAD_RAD)
-    return math.copysign(min(1.0, beyond), angle) if beyond else 0.0
+def _share(way: float, dead: float, full: float) -> float:
+    """A part of full speed for a tilt, or for a stick's way; up to ``dead`` it is none."""
+    beyond = max(0.0, abs(way) - dead) / (full - dead)
+    return math.copysign(min(1.0, beyond), way) if beyond else 0.0
 
 
 # A gamepad, read without a library: the joystick files of Linux, XInput of Windows.
@@ -283,10 +260,8 @@ class Sticks:
 
     def drive(self) -> Drive:
         """Left stick: forward and turning; right stick: the head; shoulder buttons: sideways."""
-        if not any(map(_felt, self.axes[:5])) and not self.pressed & {4, 5}:
-            return STILL
         aside = float(4 in self.pressed) - float(5 in self.pressed)
-        x, y, _, head_x, head_y = (_felt(axis) for axis in self.axes[:5])
+        x, y, _, head_x, head_y = (_share(axis, DEAD_PART, 1.0) for axis in self.axes[:5])
         return Drive(-y, aside, -x, -head_x, -head_y)
 
     @property
@@ -306,7 +281,8 @@ class Gamepad(QObject):
         super().__init__(parent)
         self._folder = folder
         self._file = -1
-        self._pad: _WindowsPad | None = None
+        self._pad: Callable[[Sticks], bool] | None = None
+        """What reads a gamepad of Windows into the sticks; False when it is gone."""
         self._last = STILL
         self._did_stop = False
         self.sticks = Sticks()
@@ -357,7 +333,7 @@ class Gamepad(QObject):
 
     def _read(self) -> bool:
         if self._pad is not None:
-            return self._pad.read(self.sticks)
+            return self._pad(self.sticks)
         try:
             data = os.read(self._file, EVENT.size * MOST_EVENTS)
         except BlockingIOError:
@@ -384,31 +360,25 @@ class _State(ctypes.Structure):
 LEFT_SHOULDER, RIGHT_SHOULDER, BUTTON_B = 0x0100, 0x0200, 0x2000
 
 
-class _WindowsPad:
-    """One gamepad of XInput."""
-
-    def __init__(self, library: ctypes.CDLL, number: int) -> None:
-        self._library, self._number = library, number
-
-    def read(self, sticks: Sticks) -> bool:
-        """Read it; False when it is gone."""
-        state = _State()
-        if self._library.XInputGetState(self._number, ctypes.byref(state)) != 0:
-            return False
-        sticks.axes[0], sticks.axes[1] = state.left_x / FULL, -state.left_y / FULL
-        sticks.axes[3], sticks.axes[4] = state.right_x / FULL, -state.right_y / FULL
-        masks = {4: LEFT_SHOULDER, 5: RIGHT_SHOULDER, 1: BUTTON_B}
-        sticks.pressed = {button for button, mask in masks.items() if state.buttons & mask}
-        return True
+def _read_pad(library: ctypes.CDLL, number: int, sticks: Sticks) -> bool:
+    """Read one gamepad of XInput; False when it is gone."""
+    state = _State()
+    if library.XInputGetState(number, ctypes.byref(state)) != 0:
+        return False
+    sticks.axes[0], sticks.axes[1] = state.left_x / FULL, -state.left_y / FULL
+    sticks.axes[3], sticks.axes[4] = state.right_x / FULL, -state.right_y / FULL
+    masks = {4: LEFT_SHOULDER, 5: RIGHT_SHOULDER, 1: BUTTON_B}
+    sticks.pressed = {button for button, mask in masks.items() if state.buttons & mask}
+    return True
 
 
-def _windows_pad() -> _WindowsPad | None:
+def _windows_pad() -> Callable[[Sticks], bool] | None:
     try:
         library = ctypes.CDLL("xinput1_4.dll")
     except OSError:
         return None
-    found = (_WindowsPad(library, number) for number in range(4))
-    return next((pad for pad in found if pad.read(Sticks())), None)
+    found = (partial(_read_pad, library, number) for number in range(4))
+    return next((read for read in found if read(Sticks())), None)
 
 
 def _first_file(folder: Path) -> int:
@@ -418,11 +388,3 @@ def _first_file(folder: Path) -> int:
         except OSError:
             continue
     return -1
-
-
-def _felt(axis: float) -> float:
-    """A stick's way without what its middle is off."""
-    if abs(axis) < DEAD_PART:
-        return 0.0
-    sign = 1.0 if axis > 0 else -1.0
-    return sign * min(1.0, (abs(axis) - DEAD_PART) / (1.0 - DEAD_PART))

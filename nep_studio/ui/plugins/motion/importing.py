@@ -15,10 +15,9 @@ from robots.body.body import Body
 from robots.body.choregraphe import KeyframesUnreadable, read_choregraphe
 from robots.body.limbs import Limb
 
-from .motion_controller import joints_of
+from .motion_controller import STANDING, joints_of
 
 LARGEST_FILE = 4_000_000
-STANDING = "StandInit"
 
 
 class ImportDialog(QDialog):
@@ -40,13 +39,11 @@ class ImportDialog(QDialog):
         self.cancel_button = QPushButton(tr("Cancel"))
         self._title = ""
         line = self.fontMetrics().height()
-        how = QLabel(
-            tr(
-                "In Choregraphe, right-click in the timeline and choose “Export motion to "
-                "clipboard”, Python or C++. Paste it here."
-            )
+        words = tr(
+            "In Choregraphe, right-click in the timeline and choose “Export motion to "
+            "clipboard”, Python or C++. Paste it here."
         )
-        how.setWordWrap(True)
+        how = QLabel(words, wordWrap=True)
         self.use_button.setProperty("kind", "primary")
         foot = in_row(self.file_button, 1, self.cancel_button, self.use_button)
         in_column(how, (self.text, 1), self.reason, foot, of=self)
@@ -94,8 +91,7 @@ class ImportDialog(QDialog):
         motion = self._motion()
         self.use_button.setEnabled(isinstance(motion, OwnAnimation))
         if isinstance(motion, OwnAnimation):
-            seconds = f"{motion.duration_s:.1f}"
-            count = len(motion.joints)
+            count, seconds = len(motion.joints), f"{motion.duration_s:.1f}"
             self.reason.setText(tr("{n} joints, {time} s", n=count, time=seconds))
         else:
             self.reason.setText(motion)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import time
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass
@@ -29,7 +30,7 @@ from nep_studio.blocks.own_animations import (
 )
 from nep_studio.ui.labels import follow_words
 from nep_studio.ui.words import tr
-from robots.body.animations import Animation, load_animation
+from robots.body.animations import load_animation
 from robots.body.body import Angles, Body, part_of
 from robots.body.inverse import mirrored_pose
 from robots.body.keyframes import Handle, Keyframes
@@ -135,6 +136,8 @@ class MotionController(QObject):
         self._saved = motion if is_kept else None
         self.cursor_s, self.chosen = 0.0, ()
         self._show(motion)
+        self.moved.emit()
+        self.chosen_changed.emit()
 
     def saved(self, name: str) -> None:
         """Say that the project keeps it as it is now."""
@@ -148,7 +151,7 @@ class MotionController(QObject):
         if motion == self.motion:
             return
         if not (merge and self._undo and self._undo[-1].merge == merge):
-            self._undo.append(self._step(label, merge))
+            self._undo.append(Step(label, self.motion, self.cursor_s, self.chosen, merge))
             del self._undo[:-MOST_STEPS]
         self._redo.clear()
         self._show(motion)
@@ -156,8 +159,7 @@ class MotionController(QObject):
     def seal(self) -> None:
         """What follows is a step of its own: a drag has ended."""
         if self._undo and self._undo[-1].merge:
-            last = self._undo[-1]
-            self._undo[-1] = Step(last.label, last.motion, last.cursor_s, last.chosen)
+            self._undo[-1] = dataclasses.replace(self._undo[-1], merge="")
 
     def undo(self) -> None:
         """Take the last step back."""
@@ -169,9 +171,7 @@ class MotionController(QObject):
 
     def set_joints(self, angles: Mapping[str, float], label: str, *, merge: str = "") -> None:
         """Pose some joints at the moment that is shown: a key of the limbs that they are in."""
-        wanted = dict(angles)
-        if self.is_mirrored:
-            wanted = {**mirrored_pose(wanted), **wanted}
+        wanted = {**mirrored_pose(dict(angles)), **angles} if self.is_mirrored else angles
         limbs = self.body.limbs_of(name for name in wanted if name in self.body.index)
         self._key(self.rehearsal.pose(self._posing_time()), limbs, wanted, label, merge)
 
@@ -300,14 +300,11 @@ class MotionController(QObject):
     def _moving_names(self) -> list[str]:
         return [name for name in self.motion.joints if name in self.body.index]
 
-    def _step(self, label: str, merge: str = "") -> Step:
-        return Step(label, self.motion, self.cursor_s, self.chosen, merge)
-
     def _go(self, source: list[Step], target: list[Step]) -> None:
         if not source:
             return
         step = source.pop()
-        target.append(self._step(step.label))
+        target.append(Step(step.label, self.motion, self.cursor_s, self.chosen))
         self._show(step.motion)
         self.choose(step.chosen)
         self.show(step.cursor_s)
@@ -355,9 +352,11 @@ class KeptMotions:
 
     def load(self, name: str) -> OwnAnimation:
         """A motion that comes with the robot; raises FilesUnusable."""
-        animation = as_own(load_animation(self._folder / f"{name}.toml", self._body))
+        found = load_animation(self._folder / f"{name}.toml", self._body)
         titles = [self.shipped(kind).get(name) for kind in TABLES]
-        return replace(animation, title=next(filter(None, titles), animation.title))
+        title, joints = next(filter(None, titles), found.title), joints_of(found.keyframes)
+        about = found.description, found.starts_from, found.says
+        return OwnAnimation(title, joints, found.kind, *about)
 
     def save(self, motion: OwnAnimation, name: str, use: Use | None = None) -> str:
         """Keep a motion in the project; gives its name. Raises EditRefused.
@@ -384,18 +383,6 @@ class KeptMotions:
         """Take a motion out of the project."""
         if self.editor is not None and name in self.own():
             delete_animation(self.editor, name)
-
-
-def as_own(animation: Animation) -> OwnAnimation:
-    """A motion that comes with the robot, as one that a project can keep."""
-    return OwnAnimation(
-        animation.title,
-        joints_of(animation.keyframes),
-        animation.kind,
-        animation.description,
-        animation.starts_from,
-        animation.says,
-    )
 
 
 def joints_of(keyframes: Keyframes) -> dict[str, JointKeys]:
@@ -506,11 +493,6 @@ class Faults(QObject):
         controller.changed.connect(self._on_changed)
         follow_words(self, self._on_changed)
 
-    @property
-    def has_too_fast(self) -> bool:
-        """Whether a joint would have to move faster than it can."""
-        return any(fault.kind == "fast" for fault in self.now)
-
     def _on_changed(self) -> None:
         self.is_sure = False
         self._next.stop()
@@ -536,7 +518,9 @@ class Faults(QObject):
             self._next.stop()
             self.is_sure = True
             if at_s >= 0.0:
-                self.now = [*self.now, self._fall(at_s)]
+                words = tr("The robot would fall at {time} s.", time=f"{at_s:.2f}")
+                to_s = max(self.controller.motion.duration_s, at_s + 0.05)
+                self.now = [*self.now, Fault("fall", at_s, to_s, words)]
             self.found.emit(self.now)
             return
 
@@ -550,7 +534,3 @@ class Faults(QObject):
             ratio=f"{one.ratio:.1f}",
         )
         return Fault("fast", one.from_s, one.to_s, words)
-
-    def _fall(self, at_s: float) -> Fault:
-        words = tr("The robot would fall at {time} s.", time=f"{at_s:.2f}")
-        return Fault("fall", at_s, max(self.controller.motion.duration_s, at_s + 0.05), words)

@@ -83,14 +83,9 @@ class Rehearsal:
                 column = self.body.index[name]
                 start = float(self.start[column])
                 known = self._cached.get(name)
-                if (
-                    known is None
-                    or known[0] != joint
-                    or known[1] != start
-                    or len(known[2]) < len(self.times)
-                ):
+                if not known or known[:2] != (joint, start) or len(known[2]) < len(self.times):
                     track = Track(joint.times, joint.keys, joint.handles)
-                    fastest = float(self.body.max_speed[self.body.index[name]])
+                    fastest = float(self.body.max_speed[column])
                     curve = np.append(start, track_angles(track, start, self.times[1:], fastest))
                     known = self._cached[name] = joint, start, curve
                 angles[:, column] = known[2][: len(self.times)]
@@ -112,25 +107,17 @@ class Rehearsal:
 
     def too_fast(self) -> list[TooFast]:
         """Where which joint would be too fast, from key to key, in the order of time."""
-        ratios = self._speed_ratios()
-        edges = [0.0, *key_times(self.motion)]
+        steps_s = np.maximum(np.diff(self.times), SHORTEST_STEP_S / 2)[:, None]
+        # How fast each joint is in each tick, as a multiple of its top speed: (n-1, joints)
+        ratios = np.abs(np.diff(self.angles, axis=0)) / steps_s / self.body.max_speed
         found = []
-        for start, end in pairwise(edges):
-            rows = ratios[self._rows(start, end)]
-            worst = rows.max(axis=0, initial=0.0)
+        for start, end in pairwise([0.0, *key_times(self.motion)]):
+            first = round(start / TICK_S)
+            worst = ratios[first : max(round(end / TICK_S), first + 1)].max(axis=0, initial=0.0)
             for column in np.flatnonzero(worst > TOO_FAST):
                 name = self.body.names[column]
                 found.append(TooFast(name, start, end, float(worst[column])))
         return found
-
-    def _rows(self, start: float, end: float) -> slice:
-        return slice(round(start / TICK_S), max(round(end / TICK_S), round(start / TICK_S) + 1))
-
-    def _speed_ratios(self) -> Angles:
-        """How fast each joint is in each tick, as a multiple of its top speed: (n-1, joints)."""
-        steps_s = np.maximum(np.diff(self.times), SHORTEST_STEP_S / 2)[:, None]
-        ratios: Angles = np.abs(np.diff(self.angles, axis=0)) / steps_s / self.body.max_speed
-        return ratios
 
 
 def starting_posture(body: Body, motion: OwnAnimation) -> str:
@@ -172,7 +159,7 @@ SAME_HEIGHT_M = 0.008
 
 
 def torso_for_posing(skeleton: Skeleton, pose: Angles, posture: Posture) -> TorsoPose:
-    """Return where the torso is of a robot that is held while it is posed: it does not tip over.
+    """Where the torso is of a robot that is held while it is posed: it does not tip over.
 
     Standing, its lower foot is flat on the floor.
     """

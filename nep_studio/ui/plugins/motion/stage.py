@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import uuid
+from dataclasses import dataclass
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
@@ -26,7 +27,6 @@ from .rehearsal import starting_posture, torso_for_posing
 
 if TYPE_CHECKING:
     from nep_studio.blocks.language import Language
-    from nep_studio.run.plan import PlannedNode
     from nep_studio.ui.running.runner import Heard, Runner
 
 
@@ -72,9 +72,8 @@ class PosingStage(QObject):
 
     def torso(self, pose: Angles) -> tuple[float, float, float, float, float, float]:
         """Where the torso of a robot is that stands, sits or lies there like this."""
-        posture = self.controller.body.postures[
-            starting_posture(self.controller.body, self.controller.motion)
-        ]
+        body = self.controller.body
+        posture = body.postures[starting_posture(body, self.controller.motion)]
         return torso_for_posing(self.skeleton, pose, posture)
 
     def _frame(self, pose: Angles) -> Frames:
@@ -119,14 +118,15 @@ class PosingStage(QObject):
         self.controller.seal()
 
 
+@dataclass(frozen=True)
 class _Grip:
     """Where a limb is held: the point in its own frame, and all around as it was then."""
 
-    def __init__(
-        self, link: str, point: Place, place: Angles, torso: Frames, feet: dict[str, Frames]
-    ) -> None:
-        self.link, self.point, self.place = link, point, place
-        self.torso, self.feet = torso, feet
+    link: str
+    point: Place
+    place: Angles
+    torso: Frames
+    feet: dict[str, Frames]
 
     def feet_goals(self, place: Place) -> list[Goal]:
         """The feet stay where they are on the floor while the torso goes with the pointer."""
@@ -173,11 +173,11 @@ class RobotPoses(QObject):
             play = menu.addAction(tr("Let it play the motion"), partial(self.play, name))
             play.setEnabled(bool(self._controller.motion.joints))
             if name in self._by_hand:
-                hint = tr("Or touch the middle of its head")
-                menu.addAction(hint).setEnabled(False)
+                menu.addAction(tr("Or touch the middle of its head")).setEnabled(False)
             self._add_parts(menu, tr("Let it be moved by hand"), name, language, is_on=False)
             self._add_parts(menu, tr("Hold it again"), name, language, is_on=True)
-        waiting = [node for node in self._planned() if node.name not in self.states]
+        planned = [node for node in self._runner.planned() if node.node.startswith(ACTION)]
+        waiting = [node for node in planned if node.name not in self.states]
         if waiting:
             add_title(menu, tr("Not started"))
         for node in waiting:
@@ -228,9 +228,6 @@ class RobotPoses(QObject):
         inner = menu.addMenu(words)
         for part, label in language.choices.get("lock_parts", {"body": "body"}).items():
             inner.addAction(label, partial(self.let_go, name, part, is_on=is_on))
-
-    def _planned(self) -> list[PlannedNode]:
-        return [node for node in self._runner.planned() if node.node.startswith(ACTION)]
 
     def _on_arrived(self, batch: list[Heard]) -> None:
         for heard in batch:

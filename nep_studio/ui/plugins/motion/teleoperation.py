@@ -7,14 +7,13 @@ from functools import partial
 from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QEvent, Qt, QTimer, Signal
-from PySide6.QtGui import QCloseEvent, QFocusEvent, QHideEvent, QKeyEvent, QKeySequence
+from PySide6.QtGui import QFocusEvent, QHideEvent, QKeyEvent, QKeySequence
 from PySide6.QtWidgets import (
     QCheckBox,
     QComboBox,
     QDialog,
     QFrame,
     QGridLayout,
-    QHBoxLayout,
     QLabel,
     QPushButton,
     QSlider,
@@ -29,7 +28,7 @@ from nep_studio.ui.robot_view.view import RobotView
 from nep_studio.ui.theme.icons import fit_icons, icon
 from nep_studio.ui.theme.look import Look
 from nep_studio.ui.widgets.choices import Choices
-from nep_studio.ui.widgets.forms import room_around
+from nep_studio.ui.widgets.forms import label_of, room_around
 from nep_studio.ui.widgets.layouts import in_column, in_row
 from nep_studio.ui.words import tr
 
@@ -37,6 +36,7 @@ from .drive import KEYS, SILENT_S, STILL, Drive, Gamepad, Pilot, Tilt, sum_of
 from .stage import ACTION
 
 if TYPE_CHECKING:
+    from nep_studio.run.plan import PlannedNode
     from nep_studio.ui.host import Host
     from nep_studio.ui.running.runner import Heard
 
@@ -65,8 +65,8 @@ class DrivePad(QFrame):
         self._look = look
         self._held: dict[int, None] = {}
         self.buttons: dict[int, QPushButton] = {}
-        self.hint = QLabel()
-        self.stop_button = QPushButton()
+        self.hint = QLabel(wordWrap=True)
+        self.stop_button = QPushButton(autoDefault=False)
         self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
         labelled(self, name="Drive with the keys")
         self._lay_out()
@@ -74,11 +74,6 @@ class DrivePad(QFrame):
         follow_words(self, self._say_keys)
         look.theme_changed.connect(self._dress)
         self._dress()
-
-    @property
-    def held(self) -> list[int]:
-        """The keys that are held."""
-        return list(self._held)
 
     def let_go(self) -> None:
         """Nothing is held any more."""
@@ -102,8 +97,7 @@ class DrivePad(QFrame):
         """Hold a key; the space bar stops everything."""
         if event.key() == Qt.Key.Key_Space:
             if not event.isAutoRepeat():
-                self.let_go()
-                self.stop_asked.emit()
+                self._stop()
         elif event.key() not in KEYS or event.modifiers() & Qt.KeyboardModifier.ControlModifier:
             super().keyPressEvent(event)
         elif not event.isAutoRepeat():
@@ -158,19 +152,13 @@ class DrivePad(QFrame):
             int(Qt.Key.Key_S): (1, 1),
             int(Qt.Key.Key_D): (1, 2),
         }
-        row = QHBoxLayout()
-        row.addLayout(self._group(labelled(QLabel(), text="Walk"), walk))
-        row.addStretch(1)
-        row.addLayout(self._group(labelled(QLabel(), text="Head"), head))
-        row.addStretch(1)
         labelled(self.stop_button, text="Stop", tip="Stop everything the robot does (Space)")
         self.stop_button.setFocusPolicy(Qt.FocusPolicy.NoFocus)
-        self.stop_button.setAutoDefault(False)
         self.stop_button.setProperty("kind", "stop")
-        self.stop_button.clicked.connect(self._on_stop_clicked)
-        row.addWidget(self.stop_button)
-        self.hint.setWordWrap(True)
-        in_column(row, self.hint, of=self)
+        self.stop_button.clicked.connect(self._stop)
+        walking = self._group(labelled(QLabel(), text="Walk"), walk)
+        looking = self._group(labelled(QLabel(), text="Head"), head)
+        in_column(in_row(walking, 1, looking, 1, self.stop_button), self.hint, of=self)
 
     def _group(self, heading: QLabel, keys: dict[int, Place]) -> QVBoxLayout:
         group = QWidget()
@@ -183,10 +171,9 @@ class DrivePad(QFrame):
         return in_column(heading, group)
 
     def _button(self, key: int) -> QPushButton:
-        button = self.buttons[key] = QPushButton()
+        button = self.buttons[key] = QPushButton(autoDefault=False)
         line = self.fontMetrics().height()
         button.setFixedSize(round(line * 2.4), round(line * 2.1))
-        button.setAutoDefault(False)
         button.setFocusPolicy(Qt.FocusPolicy.NoFocus)
         if Qt.Key(key) not in ARROWS:
             button.setText(_named(key))
@@ -212,7 +199,7 @@ class DrivePad(QFrame):
             else "Click here to drive with the keys.",
         )
 
-    def _on_stop_clicked(self) -> None:
+    def _stop(self) -> None:
         self.let_go()
         self.stop_asked.emit()
 
@@ -272,7 +259,7 @@ class TeleoperationWindow(QDialog):
         self.with_gamepad = labelled(QCheckBox(), text="Gamepad")
         self.with_watch = labelled(QCheckBox(), text="Watch")
         self.watch_use = Choices(_uses)
-        self.missing, self.told = QLabel(), QLabel()
+        self.missing, self.told = QLabel(wordWrap=True), QLabel(wordWrap=True)
         self._lay_out()
         self._connect()
         follow_words(self, self.refresh)
@@ -292,8 +279,7 @@ class TeleoperationWindow(QDialog):
         self.pad.setEnabled(bool(names))
         if names and was_off:
             self.pad.setFocus()
-        waiting = [one for one in self._runner.planned() if one.node.startswith(ACTION)]
-        waiting = [one for one in waiting if one.name not in self.states]
+        waiting = self._waiting()
         self.start_button.setVisible(bool(waiting))
         if waiting:
             labelled(self.start_button, text=text_of("Start {robot}", robot=waiting[0].name))
@@ -302,25 +288,17 @@ class TeleoperationWindow(QDialog):
         if self.pilot.robot:
             state = self.states.get(self.pilot.robot)
             self.view.show_robot(self.pilot.robot, state, can_touch=False)
-        if names:
-            self.missing.hide()
-        else:
-            add, start = tr("Add a robot on the Robots page."), tr("Start it here.")
-            words = tr("No robot runs yet. {how}", how=start if waiting else add)
-            self.missing.setText(words)
-            self.missing.show()
+        how = tr("Start it here.") if waiting else tr("Add a robot on the Robots page.")
+        self.missing.setText(tr("No robot runs yet. {how}", how=how))
+        self.missing.setVisible(not names)
 
-    def closeEvent(self, event: QCloseEvent) -> None:
-        """The robot stops."""
-        self._leave()
-        super().closeEvent(event)
+    def _waiting(self) -> list[PlannedNode]:
+        """The robots of the project that do not run."""
+        robots = [one for one in self._runner.planned() if one.node.startswith(ACTION)]
+        return [one for one in robots if one.name not in self.states]
 
-    def reject(self) -> None:
-        """Esc: the robot stops, and the window goes."""
-        self._leave()
-        super().reject()
-
-    def _leave(self) -> None:
+    def _on_finished(self) -> None:
+        """The window goes, and the robot stops."""
         self.pad.let_go()
         self.gamepad.close()
         self._drives.clear()
@@ -331,13 +309,10 @@ class TeleoperationWindow(QDialog):
         top = in_row((self.robot, 1), self.start_button)
         self.speed.setRange(20, 100)
         self.speed.setValue(60)
-        labelled(self.speed, name="How fast it walks")
         labelled(self.watch_use, name="What the watch does")
         self.watch_use.setEnabled(False)
-        speed = in_row(labelled(QLabel(), text="How fast it walks"), (self.speed, 1))
+        speed = in_row(label_of("How fast it walks", self.speed), (self.speed, 1))
         others = in_row(self.with_gamepad, 1, self.with_watch, self.watch_use)
-        self.missing.setWordWrap(True)
-        self.told.setWordWrap(True)
         self.view.setMinimumSize(line * 14, line * 10)
         in_column(top, self.missing, (self.view, 1), self.told, self.pad, speed, others, of=self)
         fit_icons(self)
@@ -346,10 +321,10 @@ class TeleoperationWindow(QDialog):
 
     def _connect(self) -> None:
         runner = self._runner
-        states = runner.tap(m.ROBOT_STATE, kind=m.RobotState, parent=self)
-        states.arrived.connect(self._on_states)
+        runner.tap(m.ROBOT_STATE, kind=m.RobotState, parent=self).arrived.connect(self._on_states)
         runner.nodes_changed.connect(self._on_nodes_changed)
         runner.disconnected.connect(self._on_disconnected)
+        self.finished.connect(self._on_finished)
         self.robot.activated.connect(self._on_robot_chosen)
         self.start_button.clicked.connect(self._on_start_clicked)
         self.pad.changed.connect(partial(self._on_drive, "keys"))
@@ -360,11 +335,10 @@ class TeleoperationWindow(QDialog):
         self.with_gamepad.toggled.connect(self._on_gamepad_toggled)
         self.with_watch.toggled.connect(self._on_watch_toggled)
         self.speed.valueChanged.connect(self._steer)
-        imu = runner.tap(m.IMU, kind=m.Imu, parent=self)
-        imu.arrived.connect(self._on_imu)
-        self._looking = QTimer(self, interval=LOOK_MS)
-        self._looking.timeout.connect(self._on_look)
-        self._looking.start()
+        runner.tap(m.IMU, kind=m.Imu, parent=self).arrived.connect(self._on_imu)
+        looking = QTimer(self, interval=LOOK_MS)
+        looking.timeout.connect(self._on_look)
+        looking.start()
 
     # What is wanted
 
@@ -456,8 +430,6 @@ class TeleoperationWindow(QDialog):
         self.pad.setFocus()
 
     def _on_start_clicked(self) -> None:
-        for planned in self._runner.planned():
-            if planned.node.startswith(ACTION) and planned.name not in self.states:
-                self._runner.start_node(planned)
-                break
+        for planned in self._waiting()[:1]:
+            self._runner.start_node(planned)
         self.pad.setFocus()

@@ -63,10 +63,8 @@ class Timeline(QWidget):
     key_asked = Signal()
     menu_asked = Signal(object)  # QPoint, global
 
-    def __init__(
-        self, controller: MotionController, look: Look, parent: QWidget | None = None
-    ) -> None:
-        super().__init__(parent)
+    def __init__(self, controller: MotionController, look: Look) -> None:
+        super().__init__()
         self.controller, self.look = controller, look
         self.snap_s = 0.05
         self.zoom = 1.0
@@ -89,17 +87,15 @@ class Timeline(QWidget):
     @property
     def shown_s(self) -> float:
         """How long the time is that the timeline shows."""
-        return max(
-            SHORTEST_SHOWN_S,
-            self.controller.motion.duration_s * MORE_SHOWN,
-            self.controller.cursor_s,
-        )
+        whole_s = self.controller.motion.duration_s
+        return max(SHORTEST_SHOWN_S, whole_s * MORE_SHOWN, self.controller.cursor_s)
 
     @property
     def scale(self) -> Scale:
         """Where moments are."""
-        left = self.names_width + self.line * 0.8
-        room = max(self._room() - left - self.line, self.line * 4)
+        left, holder = self.names_width + self.line * 0.8, self.parentWidget()
+        width = holder.width() if holder is not None and self.zoom > 1.0 else self.width()
+        room = max(width - left - self.line, self.line * 4)
         return Scale(left, min(room / self.shown_s * self.zoom, self.line * MOST_PER_S))
 
     @property
@@ -140,20 +136,13 @@ class Timeline(QWidget):
         TimelinePainter(self, painter).paint()
         painter.end()
 
-    def _room(self) -> float:
-        holder = self.parentWidget()
-        return float(holder.width() if holder is not None and self.zoom > 1.0 else self.width())
-
     def _on_changed(self) -> None:
-        self.setAccessibleDescription(self._told())
+        count, now = len(key_times(self.controller.motion)), f"{self.controller.cursor_s:.2f}"
+        poses = count_words(count, "1 key pose", "{n} key poses")
+        self.setAccessibleDescription(tr("{poses}; {time} s is shown", poses=poses, time=now))
         if self._drag is None:
             self.updateGeometry()
         self.update()
-
-    def _told(self) -> str:
-        count = len(key_times(self.controller.motion))
-        poses = count_words(count, "1 key pose", "{n} key poses")
-        return tr("{poses}; {time} s is shown", poses=poses, time=f"{self.controller.cursor_s:.2f}")
 
     # The mouse
 
@@ -162,10 +151,8 @@ class Timeline(QWidget):
         scale, near = self.scale, self.line * 0.5
         if place.y() < self.row(1).top():
             return None
-        found = [
-            t for t in key_times(self.controller.motion) if abs(scale.x(t) - place.x()) <= near
-        ]
-        return min(found, key=lambda t: abs(scale.x(t) - place.x())) if found else None
+        away = {t: abs(scale.x(t) - place.x()) for t in key_times(self.controller.motion)}
+        return min((t for t in away if away[t] <= near), key=away.__getitem__, default=None)
 
     def mousePressEvent(self, event: QMouseEvent) -> None:
         """Choose a key, or show a moment."""
@@ -225,11 +212,8 @@ class Timeline(QWidget):
         if not event.modifiers() & Qt.KeyboardModifier.ControlModifier:
             event.ignore()
             return
-        self.zoom_by(1.25 ** (event.angleDelta().y() / 120.0))
-
-    def zoom_by(self, factor: float) -> None:
-        """Show time larger or smaller; never smaller than all of it."""
-        self.zoom = min(max(self.zoom * factor, 1.0), 40.0)
+        factor = 1.25 ** (event.angleDelta().y() / 120.0)
+        self.zoom = min(max(self.zoom * factor, 1.0), 40.0)  # never less than all of it
         self.setMinimumWidth(self.minimumSizeHint().width())
         self.updateGeometry()
         self.update()
@@ -241,12 +225,11 @@ class Timeline(QWidget):
         drag = self._drag
         assert drag is not None
         wanted = snapped(drag.time + (place.x() - drag.place.x()) / self.scale.per_s, snap_s)
+        way_s, merge = wanted - drag.at, "move keys"
         if drag.kind == "after":
-            self.controller.shift_after(
-                drag.at, wanted - drag.at, tr("make room"), merge="move keys"
-            )
+            self.controller.shift_after(drag.at, way_s, tr("make room"), merge=merge)
         else:
-            self.controller.move_chosen(wanted - drag.at, tr("move key poses"), merge="move keys")
+            self.controller.move_chosen(way_s, tr("move key poses"), merge=merge)
         drag.at = max(wanted, 0.01) if drag.kind == "move" else wanted
         self.controller.show(drag.at)
 
@@ -389,9 +372,8 @@ class TimelinePainter:
             row = self.timeline.row(number)
             names = [n for n in self.controller.motion.joints if n in body.index]
             moving = [n for n in names if body.joints[body.index[n]].limb is limb]
-            times = sorted(
-                {t for name in moving for t in self.controller.motion.joints[name].times}
-            )
+            joints = self.controller.motion.joints
+            times = sorted({t for name in moving for t in joints[name].times})
             if not times:
                 continue
             pale = QColor(self.theme.colour("accent"))

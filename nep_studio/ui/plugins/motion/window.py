@@ -6,7 +6,7 @@ import math
 from collections.abc import Callable
 from typing import TYPE_CHECKING
 
-from PySide6.QtCore import QSize, Qt, Signal
+from PySide6.QtCore import QObject, QSize, Qt, Signal
 from PySide6.QtGui import QAction, QCloseEvent, QKeyEvent
 from PySide6.QtWidgets import (
     QCheckBox,
@@ -21,7 +21,6 @@ from PySide6.QtWidgets import (
     QStackedWidget,
     QToolBar,
     QToolButton,
-    QVBoxLayout,
     QWidget,
 )
 
@@ -36,6 +35,7 @@ from nep_studio.ui.widgets.layouts import in_column
 from nep_studio.ui.words import tr
 from nodes.resources import NAO, model_folder
 from robots.body.body import Joint, load_body
+from robots.body.limbs import Limb
 
 from . import MOTION_WINDOW
 from .bars import Header, NotesBar, Transport
@@ -43,7 +43,7 @@ from .commands import Commands, ProjectCommands
 from .curve import CurvePanel
 from .editing import pose_at
 from .motion_controller import Faults, KeptMotions, MotionController, Player, joint_words
-from .rehearsal import limb_words
+from .rehearsal import LIMBS, limb_words
 from .stage import PosingStage, RobotPoses
 from .timeline import Timeline
 
@@ -56,21 +56,22 @@ STEPS = 10
 """A slider has so many places for each degree, or each hundredth of a hand."""
 
 
-class JointRow(QWidget):
+class JointRow(QObject):
     """One joint: ``turned`` gives its angle (rad, hands 0 to 1), ``released`` ends the turning."""
 
     turned = Signal(str, float)
     released = Signal()
 
-    def __init__(self, joint: Joint, parent: QWidget | None = None) -> None:
+    def __init__(self, joint: Joint, parent: QWidget) -> None:
         super().__init__(parent)
         self.joint, self.words = joint, ""
         self.is_hand = joint.name.endswith("Hand")
-        self.label = QLabel(self)
-        self.slider = QSlider(Qt.Orientation.Horizontal, self)
-        self.box = QDoubleSpinBox(self, decimals=1)
+        self.label = QLabel()
+        self.slider = QSlider(Qt.Orientation.Horizontal)
+        self.box = QDoubleSpinBox(decimals=1)
         self._is_showing = False
         low, high = self._shown(self.joint.min_rad), self._shown(self.joint.max_rad)
+        self.slider.setMinimumWidth(parent.fontMetrics().height() * 5)
         self.slider.setRange(math.ceil(low * STEPS), math.floor(high * STEPS))
         self.box.setRange(math.ceil(low * STEPS) / STEPS, math.floor(high * STEPS) / STEPS)
         self.box.setSuffix(" %" if self.is_hand else "°")
@@ -117,13 +118,8 @@ class JointRow(QWidget):
 class JointPanel(QScrollArea):
     """The joints by limb."""
 
-    def __init__(
-        self,
-        controller: MotionController,
-        language: Callable[[], Language],
-        parent: QWidget | None = None,
-    ) -> None:
-        super().__init__(parent)
+    def __init__(self, controller: MotionController, language: Callable[[], Language]) -> None:
+        super().__init__()
         self.controller, self._language = controller, language
         self.both = labelled(
             QCheckBox(),
@@ -132,7 +128,7 @@ class JointPanel(QScrollArea):
         )
         self.both.toggled.connect(self._on_both_toggled)
         self.rows = {
-            joint.name: JointRow(joint)
+            joint.name: JointRow(joint, self)
             for joint in controller.body.joints
             if joint.name not in controller.body.same_motor
         }
@@ -147,9 +143,10 @@ class JointPanel(QScrollArea):
 
     def refresh(self) -> None:
         """Show the pose of the moment."""
-        pose, keys = self.controller.rehearsal.pose(self.controller.cursor_s), self._keys()
+        controller, now_s = self.controller, self.controller.cursor_s
+        pose, keys = controller.rehearsal.pose(now_s), pose_at(controller.motion, now_s)
         for name, row in self.rows.items():
-            row.show_angle(float(pose[self.controller.body.index[name]]), is_key=name in keys)
+            row.show_angle(float(pose[controller.body.index[name]]), is_key=name in keys)
 
     def _say(self) -> None:
         language, body = self._language(), self.controller.body
@@ -158,20 +155,23 @@ class JointPanel(QScrollArea):
         for limb, heading in self._headings.items():
             heading.setText(limb_words()[limb])
 
-    def _keys(self) -> frozenset[str]:
-        return frozenset(pose_at(self.controller.motion, self.controller.cursor_s))
-
     def _lay_out(self) -> None:
         inner = QWidget()
         grid = QGridLayout()
         grid.setColumnStretch(1, 1)
-        body = self.controller.body
-        self._headings = {limb: self._heading() for limb in limb_words()}
-        for limb, heading in self._headings.items():
-            names = [n for n in self.rows if body.joints[body.index[n]].limb is limb]
-            if names:
+        font = self.font()
+        font.setBold(True)
+        self._headings: dict[Limb, QLabel] = {}
+        for limb in LIMBS:
+            rows = [row for row in self.rows.values() if row.joint.limb is limb]
+            if rows:
+                heading = self._headings[limb] = QLabel()
+                heading.setFont(font)
                 grid.addWidget(heading, grid.rowCount(), 0, 1, 3)
-                self._add_rows(grid, names)
+            for row in rows:
+                number = grid.rowCount()
+                for column, widget in enumerate((row.label, row.slider, row.box)):
+                    grid.addWidget(widget, number, column)
         in_column(self.both, grid, 1, of=inner)
         self.setWidget(inner)
         self.setWidgetResizable(True)
@@ -184,30 +184,11 @@ class JointPanel(QScrollArea):
         width = inner.minimumSizeHint().width() if inner is not None else 0
         return QSize(width + line * 2, line * 8)
 
-    def _heading(self) -> QLabel:
-        heading = QLabel(self)
-        font = heading.font()
-        font.setBold(True)
-        heading.setFont(font)
-        return heading
-
-    def _add_rows(self, grid: QGridLayout, names: list[str]) -> None:
-        for name in names:
-            row, number = self.rows[name], grid.rowCount()
-            row.slider.setMinimumWidth(self.fontMetrics().height() * 5)
-            for column, widget in enumerate((row.label, row.slider, row.box)):
-                grid.addWidget(widget, number, column)
-            row.setParent(self)
-            row.hide()
-
     def _on_turned(self, name: str, angle: float) -> None:
         self.controller.set_joints({name: angle}, tr("turn a joint"), merge=f"joint {name}")
 
     def _on_both_toggled(self, is_on: bool) -> None:
         self.controller.is_mirrored = is_on
-
-
-# The window in which a motion is made: the robot, its joints, and the timeline.
 
 
 class MotionWindow(QDialog):
@@ -223,7 +204,7 @@ class MotionWindow(QDialog):
         def language() -> Language:
             return host.services.language
 
-        self.model, folder = model, model_folder(model or NAO)
+        folder = model_folder(model or NAO)
         body = load_body(folder)
         self.controller = MotionController(body, self)
         self.player = Player(self.controller, self)
@@ -274,17 +255,12 @@ class MotionWindow(QDialog):
         holder.setWidget(self.timeline)
         holder.setFrameShape(QFrame.Shape.StyledPanel)
         holder.setVerticalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
-        frame = 2 * holder.frameWidth()
         self.time_pages.addWidget(holder)
         self.time_pages.addWidget(self.curve)
-        self.time_pages.setFixedHeight(self.timeline.sizeHint().height() + frame)
-        box = QVBoxLayout(self)
-        box.setSpacing(line // 2)
-        box.addWidget(self._toolbar())
-        box.addWidget(self.header)
-        box.addWidget(body, 1)
-        for widget in (self.notes, self.transport, self.time_pages):
-            box.addWidget(widget)
+        self.time_pages.setFixedHeight(self.timeline.sizeHint().height() + 2 * holder.frameWidth())
+        self.toolbar = self._toolbar()
+        below = self.notes, self.transport, self.time_pages
+        in_column(self.toolbar, self.header, (body, 1), *below, of=self, spacing=line // 2)
         fit_icons(self)
         room = room_around(self).size()
         self.resize(min(line * 62, room.width()), min(line * 50, room.height()))
@@ -295,11 +271,10 @@ class MotionWindow(QDialog):
         if is_shown and self.curve.curve.joint not in moving and moving:
             self.curve.show_joint(moving[0])
         self.time_pages.setCurrentIndex(int(is_shown))
-        line = self.timeline.line
         height = self.timeline.sizeHint().height() + 2
-        self.time_pages.setFixedHeight(height + line * 5 if is_shown else height)
+        self.time_pages.setFixedHeight(height + self.timeline.line * 5 if is_shown else height)
 
-    def _toolbar(self) -> QWidget:
+    def _toolbar(self) -> QToolBar:
         bar = QToolBar(toolButtonStyle=Qt.ToolButtonStyle.ToolButtonTextBesideIcon)
         bar.setIconSize(icon_room(self.fontMetrics().height()))
         actions = self.actions_by_name

@@ -15,14 +15,14 @@ def make(host: Host) -> Parts:
     from .panel import NetworkPanel
 
     services, runner = host.services, host.services.runner
-    panel = NetworkPanel(feed_of(host), lambda: runner.board.nodes, runner, services.look)
-    panel.run_asked.connect(runner.run)
-    panel.saving_failed.connect(
-        lambda path, reason: tell_not_saved(services.messages, path, reason)
-    )
-    panel.sharing_asked.connect(lambda: host.ask("sharing.open"))
-    panel.node_chosen.connect(lambda name: host.ask("nodes.show_log", name))
-    panel.plot_requested.connect(lambda topic, field: host.ask("sensors.plot", topic, field))
+    panel = NetworkPanel(feed_of(host), runner, services.look)
+    panel.empty.run_button.clicked.connect(runner.run)
+    panel.sharing_button.clicked.connect(lambda: host.ask("sharing.open"))
+    for view in (panel.graph, panel.list):
+        view.node_chosen.connect(lambda name: host.ask("nodes.show_log", name))
+    pane = panel.pane
+    pane.saving_failed.connect(lambda path, why: tell_not_saved(services.messages, path, why))
+    pane.plot_requested.connect(lambda topic, field: host.ask("sensors.plot", topic, field))
     place = NewPanel(panel, "Network", "share-2", "bottom", least_share=LEAST_SHARE)
     return Parts(place, commands={"network.show_sharing": panel.show_sharing})
 

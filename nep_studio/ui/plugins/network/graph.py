@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from typing import Literal
 
@@ -80,7 +80,9 @@ def _layers(graph: Graph) -> dict[int, list[Key]]:
     for topic in graph.topics:
         says = [of_node[node] for node, one in graph.says if one == topic and node in of_node]
         hears = [of_node[node] for node, one in graph.hears if one == topic and node in of_node]
-        layers.setdefault(_layer_of_topic(says, hears), []).append(("topic", topic))
+        # Right of who says it first; a topic that nobody says, left of who hears it first
+        layer = min(says) + 1 if says else min(hears, default=0) - 1
+        layers.setdefault(layer, []).append(("topic", topic))
     return layers
 
 
@@ -91,13 +93,6 @@ def _layer_of(name: str, type_: str, graph: Graph) -> int:
     does_say = any(node == name for node, _ in graph.says)
     does_hear = any(node == name for node, _ in graph.hears)
     return {(True, False): 0, (False, True): 6}.get((does_say, does_hear), 4)
-
-
-def _layer_of_topic(says: Sequence[int], hears: Sequence[int]) -> int:
-    """Right of who says it first; a topic that nobody says, left of who hears it first."""
-    if says:
-        return min(says) + 1
-    return min(hears, default=0) - 1
 
 
 def _sort_by_neighbours(
@@ -119,13 +114,9 @@ def _sort_by_neighbours(
 
 def _spots(order: Mapping[int, list[Key]], numbers: Iterable[int]) -> dict[Key, Spot]:
     spots: dict[Key, Spot] = {}
-    column = 0
-    for number in numbers:
-        for part in _columns(order[number]):
-            middle = (len(part) - 1) / 2
-            for index, key in enumerate(part):
-                spots[key] = Spot(column, index - middle)
-            column += 1
+    for column, part in enumerate(part for number in numbers for part in _columns(order[number])):
+        for index, key in enumerate(part):
+            spots[key] = Spot(column, index - (len(part) - 1) / 2)
     return spots
 
 
@@ -146,19 +137,13 @@ def graph_of(seen: Seen, types: Mapping[str, str], *, is_whole: bool = False) ->
     publishes: lines to both would cover all others.
     """
     nodes = {name: types.get(name, "") for name in sorted(seen.nodes) if is_whole or name != STUDIO}
-    topics = [name for name in sorted(seen.topics) if is_whole or name != NODE_STATE]
-    says = [
-        (node, topic) for topic in topics for node in seen.topics[topic].publishers if node in nodes
-    ]
-    hears = [
-        (node, topic)
-        for topic in topics
-        for node in seen.topics[topic].subscribers
-        if node in nodes
-    ]
+    names = [name for name in sorted(seen.topics) if is_whole or name != NODE_STATE]
+    topics = {name: seen.topics[name] for name in names}
+    says = tuple((n, name) for name, one in topics.items() for n in one.publishers if n in nodes)
+    hears = tuple((n, name) for name, one in topics.items() for n in one.subscribers if n in nodes)
     used = {topic for _, topic in (*says, *hears)}
     shown = tuple(topic for topic in topics if is_whole or topic in used)
-    return Graph(nodes, shown, tuple(says), tuple(hears))
+    return Graph(nodes, shown, says, hears)
 
 
 # The graph as shapes: boxes for nodes, pills for topics, curves between them.

@@ -6,7 +6,6 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from functools import lru_cache
-from typing import cast
 
 from PySide6.QtCore import QEvent, QPointF, QRectF, QSize, Qt, Signal
 from PySide6.QtGui import (
@@ -78,10 +77,8 @@ class GraphPainter:
         chosen = {key for key in (look.selected, look.hovered) if key is not None}
         first = [curve for curve in shapes.curves if not chosen & {curve.start, curve.end}]
         second = [curve for curve in shapes.curves if chosen & {curve.start, curve.end}]
-        for curve in first:
-            self._draw_curve(curve, look, is_chosen=False)
-        for curve in second:
-            self._draw_curve(curve, look, is_chosen=True)
+        for curve in (*first, *second):
+            self._draw_curve(curve, look, is_chosen=bool(chosen & {curve.start, curve.end}))
         for curve in first:
             self._draw_rate(curve, look, is_chosen=False)
         for key, rect in shapes.rects.items():
@@ -91,8 +88,11 @@ class GraphPainter:
                 else:
                     self._draw_topic(key, rect, look)
                 if key == look.selected and look.has_focus:
-                    edge = self._line * 0.22
-                    self._outline(rect.adjusted(-edge, -edge, edge, edge), "focus", 0.14)
+                    edge, round_ = self._line * 0.22, self._line * 0.7
+                    self._painter.setBrush(Qt.BrushStyle.NoBrush)
+                    self._painter.setPen(QPen(self._theme.colour("focus"), self._line * 0.14))
+                    around = rect.adjusted(-edge, -edge, edge, edge)
+                    self._painter.drawRoundedRect(around, round_, round_)
         for curve in second:
             self._draw_rate(curve, look, is_chosen=True)
 
@@ -150,14 +150,10 @@ class GraphPainter:
             self._second_line(words, state.word, theme.colour(state.colour), state.icon)
 
     def _beside(self, rect: QRectF, strip: QRectF) -> QRectF:
-        gap = self._line * 0.4
-        if strip.right() >= rect.right() - 1:
-            return QRectF(
-                rect.left() + gap, rect.top(), strip.left() - rect.left() - 2 * gap, rect.height()
-            )
-        return QRectF(
-            strip.right() + gap, rect.top(), rect.right() - strip.right() - 2 * gap, rect.height()
-        )
+        gap, is_at_right = self._line * 0.4, strip.right() >= rect.right() - 1
+        left = rect.left() if is_at_right else strip.right()
+        right = strip.left() if is_at_right else rect.right()
+        return QRectF(left + gap, rect.top(), right - left - 2 * gap, rect.height())
 
     def _draw_topic(self, key: Key, rect: QRectF, look: Look) -> None:
         theme, topic = self._theme, look.seen.topics.get(key[1])
@@ -185,11 +181,6 @@ class GraphPainter:
         is_thick = key in (look.selected, look.hovered)
         self._painter.setPen(QPen(edge, self._line * (0.14 if is_thick else 0.08)))
         self._painter.drawRoundedRect(rect, round_, round_)
-
-    def _outline(self, rect: QRectF, colour: str, width: float) -> None:
-        self._painter.setBrush(Qt.BrushStyle.NoBrush)
-        self._painter.setPen(QPen(self._theme.colour(colour), self._line * width))
-        self._painter.drawRoundedRect(rect, self._line * 0.7, self._line * 0.7)
 
     def _first_line(
         self, rect: QRectF, words: str, alignment: Qt.AlignmentFlag = Qt.AlignmentFlag.AlignLeading
@@ -269,8 +260,8 @@ class GraphView(QWidget):
     topic_chosen = Signal(str)
     node_chosen = Signal(str)
 
-    def __init__(self, look: StudioLook, parent: QWidget | None = None) -> None:
-        super().__init__(parent)
+    def __init__(self, look: StudioLook) -> None:
+        super().__init__()
         self._studio_look = look
         self._graph = Graph()
         self._look = Look()
@@ -336,9 +327,8 @@ class GraphView(QWidget):
         self._scale = max(fitting, SMALLEST_FIT)
         self._corner = bounds.center() - QPointF(self.width(), self.height()) / (2 * self._scale)
         if bounds.width() * self._scale > self.width():
-            is_mirrored = is_right_to_left()
             end = bounds.right() - self.width() / self._scale
-            self._corner.setX(end if is_mirrored else bounds.left())
+            self._corner.setX(end if is_right_to_left() else bounds.left())
         if bounds.height() * self._scale > self.height():
             self._corner.setY(bounds.top())
         self.update()
@@ -424,10 +414,9 @@ class GraphView(QWidget):
 
     def event(self, event: QEvent) -> bool:
         """Tell about what is under the mouse."""
-        if event.type() == QEvent.Type.ToolTip:
-            pointed = cast(QHelpEvent, event)
-            key = self._at(QPointF(pointed.pos()))
-            QToolTip.showText(pointed.globalPos(), self._words(key) if key else "", self)
+        if isinstance(event, QHelpEvent) and event.type() == QEvent.Type.ToolTip:
+            key = self._at(QPointF(event.pos()))
+            QToolTip.showText(event.globalPos(), self._words(key) if key else "", self)
             return True
         return super().event(event)
 
@@ -496,8 +485,7 @@ class GraphView(QWidget):
         if start is None or start not in self.shapes.rects:
             self.select(next(iter(self._graph.keys), None))
             return
-        following = self.shapes.next_to(start, dx, dy)
-        if following is not None:
+        if following := self.shapes.next_to(start, dx, dy):
             self.select(following)
 
     def _on_theme_changed(self) -> None:

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
-from pathlib import Path
+from collections.abc import Mapping
 
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtGui import QHideEvent, QShowEvent
@@ -34,35 +33,19 @@ from .graph import Graph, Key, graph_of
 from .graph_view import ZOOM_STEP, GraphView
 from .topics import TopicPane
 
-Statuses = Callable[[], Mapping[str, NodeStatus]]
-
 
 class NetworkPanel(InLines):
     """Looks at the network while it is visible.
 
-    ``run_asked`` asks to run the project, the first step where nothing is there to see;
-    ``sharing_asked`` to show which other computers come in; ``node_chosen`` gives the name of a
-    node, ``plot_requested`` a topic and a field.
+    Whoever can do it is connected with its buttons, views and ``pane``. ``sharing_button`` asks
+    which other computers come in, ``empty`` is the first step where nothing is there to see.
     """
 
     usual_lines = (40, 18)
 
-    run_asked = Signal()
-    sharing_asked = Signal()
-    node_chosen = Signal(str)
-    plot_requested = Signal(str, str)
-    saving_failed = Signal(str, str)
-
-    def __init__(
-        self,
-        feed: NetworkFeed,
-        statuses: Statuses,
-        runner: Runner,
-        look: Look,
-        parent: QWidget | None = None,
-    ) -> None:
-        super().__init__(parent)
-        self._feed, self._statuses, self._look = feed, statuses, look
+    def __init__(self, feed: NetworkFeed, runner: Runner, look: Look) -> None:
+        super().__init__()
+        self._feed, self._runner, self._look = feed, runner, look
         self.graph = GraphView(look)
         self.list = NetworkList()
         self.pane = TopicPane(runner, look)
@@ -70,8 +53,9 @@ class NetworkPanel(InLines):
         self.empty = _Empty()
         self.summary = QLabel()
         self.summary.setProperty("role", "hint")
-        self.sharing_button = QToolButton()
-        self.sharing_button.setToolButtonStyle(Qt.ToolButtonStyle.ToolButtonTextBesideIcon)
+        self.sharing_button = QToolButton(
+            toolButtonStyle=Qt.ToolButtonStyle.ToolButtonTextBesideIcon
+        )
         self.sharing_button.hide()
         self._sharing_icon = ""
         self.list_button = _tool("As a list", is_checkable=True)
@@ -101,27 +85,18 @@ class NetworkPanel(InLines):
 
     def _connect(self) -> None:
         self._feed.changed.connect(self._on_changed)
-        self.empty.run_button.clicked.connect(self.run_asked)
-        self.sharing_button.clicked.connect(self.sharing_asked)
         for view in (self.graph, self.list):
             view.topic_chosen.connect(self.open_topic)
-            view.node_chosen.connect(self.node_chosen)
         self.list_button.toggled.connect(self._on_list_toggled)
         self.whole_button.toggled.connect(lambda: self._on_changed(self._feed.seen))
         self.larger_button.clicked.connect(lambda: self.graph.zoom(ZOOM_STEP))
         self.smaller_button.clicked.connect(lambda: self.graph.zoom(1 / ZOOM_STEP))
         self.fit_button.clicked.connect(self.graph.fit)
         self.pane.bar.close_button.clicked.connect(self._on_pane_closed)
-        self.pane.plot_requested.connect(self.plot_requested)
-        self.pane.saving_failed.connect(self.saving_failed)
         self._look.theme_changed.connect(self._on_theme_changed)
 
     def _say(self) -> None:
         self._on_changed(self._feed.seen)
-
-    def set_folder(self, folder: Path) -> None:
-        """Save messages there at first."""
-        self.pane.folder = folder
 
     def show_sharing(self, words: str, more: str, icon_name: str) -> None:
         """Say that the network is open to other computers; no ``words`` when it is not."""
@@ -152,7 +127,7 @@ class NetworkPanel(InLines):
     def _on_changed(self, seen: Seen) -> None:
         if not self.isVisible():
             return
-        statuses = self._statuses()
+        statuses = self._runner.board.nodes
         types = {name: status.type for name, status in statuses.items()}
         graph = graph_of(seen, types, is_whole=self.whole_button.isChecked())
         is_empty = not graph.nodes
@@ -212,12 +187,9 @@ class _Empty(QWidget):
 
     def _say(self) -> None:
         belongs = tr("Here you see which nodes run and what they tell each other.")
-        step = (
-            tr("No node has joined the network yet.")
-            if self._is_up
-            else tr("Press Run: the nodes of your project start.")
-        )
-        self.words.setText(f"{belongs}\n{step}")
+        waits = tr("No node has joined the network yet.")
+        begin = tr("Press Run: the nodes of your project start.")
+        self.words.setText(f"{belongs}\n{waits if self._is_up else begin}")
 
 
 def _tool(words: str, *, is_checkable: bool = False) -> QToolButton:
@@ -237,8 +209,8 @@ class NetworkList(QTreeWidget):
     topic_chosen = Signal(str)
     node_chosen = Signal(str)
 
-    def __init__(self, parent: QWidget | None = None) -> None:
-        super().__init__(parent)
+    def __init__(self) -> None:
+        super().__init__()
         labelled(self, name="Network as a list")
         self.setEditTriggers(QAbstractItemView.EditTrigger.NoEditTriggers)
         self.header().setSectionResizeMode(QHeaderView.ResizeMode.Interactive)
@@ -259,7 +231,7 @@ class NetworkList(QTreeWidget):
 
     def show_graph(self, graph: Graph, seen: Seen, statuses: Mapping[str, NodeStatus]) -> None:
         """Show this; rows that are still there stay where they are."""
-        for key in [key for key in self._rows if key not in set(graph.keys)]:
+        for key in self._rows.keys() - set(graph.keys):
             head = self.topics if key[0] == "topic" else self.nodes
             head.removeChild(self._rows.pop(key))
         for name in graph.topics:
@@ -276,15 +248,8 @@ class NetworkList(QTreeWidget):
         for name in graph.nodes:
             node, status = seen.nodes[name], statuses.get(name)
             state = state_look(status).word if status else type_words("")
-            words = (
-                rate_words(node.rate_hz),
-                state,
-                "",
-                "",
-                names(node.hears),
-                names(node.publishes),
-            )
-            self._fill(("node", name), self.nodes, words)
+            ends = names(node.hears), names(node.publishes)
+            self._fill(("node", name), self.nodes, (rate_words(node.rate_hz), state, "", "", *ends))
 
     def _head(self) -> QTreeWidgetItem:
         item = QTreeWidgetItem(self)

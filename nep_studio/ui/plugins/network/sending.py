@@ -6,9 +6,16 @@ from collections.abc import Callable, Mapping
 from typing import Any
 
 import msgspec
-from PySide6.QtCore import Qt, Signal
+from PySide6.QtCore import Qt
 from PySide6.QtGui import QKeySequence, QShortcut, QTextCursor
-from PySide6.QtWidgets import QComboBox, QLabel, QPlainTextEdit, QPushButton, QWidget
+from PySide6.QtWidgets import (
+    QApplication,
+    QComboBox,
+    QLabel,
+    QPlainTextEdit,
+    QPushButton,
+    QWidget,
+)
 
 from faults import FaultError, Words, text_of
 from nep_core.wire import messages as m
@@ -79,13 +86,8 @@ def read_message(topic: str, text: str) -> msgspec.Struct | dict[str, Any]:
         return data
     unknown = [key for key in data if key not in kind.__struct_fields__]
     if unknown:
-        known = ", ".join(kind.__struct_fields__)
-        raise NotAMessage(
-            "{topic} has no “{unknown}”. It has: {known}.",
-            topic=topic,
-            unknown=unknown[0],
-            known=known,
-        )
+        values = {"topic": topic, "unknown": unknown[0], "known": ", ".join(kind.__struct_fields__)}
+        raise NotAMessage("{topic} has no “{unknown}”. It has: {known}.", **values)
     try:
         return msgspec.convert(data, kind)
     except msgspec.ValidationError as error:
@@ -111,12 +113,10 @@ Send = Callable[[str, msgspec.Struct | dict[str, Any]], bool]
 
 
 class SendBox(QWidget):
-    """An editor with the example of a topic; ``sent`` gives the topic. Ctrl+Enter sends."""
+    """An editor with the example of a topic. Ctrl+Enter sends."""
 
-    sent = Signal(str)
-
-    def __init__(self, send: Send, look: Look, parent: QWidget | None = None) -> None:
-        super().__init__(parent)
+    def __init__(self, send: Send, look: Look) -> None:
+        super().__init__()
         self._send, self._look = send, look
         self._topic = ""
         self._sent: list[tuple[str, str]] = []
@@ -130,12 +130,11 @@ class SendBox(QWidget):
         )
         labelled(self.history, name="Messages that you have sent")
         self.history.setMinimumContentsLength(8)
-        self.send_button = labelled(QPushButton(), text="Send")
+        self.send_button, self.example_button = QPushButton(), QPushButton()
+        labelled(self.send_button, text="Send", tip="Send this message now (Ctrl+Enter)")
         self.send_button.setProperty("kind", "primary")
-        labelled(self.send_button, tip="Send this message now (Ctrl+Enter)")
-        self.example_button = labelled(QPushButton(), text="Example")
+        labelled(self.example_button, text="Example", tip="Write the example again")
         self.example_button.setProperty("kind", "quiet")
-        labelled(self.example_button, tip="Write the example again")
         row = in_row((self.history, 1), self.example_button, self.send_button)
         in_column((self.text, 1), self.note, row, of=self, margins=0)
         self.send_button.clicked.connect(self.send_now)
@@ -174,7 +173,6 @@ class SendBox(QWidget):
         self._sent = [(self._topic, text), *self._sent][:MOST_SENT]
         self._show_history()
         self._say(SENT)
-        self.sent.emit(self._topic)
 
     def _say(self, words: Words, *, is_wrong: bool = False) -> None:
         labelled(self.note, text=words)
@@ -208,8 +206,6 @@ class SendBox(QWidget):
         self._say("")
 
     def _on_theme_changed(self) -> None:
-        from PySide6.QtWidgets import QApplication
-
         app = QApplication.instance()
         assert isinstance(app, QApplication)
         self.text.setFont(code_font(base_point_size(app) * self._look.scale))

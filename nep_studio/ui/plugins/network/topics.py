@@ -24,7 +24,6 @@ from PySide6.QtCore import (
 from PySide6.QtGui import QGuiApplication, QHideEvent, QShowEvent
 from PySide6.QtWidgets import (
     QAbstractItemView,
-    QHBoxLayout,
     QLabel,
     QLineEdit,
     QListView,
@@ -44,7 +43,7 @@ from nep_studio.ui.running.runner import Heard, Runner, Tap
 from nep_studio.ui.theme.icons import icon
 from nep_studio.ui.theme.look import Look
 from nep_studio.ui.widgets.forms import ElidedLabel
-from nep_studio.ui.widgets.layouts import in_column
+from nep_studio.ui.widgets.layouts import in_column, in_row
 from nep_studio.ui.widgets.questions import ask_for_path
 from nep_studio.ui.words import count_words, tr
 
@@ -135,8 +134,8 @@ def _moment(time_s: float) -> str:
 class TopicBar(QWidget):
     """Has no behaviour of its own; the pane connects its buttons."""
 
-    def __init__(self, look: Look, parent: QWidget | None = None) -> None:
-        super().__init__(parent)
+    def __init__(self, look: Look) -> None:
+        super().__init__()
         self._look = look
         self.title = ElidedLabel()
         self.title.setProperty("role", "heading")
@@ -148,28 +147,18 @@ class TopicBar(QWidget):
         self.plot_menu = QMenu(self.plot_button)
         self.plot_button.setMenu(self.plot_menu)
         self.plot_button.setPopupMode(QToolButton.ToolButtonPopupMode.InstantPopup)
-        self.close_button = QToolButton()
-        labelled(self.close_button, tip="Close", name="Close these messages")
+        self.close_button = labelled(QToolButton(), tip="Close", name="Close these messages")
         self.filter = QLineEdit(clearButtonEnabled=True)
         labelled(
             self.filter, placeholder="Show only messages with…", name="Show only messages with…"
         )
-        first, second = QHBoxLayout(), QHBoxLayout()
-        first.addWidget(self.title, 1)
-        first.addWidget(self.close_button)
-        for button in (self.pause_button, self.copy_button, self.save_button, self.plot_button):
-            second.addWidget(button)
-        second.addWidget(self.filter, 1)
-        in_column(first, second, of=self, margins=0)
+        tools = self.pause_button, self.copy_button, self.save_button, self.plot_button
+        head, below = in_row((self.title, 1), self.close_button), in_row(*tools, (self.filter, 1))
+        in_column(head, below, of=self, margins=0)
         look.theme_changed.connect(self._on_theme_changed)
         self._on_theme_changed()
 
-    def show_topic(self, topic: str) -> None:
-        """Say whose messages these are."""
-        self.title.set_words(topic)
-
     def _on_theme_changed(self) -> None:
-        theme = self._look.theme
         icons = {
             self.pause_button: "pause",
             self.copy_button: "copy",
@@ -178,13 +167,11 @@ class TopicBar(QWidget):
             self.close_button: "x",
         }
         for button, name in icons.items():
-            button.setIcon(icon(name, theme))
+            button.setIcon(icon(name, self._look.theme))
 
 
 def _tool(words: str, *, tip: str) -> QToolButton:
-    button = labelled(QToolButton(), text=words, name=words, tip=tip)
-    button.setToolButtonStyle(Qt.ToolButtonStyle.ToolButtonIconOnly)
-    return button
+    return labelled(QToolButton(), text=words, name=words, tip=tip)
 
 
 # The last messages of a topic as a list; however fast they come, only some are drawn.
@@ -201,14 +188,10 @@ class HeardList(QAbstractListModel):
     def __init__(self, parent: QObject) -> None:
         super().__init__(parent)
         self._kept: deque[Heard] = deque(maxlen=KEPT)
-        self._shown: list[Heard] = []
+        self.shown: list[Heard] = []
+        """What is in the list, the newest first."""
         self.filter = ""
         self.count = 0
-
-    @property
-    def shown(self) -> Sequence[Heard]:
-        """What is in the list, the newest first."""
-        return self._shown
 
     def clear(self) -> None:
         """Forget all."""
@@ -224,24 +207,23 @@ class HeardList(QAbstractListModel):
     def refresh(self) -> None:
         """Show what has come."""
         wanted = self.filter.casefold()
-        shown = [
+        self.beginResetModel()
+        self.shown = [
             one
             for one in reversed(self._kept)
             if not wanted or wanted in f"{one.sender} {as_json(one.message)}".casefold()
         ]
-        self.beginResetModel()
-        self._shown = shown
         self.endResetModel()
 
     def rowCount(self, parent: Index | Any = QModelIndex()) -> int:  # noqa: B008  Qt's default
         """How many are shown."""
-        return 0 if parent.isValid() else len(self._shown)
+        return 0 if parent.isValid() else len(self.shown)
 
     def data(self, index: Index | Any, role: int = Qt.ItemDataRole.DisplayRole) -> Any:
         """The line of a message, or all of it."""
-        if not index.isValid() or index.row() >= len(self._shown):
+        if not index.isValid() or index.row() >= len(self.shown):
             return None
-        heard = self._shown[index.row()]
+        heard = self.shown[index.row()]
         if role == Qt.ItemDataRole.DisplayRole:
             return f"{clock(heard.time_s)}  {heard.sender}  {one_line(heard.message)}"
         if role == Qt.ItemDataRole.ToolTipRole:
@@ -264,25 +246,20 @@ class TopicPane(QWidget):
     plot_requested = Signal(str, str)
     saving_failed = Signal(str, str)
 
-    def __init__(self, runner: Runner, look: Look, parent: QWidget | None = None) -> None:
-        super().__init__(parent)
+    def __init__(self, runner: Runner, look: Look) -> None:
+        super().__init__()
         self._runner = runner
         self._tap: Tap | None = None
-        self._is_paused = False
         self._seen: TopicSeen | None = None
         self.topic = ""
-        self.folder = Path.home()
         self.heard = HeardList(self)
         self.bar = TopicBar(look)
         self.about = QLabel(wordWrap=True)
         self.about.setProperty("role", "hint")
-        self.list = QListView()
+        self.list = labelled(QListView(uniformItemSizes=True), name="Messages, the newest first")
         self.list.setModel(self.heard)
-        self.list.setUniformItemSizes(True)
-        labelled(self.list, name="Messages, the newest first")
         self.list.setEditTriggers(QAbstractItemView.EditTrigger.NoEditTriggers)
-        self.full = QPlainTextEdit(readOnly=True)
-        labelled(self.full, name="The message in full")
+        self.full = labelled(QPlainTextEdit(readOnly=True), name="The message in full")
         self.full.setLayoutDirection(Qt.LayoutDirection.LeftToRight)
         self.send_box = SendBox(runner.send, look)
         self._later = QTimer(self, singleShot=True, interval=SHOW_MS)
@@ -325,8 +302,9 @@ class TopicPane(QWidget):
         """Show the messages of a topic, which is heard from now on."""
         if topic != self.topic:
             self._stop()
-            self.topic = topic
-            self.bar.show_topic(topic)
+            self.topic, self._seen = topic, None
+            self.about.clear()
+            self.bar.title.set_words(topic)
             self.heard.clear()
             self.full.clear()
             self.bar.pause_button.setChecked(False)
@@ -351,8 +329,7 @@ class TopicPane(QWidget):
 
     def copy(self) -> None:
         """Copy the message that is shown in full, else all in the list."""
-        index = self.list.currentIndex()
-        heard: Heard | None = index.data(Qt.ItemDataRole.UserRole) if index.isValid() else None
+        heard: Heard | None = self.list.currentIndex().data(Qt.ItemDataRole.UserRole)
         if heard is not None:
             text = pretty(heard.message)
         else:
@@ -389,7 +366,7 @@ class TopicPane(QWidget):
         self._later.stop()
 
     def _on_arrived(self, batch: list[Heard]) -> None:
-        if self._is_paused:
+        if self.bar.pause_button.isChecked():
             return
         self.heard.add(batch)
         if not self._later.isActive():
@@ -397,30 +374,23 @@ class TopicPane(QWidget):
 
     def _on_later(self) -> None:
         self.heard.refresh()
-        if self.heard.shown:
-            self._show(self.heard.shown[0])
-        else:
-            self.full.clear()
-
-    def _show(self, heard: Heard) -> None:
-        self.full.setPlainText(pretty(heard.message))
+        shown = self.heard.shown
+        self.full.setPlainText(pretty(shown[0].message) if shown else "")
 
     def _on_chosen(self, index: QModelIndex) -> None:
         """Reading one message stops the stream, or it would be gone."""
         if index.isValid():
             self.bar.pause_button.setChecked(True)
-            self._show(index.data(Qt.ItemDataRole.UserRole))
+            self.full.setPlainText(pretty(index.data(Qt.ItemDataRole.UserRole).message))
 
     def _on_current_changed(self, index: QModelIndex) -> None:
         if index.isValid() and self.list.hasFocus():
             self._on_chosen(index)
 
     def _on_pause_toggled(self, is_on: bool) -> None:
-        self._is_paused = is_on
         if not is_on:
-            self.list.selectionModel().setCurrentIndex(
-                QModelIndex(), QItemSelectionModel.SelectionFlag.Clear
-            )
+            nothing, clear = QModelIndex(), QItemSelectionModel.SelectionFlag.Clear
+            self.list.selectionModel().setCurrentIndex(nothing, clear)
 
     def _on_filter_changed(self, words: str) -> None:
         self.heard.filter = words.strip()
@@ -428,17 +398,15 @@ class TopicPane(QWidget):
 
     def _on_save_clicked(self) -> None:
         name = self.topic.strip("/").replace("/", "_") or "messages"
-        place, kinds = (
-            self.folder / f"{name}.csv",
-            (tr("Table (*.csv)"), tr("JSON lines (*.jsonl)")),
-        )
+        place, table = Path.home() / f"{name}.csv", tr("Table (*.csv)")
+        kinds = table, tr("JSON lines (*.jsonl)")
         dialog = ask_for_path(self, tr("Save messages"), place, self.save_to, "save", kinds)
         dialog.filterSelected.connect(
             lambda chosen: dialog.setDefaultSuffix("jsonl" if "jsonl" in chosen else "csv")
         )
 
     def _on_plot_menu(self) -> None:
-        menu: QMenu = self.bar.plot_menu
+        menu = self.bar.plot_menu
         menu.clear()
         last = self.heard.shown[0].message if self.heard.shown else None
         for field in number_fields(last):

@@ -44,7 +44,7 @@ def make(host: Host) -> Parts:
     panel.start_asked.connect(start)
     panel.stop_asked.connect(stop)
     panel.restart_asked.connect(restart)
-    panel.page_asked.connect(lambda: workbench.canvas.show_page("robots"))
+    panel.empty.page_button.clicked.connect(lambda: workbench.canvas.show_page("robots"))
     panel.log.saving_failed.connect(
         lambda path, reason: tell_not_saved(services.messages, path, reason)
     )

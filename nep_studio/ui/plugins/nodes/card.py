@@ -6,17 +6,9 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
 from typing import cast, get_args
 
-from PySide6.QtCore import Qt, Signal
+from PySide6.QtCore import Qt, Signal, SignalInstance
 from PySide6.QtGui import QKeyEvent, QMouseEvent, QPainter, QPaintEvent, QPen
-from PySide6.QtWidgets import (
-    QFrame,
-    QHBoxLayout,
-    QLabel,
-    QSizePolicy,
-    QToolButton,
-    QVBoxLayout,
-    QWidget,
-)
+from PySide6.QtWidgets import QFrame, QLabel, QSizePolicy, QToolButton, QWidget
 
 from nep_core.wire.messages import NodeType
 from nep_studio.run.node_board import NodeStatus
@@ -35,6 +27,7 @@ from nep_studio.ui.node_style import (
 from nep_studio.ui.theme.icons import icon, icon_pixmap
 from nep_studio.ui.theme.look import Look
 from nep_studio.ui.widgets.forms import ElidedLabel
+from nep_studio.ui.widgets.layouts import in_column, in_row
 from nep_studio.ui.words import count_words, tr
 
 # What the node panel has cards for: nodes that the project needs, and nodes that are there.
@@ -62,21 +55,6 @@ class Entry:
         return self.name == PROGRAM
 
     @property
-    def can_start(self) -> bool:
-        """Whether the studio can start it now."""
-        return not is_running(self.status) and (self.planned is not None or self.is_program)
-
-    @property
-    def can_stop(self) -> bool:
-        """Whether the studio can stop it now."""
-        return is_running(self.status) and (self.is_ours or self.is_program)
-
-    @property
-    def can_restart(self) -> bool:
-        """Whether the studio can stop and start it: the program is started by Run alone."""
-        return is_running(self.status) and self.is_ours
-
-    @property
     def has_log(self) -> bool:
         """Whether the studio keeps what it writes."""
         return self.is_ours or self.is_program
@@ -95,20 +73,18 @@ def entries_of(
     ours: Mapping[str, PlannedNode],
     seen: Mapping[str, NodeSeen],
 ) -> list[Entry]:
-    """All nodes, from sensing to acting; ``ours`` are those that the studio was asked to start."""
+    """All nodes, from sensing to acting; ``ours`` are those that the studio was asked to start.
+
+    One that nobody planned is shown while it is there, or is the program.
+    """
     plans = {**ours, **{one.name: one for one in planned}}
     names = [*plans, *(name for name in statuses if name not in plans)]
     entries = [
         Entry(_status(name, statuses, plans), plans.get(name), name in ours, seen.get(name))
         for name in names
-        if name in plans or is_worth_a_card(statuses[name], seen)
+        if name in plans or name in seen or name == PROGRAM or is_running(statuses[name])
     ]
     return sorted(entries, key=lambda one: (ORDER.get(one.status.type, 9), one.name))
-
-
-def is_worth_a_card(status: NodeStatus, seen: Mapping[str, NodeSeen]) -> bool:
-    """Whether a node that nobody planned is shown: while it is there, or is the program."""
-    return is_running(status) or status.name == PROGRAM or status.name in seen
 
 
 def _status(
@@ -124,12 +100,7 @@ def _status(
 
 
 LINES_WIDE = 19
-ARROWS = {
-    Qt.Key.Key_Left: -1,
-    Qt.Key.Key_Up: -1,
-    Qt.Key.Key_Right: 1,
-    Qt.Key.Key_Down: 1,
-}
+ARROWS = {Qt.Key.Key_Left: -1, Qt.Key.Key_Up: -1, Qt.Key.Key_Right: 1, Qt.Key.Key_Down: 1}
 
 
 class NodeCard(QFrame):
@@ -141,10 +112,9 @@ class NodeCard(QFrame):
     log_asked = Signal(str)
     moved = Signal(int)
 
-    def __init__(self, entry: Entry, look: Look, parent: QWidget | None = None) -> None:
+    def __init__(self, entry: Entry, look: Look, parent: QWidget) -> None:
         super().__init__(parent)
-        self._look = look
-        self._entry: Entry | None = None
+        self.entry, self._look = entry, look
         self._is_drawn_for = ""
         self.setProperty("kind", "card")
         self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
@@ -159,53 +129,32 @@ class NodeCard(QFrame):
         self.stop_button = self._tool("Stop", "square", self.stop_asked)
         self.restart_button = self._tool("Restart", "refresh-cw", self.restart_asked)
         self.log_button = self._tool("Log", "scroll-text", self.log_asked)
-        self.buttons = (
-            self.start_button,
-            self.stop_button,
-            self.restart_button,
-            self.log_button,
-        )
+        self.buttons = (self.start_button, self.stop_button, self.restart_button, self.log_button)
         self._lay_out()
-        self.show_entry(entry)
+        self._show()
         follow_words(self, self._say)
 
-    @property
-    def entry(self) -> Entry:
-        """What it shows."""
-        assert self._entry is not None
-        return self._entry
-
     def _lay_out(self) -> None:
-        head, state, foot = QHBoxLayout(), QHBoxLayout(), QHBoxLayout()
-        names = QVBoxLayout()
-        names.setSpacing(0)
-        names.addWidget(self.name)
-        names.addWidget(self.kind)
-        head.addWidget(self.sign, 0, Qt.AlignmentFlag.AlignTop)
-        head.addLayout(names, 1)
-        state.addWidget(self.state_sign)
-        state.addWidget(self.state, 1)
-        for button in self.buttons:
-            foot.addWidget(button)
-        foot.addStretch(1)
-        box = QVBoxLayout(self)
-        box.setSpacing(self.fontMetrics().height() // 5)
-        box.addLayout(head)
-        box.addLayout(state)
-        box.addWidget(self.figures)
-        box.addWidget(self.reason)
-        box.addLayout(foot)
+        names = in_column(self.name, self.kind, spacing=0)
+        head = in_row((self.sign, 0, Qt.AlignmentFlag.AlignTop), (names, 1))
+        state, foot = in_row(self.state_sign, (self.state, 1)), in_row(*self.buttons, 1)
+        gap = self.fontMetrics().height() // 5
+        in_column(head, state, self.figures, self.reason, foot, of=self, spacing=gap)
 
     def show_entry(self, entry: Entry) -> None:
         """Show how the node is doing now; nothing is done when that is as it was."""
-        if entry == self._entry:
-            return
-        self._entry = entry
+        if entry != self.entry:
+            self.entry = entry
+            self._show()
+            self._say()
+
+    def _show(self) -> None:
+        entry = self.entry
         self._draw_signs()
-        self._say()
-        self.start_button.setEnabled(entry.can_start)
-        self.stop_button.setEnabled(entry.can_stop)
-        self.restart_button.setEnabled(entry.can_restart)
+        runs, is_known = is_running(entry.status), entry.planned is not None or entry.is_program
+        self.start_button.setEnabled(is_known and not runs)
+        self.stop_button.setEnabled(runs and (entry.is_ours or entry.is_program))
+        self.restart_button.setEnabled(runs and entry.is_ours)  # the program is started by Run
         self.log_button.setEnabled(entry.has_log)
         for button in self.buttons:
             button.setVisible(not entry.is_foreign)
@@ -251,8 +200,7 @@ class NodeCard(QFrame):
             painter = QPainter(self)
             painter.setRenderHint(QPainter.RenderHint.Antialiasing)
             painter.setPen(QPen(self._look.theme.colour("focus"), line))
-            edge = line / 2
-            rect = self.rect().toRectF().adjusted(edge, edge, -edge, -edge)
+            rect = self.rect().toRectF().adjusted(line / 2, line / 2, -line / 2, -line / 2)
             painter.drawRoundedRect(rect, line * 3, line * 3)
             painter.end()
 
@@ -275,10 +223,10 @@ class NodeCard(QFrame):
         self.state_sign.setPixmap(icon_pixmap(state.icon, colour, line, ratio))
         self.state.setStyleSheet(f"color: {colour.name()}")
 
-    def _tool(self, words: str, icon_name: str, asked: object) -> QToolButton:
+    def _tool(self, words: str, icon_name: str, asked: SignalInstance) -> QToolButton:
         button = labelled(explained(QToolButton(), words), text=words)
         button.setIcon(icon(icon_name, self._look.theme))
-        button.clicked.connect(lambda: asked.emit(self.entry.name))  # type: ignore[attr-defined]
+        button.clicked.connect(lambda: asked.emit(self.entry.name))
         return button
 
 
@@ -287,8 +235,7 @@ def figures_of(entry: Entry) -> list[str]:
     found: list[str] = []
     if entry.seen is not None:
         found.append(rate_words(entry.seen.rate_hz))
-        if entry.seen.use is not None:
-            use = entry.seen.use
+        if use := entry.seen.use:
             found.append(tr("processor {percent} %", percent=f"{use.cpu_percent:.0f}"))
             found.append(tr("{size} MB", size=f"{use.memory_bytes / 1e6:,.0f}"))
     if entry.status.restarts:
@@ -303,8 +250,7 @@ def why_words(entry: Entry) -> str:
     if entry.is_program:
         return tr("Your blocks, as a program: Run starts it.")
     planned = entry.planned
-    if planned is None:
-        return ""
-    if planned.reason:
+    if planned is not None and planned.reason:
         return tr("Needed: {reason}", reason=tr(planned.reason))
-    return tr("Needed: it is on a page of your project") if planned.block_id else ""
+    is_on_page = planned is not None and planned.block_id
+    return tr("Needed: it is on a page of your project") if is_on_page else ""

@@ -19,22 +19,15 @@ from PySide6.QtGui import (
     QTextCursor,
     QTextDocument,
 )
-from PySide6.QtWidgets import (
-    QFileDialog,
-    QHBoxLayout,
-    QLineEdit,
-    QPlainTextEdit,
-    QPushButton,
-    QToolButton,
-    QVBoxLayout,
-    QWidget,
-)
+from PySide6.QtWidgets import QLineEdit, QPlainTextEdit, QPushButton, QToolButton, QWidget
 
 from faults import text_of
 from nep_studio.ui.labels import follow_words, labelled
 from nep_studio.ui.theme.icons import icon
 from nep_studio.ui.theme.look import Look
 from nep_studio.ui.widgets.forms import ElidedLabel
+from nep_studio.ui.widgets.layouts import in_column, in_row
+from nep_studio.ui.widgets.questions import ask_for_path
 from nep_studio.ui.words import count_words, tr
 
 # The end of a node's log, read bit by bit; however much it writes, a piece stays small.
@@ -137,29 +130,28 @@ class LogView(QWidget):
     closed = Signal()
     saving_failed = Signal(str, str)
 
-    def __init__(self, look: Look, parent: QWidget | None = None) -> None:
-        super().__init__(parent)
+    def __init__(self, look: Look) -> None:
+        super().__init__()
         self._look = look
         self._tail: LogTail | None = None
         self._path = Path()
         self._waiting: deque[str] = deque(maxlen=MOST_LINES)
         self.node = ""
-        self.folder = Path.home()
         self.title = ElidedLabel()
         self.title.setProperty("role", "heading")
-        self.text = QPlainTextEdit()
-        self.text.setReadOnly(True)
-        self.text.setMaximumBlockCount(MOST_LINES)
-        self.text.setLineWrapMode(QPlainTextEdit.LineWrapMode.NoWrap)
+        self.text = QPlainTextEdit(
+            readOnly=True,
+            maximumBlockCount=MOST_LINES,
+            lineWrapMode=QPlainTextEdit.LineWrapMode.NoWrap,
+            undoRedoEnabled=False,
+        )
         self.text.setLayoutDirection(Qt.LayoutDirection.LeftToRight)
-        self.text.setUndoRedoEnabled(False)
         self.text.setTextInteractionFlags(
             Qt.TextInteractionFlag.TextSelectableByMouse
             | Qt.TextInteractionFlag.TextSelectableByKeyboard
         )
-        self.search = QLineEdit()
+        self.search = QLineEdit(clearButtonEnabled=True)
         labelled(self.search, placeholder="Find in the log", name="Find in the log")
-        self.search.setClearButtonEnabled(True)
         self.follow_button = QPushButton()
         self.follow_button.setProperty("kind", "quiet")
         self.follow_button.hide()
@@ -174,16 +166,10 @@ class LogView(QWidget):
         follow_words(self, self._say)
 
     def _lay_out(self) -> None:
-        bar = QHBoxLayout()
-        bar.addWidget(self.title, 1)
-        bar.addWidget(self.search, 1)
-        for button in (self.copy_button, self.save_button, self.folder_button, self.close_button):
-            bar.addWidget(button)
-        box = QVBoxLayout(self)
-        box.setContentsMargins(0, 0, 0, 0)
-        box.addLayout(bar)
-        box.addWidget(self.text, 1)
-        box.addWidget(self.follow_button, 0, Qt.AlignmentFlag.AlignTrailing)
+        tools = self.copy_button, self.save_button, self.folder_button, self.close_button
+        bar = in_row((self.title, 1), (self.search, 1), *tools)
+        follow = self.follow_button, 0, Qt.AlignmentFlag.AlignTrailing
+        in_column(bar, (self.text, 1), follow, of=self, margins=0)
 
     def _connect(self) -> None:
         self._timer.timeout.connect(self._on_read)
@@ -317,12 +303,8 @@ class LogView(QWidget):
         self.find_next()
 
     def _on_save_clicked(self) -> None:
-        dialog = QFileDialog(self, tr("Save the log"), str(self.folder))
-        dialog.setAcceptMode(QFileDialog.AcceptMode.AcceptSave)
-        dialog.selectFile(self._path.name)
-        dialog.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
-        dialog.fileSelected.connect(lambda path: self.save_to(Path(path)))
-        dialog.open()
+        place = Path.home() / self._path.name
+        ask_for_path(self, tr("Save the log"), place, self.save_to, "save")
 
     def _on_folder_clicked(self) -> None:
         QDesktopServices.openUrl(QUrl.fromLocalFile(str(self._path.parent)))
@@ -350,5 +332,4 @@ def _lines_of(piece: Piece) -> list[str]:
 
 
 def _tool(words: str, *, tip: str) -> QToolButton:
-    button = labelled(QToolButton(), text=words, name=words, tip=tip)
-    return button
+    return labelled(QToolButton(), text=words, name=words, tip=tip)

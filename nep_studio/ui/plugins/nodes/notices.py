@@ -35,7 +35,6 @@ Fix = Literal[
     "stop",
 ]
 
-BAD = frozenset({"warning", "frozen", "crashed"})
 WELL = frozenset({"ready", "busy"})
 BAD = frozenset({"frozen", "warning", "crashed", "stopped"})
 """What may have to be told."""
@@ -82,10 +81,8 @@ def notice_of(before: NodeStatus | None, after: NodeStatus, at: Circumstances) -
         return _no_connection(after, at)
     if after.health == "warning":
         return _warning(after, at)
-    if after.health == "crashed":
-        if at.is_program:
-            return None if at.is_ending else _program_ended(after)
-        return None if at.is_ending else _ended(after, at)
+    if after.health == "crashed" and not at.is_ending:
+        return _program_ended(after) if at.is_program else _ended(after, at)
     if after.health == "stopped" and before is not None:
         return _stopped(after, at)
     return None
@@ -105,10 +102,9 @@ def _no_connection(status: NodeStatus, at: Circumstances) -> Notice:
     )
     title = tr("{name} does not answer", name=status.name)
     problem = Problem(title, fault.sentence or where, fault.checklist)
-    fixes: tuple[Fix, ...] = (
-        ("use_virtual", "test_connection", "change_address") if at.has_block else ()
-    )
-    return Notice(status.name, f"connection {at.address}", "error", problem, fixes)
+    fixes: tuple[Fix, ...] = ("use_virtual", "test_connection", "change_address")
+    told = fixes if at.has_block else ()
+    return Notice(status.name, f"connection {at.address}", "error", problem, told)
 
 
 def _frozen(status: NodeStatus, at: Circumstances) -> Notice:
@@ -142,10 +138,9 @@ def _warning(status: NodeStatus, at: Circumstances) -> Notice:
         title = tr("“{name}” needs attention", name=name)
         steps = (tr("Look into its log."), tr("Look at its settings."))
     problem = Problem(title, status.fault.sentence, status.fault.checklist or steps)
-    fixes: list[Fix] = ["show_log"] if at.is_ours or at.is_program else []
-    if at.has_block:
-        fixes.append("show_settings")
-    return Notice(name, f"warning {status.fault}", "warning", problem, tuple(fixes))
+    log: tuple[Fix, ...] = ("show_log",) if at.is_ours or at.is_program else ()
+    settings: tuple[Fix, ...] = ("show_settings",) if at.has_block else ()
+    return Notice(name, f"warning {status.fault}", "warning", problem, log + settings)
 
 
 def _ended(status: NodeStatus, at: Circumstances) -> Notice | None:
@@ -159,9 +154,8 @@ def _ended(status: NodeStatus, at: Circumstances) -> Notice | None:
     if status.fault.code == PROCESS_RESTARTS:
         title = tr("“{name}” ended unexpectedly and is started again", name=name)
         steps = (tr("Wait a moment: it comes back by itself."), tr("Look into its log."))
-        return Notice(
-            name, "restarting", "warning", Problem(title, described, steps), ("show_log",)
-        )
+        problem = Problem(title, described, steps)
+        return Notice(name, "restarting", "warning", problem, ("show_log",))
     if status.fault.code != PROCESS_ENDED:
         return None  # its own last words; what became of its process follows at once
     if not at.was_ready:
@@ -192,10 +186,7 @@ def _how_it_ended(status: NodeStatus) -> Text:
 
 def started_again(name: str, problem: Problem) -> Notice:
     """What stands there for a while when a node is well again: it was too quick to be read."""
-    titles = {
-        PROGRAM: tr("The program has begun again"),
-        MASTER: tr("The network is open again"),
-    }
+    titles = {PROGRAM: tr("The program has begun again"), MASTER: tr("The network is open again")}
     title = titles.get(name) or tr("“{name}” was started again", name=name)
     again = Problem(title, problem.sentence)
     return Notice(name, "started again", "info", again, ("show_log",), passes=True)
@@ -227,10 +218,8 @@ def _stopped(status: NodeStatus, at: Circumstances) -> Notice | None:
 
 def could_not_start(name: str, problem: Problem, at: Circumstances) -> Notice:
     """What to tell when a node that a person started did not come up."""
-    fixes: list[Fix] = ["start", "show_log"]
-    if at.has_block:
-        fixes.insert(0, "show_settings")
-    return Notice(name, "could not start", "error", problem, tuple(fixes))
+    settings: tuple[Fix, ...] = ("show_settings",) if at.has_block else ()
+    return Notice(name, "could not start", "error", problem, (*settings, "start", "show_log"))
 
 
 # Does what the buttons of the messages about nodes say.
@@ -256,45 +245,34 @@ class NodeFixes:
 
     def answer(self, fix: Fix, name: str) -> Answer:
         """The button of a fix."""
-        words: Mapping[Fix, str] = {
-            "start": tr("Start it again"),
-            "restart": tr("Restart it"),
-            "show_log": tr("Show its log"),
-            "show_settings": tr("Show its settings"),
-            "use_virtual": tr("Use the robot on the screen"),
-            "test_connection": tr("Find it and test the connection"),
-            "change_address": tr("Change the address"),
-            "run": tr("Run again"),
-            "stop": tr("Stop"),
+        runner = self._host.services.runner
+        buttons: Mapping[Fix, tuple[str, Callable[[], object]]] = {
+            "start": (tr("Start it again"), lambda: self.start(name)),
+            "restart": (tr("Restart it"), lambda: runner.restart_node(name)),
+            "show_log": (tr("Show its log"), lambda: self._open_log(name)),
+            "show_settings": (tr("Show its settings"), lambda: self._show_settings(name)),
+            "use_virtual": (tr("Use the robot on the screen"), lambda: self._use_virtual(name)),
+            "test_connection": (
+                tr("Find it and test the connection"),
+                lambda: self._host.ask("connecting.open", name),
+            ),
+            "change_address": (tr("Change the address"), lambda: self._change_address(name)),
+            "run": (tr("Run again"), runner.run),
+            "stop": (tr("Stop"), lambda: self._host.services.running.stop()),
         }
-        look = "primary" if fix in ("start", "restart", "use_virtual", "run") else "quiet"
-        return Answer(words[fix], lambda: self.do(fix, name), look)  # type: ignore[arg-type]
+        words, do = buttons[fix]
+        is_first = fix in ("start", "restart", "use_virtual", "run")
+        return Answer(words, do, "primary" if is_first else "quiet")
 
-    def do(self, fix: Fix, name: str) -> None:
-        """Do what a fix says."""
-        match fix:
-            case "start":
-                self.start(name)
-            case "restart":
-                self._host.services.runner.restart_node(name)
-            case "show_log":
-                self._open_log(name)
-            case "show_settings":
-                self._host.workbench.show_block(self.block_of(name))
-            case "use_virtual":
-                self._use_virtual(name)
-            case "test_connection":
-                self._host.ask("connecting.open", name)
-            case "change_address":
-                # Show the robot's block with its address open to be written
-                block, workbench = self._robot_block(name), self._host.workbench
-                if block:
-                    workbench.show_block(block)
-                    workbench.canvas.fields.open(block, "address")
-            case "run":
-                self._host.services.runner.run()
-            case "stop":
-                self._host.services.running.stop()
+    def _show_settings(self, name: str) -> None:
+        self._host.workbench.show_block(self.block_of(name))
+
+    def _change_address(self, name: str) -> None:
+        """Show the robot's block with its address open to be written."""
+        block, workbench = self._robot_block(name), self._host.workbench
+        if block:
+            workbench.show_block(block)
+            workbench.canvas.fields.open(block, "address")
 
     def start(self, name: str) -> None:
         """Start a node as it is wanted now; or the network, when its master is gone."""

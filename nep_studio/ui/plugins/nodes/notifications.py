@@ -134,8 +134,7 @@ class NodeNotifier(QObject):
         told = self._told.get(notice.node)
         if told is not None and told[0] == notice.key:
             return
-        if told is not None:
-            self._take_back(notice.node)
+        self._take_back(notice.node)
         problem = notice.problem
         answers = tuple(self.fixes.answer(fix, notice.node) for fix in notice.fixes)
         message = Message(

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Sequence
-from pathlib import Path
+from itertools import pairwise
 from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QMetaObject, QObject, QSize, Qt, QTimer, Signal
@@ -12,13 +12,10 @@ from PySide6.QtGui import QHideEvent, QResizeEvent, QShowEvent
 from PySide6.QtWidgets import (
     QFrame,
     QGridLayout,
-    QHBoxLayout,
-    QLabel,
     QPushButton,
     QScrollArea,
     QSplitter,
     QStackedWidget,
-    QVBoxLayout,
     QWidget,
 )
 
@@ -26,6 +23,8 @@ from nep_studio.run.plan import PlannedNode
 from nep_studio.ui.labels import follow_words, labelled
 from nep_studio.ui.network_feed import NetworkFeed
 from nep_studio.ui.theme.look import Look
+from nep_studio.ui.widgets.forms import hint
+from nep_studio.ui.widgets.layouts import InLines, in_column, in_row
 
 from .card import LINES_WIDE, Entry, NodeCard, entries_of
 from .log_view import LogView
@@ -40,8 +39,8 @@ if TYPE_CHECKING:
 class CardGrid(QScrollArea):
     """Scrolls down, never sideways."""
 
-    def __init__(self, parent: QWidget | None = None) -> None:
-        super().__init__(parent)
+    def __init__(self) -> None:
+        super().__init__()
         self.cards: list[NodeCard] = []
         self._columns = 0
         self.setWidgetResizable(True)
@@ -81,12 +80,10 @@ class CardGrid(QScrollArea):
         for column in range(self._columns):
             self._grid.setColumnStretch(column, 0)
         self._columns = columns
-        before: QWidget | None = None
         for place, card in enumerate(self.cards):
             self._grid.addWidget(card, place // columns, place % columns)
-            if before is not None:
-                QWidget.setTabOrder(before, card)
-            before = card
+        for before, card in pairwise(self.cards):
+            QWidget.setTabOrder(before, card)
         for column in range(columns):
             self._grid.setColumnStretch(column, 1)
         for row in range(self._grid.rowCount()):
@@ -97,22 +94,21 @@ class CardGrid(QScrollArea):
 FIGURES_S = 1.0
 
 
-class NodesPanel(QWidget):
+class NodesPanel(InLines):
     """Shows the nodes of a runner while it is visible; its buttons ask for what they say.
 
-    ``start_asked``, ``stop_asked`` and ``restart_asked`` give a name; ``page_asked`` asks for the
-    page on which nodes are added.
+    ``start_asked``, ``stop_asked`` and ``restart_asked`` give a name.
     """
 
     start_asked = Signal(str)
     stop_asked = Signal(str)
     restart_asked = Signal(str)
-    page_asked = Signal()
 
-    def __init__(
-        self, runner: Runner, feed: NetworkFeed, look: Look, parent: QWidget | None = None
-    ) -> None:
-        super().__init__(parent)
+    usual_lines = (40, 11)
+    """Room for a row of cards and a log."""
+
+    def __init__(self, runner: Runner, feed: NetworkFeed, look: Look) -> None:
+        super().__init__()
         self._runner, self._feed, self._look = runner, feed, look
         self._planned: list[PlannedNode] = []
         self._figures_s = 0.0
@@ -127,30 +123,19 @@ class NodesPanel(QWidget):
         self.views = QStackedWidget()
         self.views.addWidget(self.empty)
         self.views.addWidget(self.grid)
-        split = self.split = QSplitter(Qt.Orientation.Horizontal)
-        split.addWidget(self.views)
-        split.addWidget(self.log)
-        split.setChildrenCollapsible(False)
-        box = QVBoxLayout(self)
-        box.setContentsMargins(0, 0, 0, 0)
-        box.addWidget(split)
+        self.split = QSplitter(Qt.Orientation.Horizontal, childrenCollapsible=False)
+        self.split.addWidget(self.views)
+        self.split.addWidget(self.log)
+        in_column(self.split, of=self, margins=0)
         self._connect()
         follow_words(self, self.refresh)
 
     def _connect(self) -> None:
-        runner = self._runner
-        self._news = (
-            runner.nodes_changed,
-            runner.state_changed,
-            runner.connected,
-            runner.disconnected,
-        )
         self._heard: list[QMetaObject.Connection] = []
         """What of the news is listened to: nothing while the panel is hidden."""
         self._feed.changed.connect(self._on_seen)
         self._look.theme_changed.connect(self._on_theme_changed)
         self.log.closed.connect(self._on_log_closed)
-        self.empty.page_button.clicked.connect(self.page_asked)
 
     @property
     def cards(self) -> list[NodeCard]:
@@ -160,10 +145,6 @@ class NodesPanel(QWidget):
     def card(self, name: str) -> NodeCard | None:
         """The card of a node."""
         return next((card for card in self.cards if card.entry.name == name), None)
-
-    def set_folder(self, folder: Path) -> None:
-        """Save logs there at first."""
-        self.log.folder = folder
 
     def open_log(self, name: str) -> None:
         """Show what a node writes."""
@@ -198,17 +179,14 @@ class NodesPanel(QWidget):
             card.show_entry(entry)
         self.views.setCurrentWidget(self.grid if entries else self.empty)
 
-    def sizeHint(self) -> QSize:
-        """Room for a row of cards and a log."""
-        line = self.fontMetrics().height()
-        return QSize(line * 40, line * 11)
-
     def showEvent(self, event: QShowEvent) -> None:
         """Look at the nodes."""
         super().showEvent(event)
         self._feed.watch(self)
         if not self._heard:
-            self._heard = [news.connect(self._on_nodes_changed) for news in self._news]
+            runner = self._runner
+            news = runner.nodes_changed, runner.state_changed, runner.connected, runner.disconnected
+            self._heard = [signal.connect(self._on_nodes_changed) for signal in news]
         self.refresh_plan()
 
     def hideEvent(self, event: QHideEvent) -> None:
@@ -259,21 +237,10 @@ class _Empty(QWidget):
 
     def __init__(self) -> None:
         super().__init__()
-        words = labelled(
-            QLabel(),
-            text="Here you see the nodes of your project: what they do, how they are, "
-            "and what they write. Most come by themselves from your rules and robots.",
+        words = hint(
+            "Here you see the nodes of your project: what they do, how they are, "
+            "and what they write. Most come by themselves from your rules and robots."
         )
-        words.setWordWrap(True)
         words.setAlignment(Qt.AlignmentFlag.AlignCenter)
-        words.setProperty("role", "hint")
         self.page_button = labelled(QPushButton(), text="Go to the Robots page")
-        row = QHBoxLayout()
-        row.addStretch(1)
-        row.addWidget(self.page_button)
-        row.addStretch(1)
-        box = QVBoxLayout(self)
-        box.addStretch(1)
-        box.addWidget(words)
-        box.addLayout(row)
-        box.addStretch(1)
+        in_column(1, words, in_row(1, self.page_button, 1), 1, of=self)

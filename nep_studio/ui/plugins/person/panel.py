@@ -14,7 +14,6 @@ from PySide6.QtWidgets import (
     QLineEdit,
     QPushButton,
     QScrollArea,
-    QVBoxLayout,
     QWidget,
 )
 
@@ -31,10 +30,10 @@ from nep_studio.ui.messages import announce
 from nep_studio.ui.running.runner import Heard, Tap
 from nep_studio.ui.theme.icons import icon
 from nep_studio.ui.theme.look import Look
-from nep_studio.ui.widgets.layouts import Columns, FlowLayout, in_column, in_row
+from nep_studio.ui.widgets.layouts import Columns, in_column, in_row
 from nep_studio.ui.words import language_code, tr
 
-from .person_box import OccurrenceButton, PersonBox, Section, WordsButton
+from .person_box import Buttons, OccurrenceButton, PersonBox, Section, WordsButton
 from .senses import BodyBox, GestureBox, SensorBox, ThingsBox, TouchBox
 from .stimuli import KINDS, Stimuli, Visitors, words_of
 
@@ -61,8 +60,7 @@ class WaitingBoard(QWidget):
         self._tells_of_nothing = tells_of_nothing
         self._shown: tuple[str, list[Occurrence]] | None = None
         self.buttons: list[OccurrenceButton] = []
-        self._rows = QWidget()
-        self._flow = FlowLayout(self._rows, self.fontMetrics().height() // 3)
+        self._rows = Buttons()
         self.words = QLabel(wordWrap=True)
         self.words.setProperty("role", "hint")
         in_column(self._rows, self.words, of=self, margins=0)
@@ -71,7 +69,11 @@ class WaitingBoard(QWidget):
         """Show these; ``here`` are the visitors that are there now, with their names."""
         if (shown := (language_code(), occurrences)) != self._shown:
             self._shown = shown
-            self._make_buttons([one for one in occurrences if one.kind != "idle"])
+            old, do = self.buttons, (self._look, self._begin, self._end)
+            done = [one for one in occurrences if one.kind != "idle"]
+            self.buttons = [OccurrenceButton(one, *do) for one in done]
+            self._rows.replace(old, self.buttons)
+            self._rows.setVisible(bool(self.buttons))
             idle = [words_of(one) for one in occurrences if one.kind == "idle"]
             if self._tells_of_nothing and not occurrences:
                 idle = [tr("This program waits for nothing.")]
@@ -80,20 +82,6 @@ class WaitingBoard(QWidget):
         for button in self.buttons:
             if button.isCheckable():
                 button.setChecked(_is_here(button.occurrence, here))
-
-    def _make_buttons(self, occurrences: list[Occurrence]) -> None:
-        for button in self.buttons:
-            button.let_go()
-            self._flow.removeWidget(button)
-            button.hide()
-            button.deleteLater()
-        self.buttons = [
-            OccurrenceButton(one, self._look, self._begin, self._end) for one in occurrences
-        ]
-        for button in self.buttons:
-            self._flow.addWidget(button)
-            button.show()  # now: Qt would show it later, and not make room for it then
-        self._rows.setVisible(bool(self.buttons))
 
 
 def _is_here(occurrence: Occurrence, here: dict[str, str]) -> bool:
@@ -123,8 +111,9 @@ class HumanPanel(QScrollArea):
 
     def _make(self) -> None:
         self.robot = QComboBox()
-        self.state, self.run_button = QLabel(), labelled(QPushButton(), text="Run")
-        self.told = QLabel()
+        self.state = QLabel(wordWrap=True, textFormat=Qt.TextFormat.PlainText)
+        self.told = QLabel(wordWrap=True, textFormat=Qt.TextFormat.PlainText)
+        self.run_button = labelled(QPushButton(), text="Run")
         self.words, self.say_button = QLineEdit(), labelled(QPushButton(), text="Say")
         self.reset_button = WordsButton("Everything as at the start", self._look, "rotate-ccw")
         look, stimuli = self._look, self.stimuli
@@ -164,23 +153,15 @@ class HumanPanel(QScrollArea):
         labelled(self.robot, name="Which robot notices it")
         self.robot.setMinimumContentsLength(8)
         self.run_button.setProperty("kind", "run")
-        for label in (self.state, self.told):
-            label.setWordWrap(True)
-            label.setTextFormat(Qt.TextFormat.PlainText)
         self.told.setProperty("role", "hint")
         self.told.hide()
         top = in_row((self.state, 1), self.run_button)
         self._which = QWidget()
         in_row(labelled(QLabel(), text="Before"), (self.robot, 1), of=self._which, margins=0)
         inner, line = QWidget(self.viewport()), self.fontMetrics().height()
-        box = QVBoxLayout(inner)
-        box.setContentsMargins(line // 2, line // 2, line // 2, line // 2)
-        box.addLayout(top)
-        box.addWidget(self.told)
-        box.addWidget(self._which)
-        box.addWidget(Columns(self.sections, inner))
-        box.addWidget(self.reset_button, 0, Qt.AlignmentFlag.AlignLeading)
-        box.addStretch(1)
+        reset = self.reset_button, 0, Qt.AlignmentFlag.AlignLeading
+        parts = top, self.told, self._which, Columns(self.sections, inner), reset, 1
+        in_column(*parts, of=inner, margins=line // 2)
         self.setWidget(inner)
 
     def _connect(self) -> None:
@@ -231,7 +212,8 @@ class HumanPanel(QScrollArea):
 
     def reset(self) -> None:
         """Let all visitors go, and all sensors measure what they usually do."""
-        self.visitors.go_all()
+        for what in KINDS:
+            self.visitors.go(what)
         self.sensors.rest()
 
     def _show_waiting(self) -> None:
@@ -278,9 +260,7 @@ class HumanPanel(QScrollArea):
         announce(self, words)
 
     def _on_refused(self, reason: str) -> None:
-        self.told.setText(reason)
-        self.told.show()
-        announce(self, reason)
+        self._on_told(reason)
         if self.run_button.isVisible():
             self.run_button.setFocus()
 

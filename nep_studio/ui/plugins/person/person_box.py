@@ -19,7 +19,6 @@ from PySide6.QtWidgets import (
     QStyleOptionButton,
     QStylePainter,
     QToolButton,
-    QVBoxLayout,
     QWidget,
 )
 
@@ -74,23 +73,13 @@ class PersonBox(QWidget):
         follow_words(self, self._say)
 
     def _lay_out(self) -> None:
-        line = self.fontMetrics().height()
         named = in_row(labelled(QLabel(), text="Face of"), (self.name, 1))
         far = in_row((self.way, 1), self.way_words)
-        looks = QWidget()
-        flow = FlowLayout(looks, line // 3)
-        for button in self.looks:
-            flow.addWidget(button)
-        box = QVBoxLayout(self)
-        box.setContentsMargins(0, 0, 0, 0)
-        box.addWidget(self.is_there)
-        box.addLayout(named)
-        box.addLayout(far)
-        box.addWidget(self.before, 0, Qt.AlignmentFlag.AlignLeading)
+        before = self.before, 0, Qt.AlignmentFlag.AlignLeading
         label = labelled(QLabel(), text="The person looks")
         label.setProperty("role", "hint")
-        box.addWidget(label)
-        box.addWidget(looks)
+        looks = Buttons(self.looks)
+        in_column(self.is_there, named, far, before, label, looks, of=self, margins=0)
 
     def set_names(self, names: list[str]) -> None:
         """Offer these names first: those that the program knows."""
@@ -147,14 +136,13 @@ class PersonBox(QWidget):
 LASTS_MS = 500
 """A touch lasts at least so long, however short the click is."""
 FEWEST_LETTERS = 6
-HELD = ("touch",)
 KEPT = ("face", "ball", "mark")
 
 
 class WordsButton(QPushButton):
     """A button whose words end in … where there is no room for all of them."""
 
-    def __init__(self, words: Words, look: Look, icon_name: str = "") -> None:
+    def __init__(self, words: Words, look: Look, icon_name: str) -> None:
         super().__init__()
         self._look, self._icon_name = look, icon_name
         self._said, self.words = words, ""
@@ -186,16 +174,13 @@ class WordsButton(QPushButton):
         self.initStyleOption(option)
         lacking = max(self.sizeHint().width() - self.width(), 0)
         room = self.fontMetrics().horizontalAdvance(self.words) + 1 - lacking
-        mode = Qt.TextElideMode.ElideRight
-        shown = self.fontMetrics().elidedText(self.words, mode, room)
+        shown = self.fontMetrics().elidedText(self.words, Qt.TextElideMode.ElideRight, room)
         option.text = shown.replace("&", "&&")
         QStylePainter(self).drawControl(QStyle.ControlElement.CE_PushButton, option)
 
     def _dress(self) -> None:
-        line = self.fontMetrics().height()
-        if self._icon_name:
-            self.setIcon(icon(self._icon_name, self._look.theme))
-            self.setIconSize(icon_room(line))
+        self.setIcon(icon(self._icon_name, self._look.theme))
+        self.setIconSize(icon_room(self.fontMetrics().height()))
 
 
 class OccurrenceButton(WordsButton):
@@ -214,7 +199,7 @@ class OccurrenceButton(WordsButton):
         self._letting_go.timeout.connect(self.let_go)
         self.is_held = False
         self._since = QElapsedTimer()
-        if occurrence.kind in HELD:
+        if occurrence.kind == "touch":
             self.pressed.connect(self._on_pressed)
             self.released.connect(self._on_released)
         elif occurrence.kind in KEPT:
@@ -257,6 +242,27 @@ def call(buttons: Iterable[OccurrenceButton], names: Mapping[str, str]) -> None:
         button.call(names.get(button.occurrence.value, button.occurrence.value))
 
 
+class Buttons(QWidget):
+    """Buttons, and fields, in as many rows as they need; others may take their place."""
+
+    def __init__(self, widgets: Iterable[QWidget] = ()) -> None:
+        super().__init__()
+        self._flow = FlowLayout(self, self.fontMetrics().height() // 3)
+        for widget in widgets:
+            self._flow.addWidget(widget)
+
+    def replace(self, old: Iterable[OccurrenceButton], new: Iterable[OccurrenceButton]) -> None:
+        """Throw buttons away, which are let go, and show others."""
+        for button in old:
+            button.let_go()
+            self._flow.removeWidget(button)
+            button.hide()
+            button.deleteLater()
+        for button in new:
+            self._flow.addWidget(button)
+            button.show()  # now: Qt would show it later, and not make room for it then
+
+
 # A part of a panel with a heading, which can be folded away.
 
 
@@ -271,9 +277,7 @@ class Section(QWidget):
         self.heading.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Fixed)
         self.body = QWidget()
         line = self.fontMetrics().height()
-        self.box = in_column(
-            held, of=self.body, margins=(line // 2, 0, 0, line // 2), spacing=line // 3
-        )
+        in_column(held, of=self.body, margins=(line // 2, 0, 0, line // 2), spacing=line // 3)
         in_column(self.heading, self.body, of=self, margins=0, spacing=line // 6)
         self.heading.clicked.connect(lambda: self.open(not self.is_open))
         look.theme_changed.connect(self._dress)

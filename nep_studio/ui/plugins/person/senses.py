@@ -14,7 +14,6 @@ from PySide6.QtWidgets import (
     QLabel,
     QSlider,
     QSpinBox,
-    QVBoxLayout,
     QWidget,
 )
 
@@ -25,11 +24,12 @@ from nep_studio.project.triggers import Occurrence
 from nep_studio.ui.labels import follow_words, labelled
 from nep_studio.ui.theme.look import Look
 from nep_studio.ui.widgets.choices import Choices
-from nep_studio.ui.widgets.layouts import FlowLayout, in_column, in_row
+from nep_studio.ui.widgets.forms import hint
+from nep_studio.ui.widgets.layouts import in_column, in_row
 from nep_studio.ui.words import tr
 from robots.body.limbs import TOUCH_SENSORS
 
-from .person_box import OccurrenceButton, WordsButton, call
+from .person_box import Buttons, OccurrenceButton, WordsButton, call
 from .stimuli import Stimuli
 
 SLIDERS = {"sonar_left": (5, 255, 255), "sonar_right": (5, 255, 255), "battery": (1, 100, 100)}
@@ -52,20 +52,12 @@ class SensorBox(QWidget):
         self.other = Choices(
             lambda: {key: name for key, name in self._names().items() if key not in SLIDERS}
         )
-        self.other.setSizeAdjustPolicy(
-            QComboBox.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon
-        )
-        self.other.setMinimumContentsLength(8)
-        labelled(self.other, name="Another sensor")
-        self.value = QDoubleSpinBox()
+        _may_be_narrow(labelled(self.other, name="Another sensor"), 8)
+        self.value = labelled(QDoubleSpinBox(), name="What it measures")
         self.value.setRange(-1000.0, 1000.0)
-        labelled(self.value, name="What it measures")
         self.measure = WordsButton("Measure this", look, "gauge")
         self.measure.clicked.connect(self._on_measured)
-        others = QWidget()
-        flow = FlowLayout(others, self.fontMetrics().height() // 3)
-        for widget in (self.other, self.value, self.measure):
-            flow.addWidget(widget)
+        others = Buttons((self.other, self.value, self.measure))
         in_column(self._grid, others, of=self, margins=0)
         follow_words(self, self._say)
 
@@ -92,10 +84,9 @@ class SensorBox(QWidget):
         slider.setRange(low, high)
         slider.setValue(usual)
         slider.setPageStep(25)
-        title, value = QLabel(wordWrap=True), QLabel(str(usual))
-        self._titles[sensor] = title
+        title = self._titles[sensor] = QLabel(wordWrap=True)
+        value = self._values[sensor] = QLabel(str(usual))
         value.setMinimumWidth(self.fontMetrics().horizontalAdvance("000"))
-        self._values[sensor] = value
         self._grid.addWidget(title, row, 0, 1, 2)
         self._grid.addWidget(slider, row + 1, 0)
         self._grid.addWidget(value, row + 1, 1)
@@ -128,44 +119,30 @@ class BodyBox(QWidget):
         self.posture = Choices(lambda: _postures(language()))
         self.take = WordsButton("Let it take this posture", look, "person-standing")
         self.joint = Choices(lambda: _joints(language()))
-        for box in (labelled(self.posture, name="Posture"), self.joint):
-            # Let a list of long words be as narrow as there is room
-            box.setSizeAdjustPolicy(
-                QComboBox.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon
-            )
-            box.setMinimumContentsLength(10)
-        labelled(self.joint, name="Joint")
-        self.angle = QDoubleSpinBox(decimals=0)
+        _may_be_narrow(labelled(self.posture, name="Posture"), 10)
+        _may_be_narrow(labelled(self.joint, name="Joint"), 10)
+        self.angle = labelled(QDoubleSpinBox(decimals=0, suffix="°"), name="Angle")
         self.angle.setRange(-180.0, 180.0)
-        self.angle.setSuffix("°")
-        labelled(self.angle, name="Angle")
         self.turn = WordsButton("Turn it", look, "rotate-ccw")
-        self._lay_out()
+        pushes, posture = Buttons(self.pushes.values()), Buttons((self.posture, self.take))
+        joint = Buttons((self.joint, self.angle, self.turn))
+        in_column(pushes, posture, joint, of=self, margins=0)
         for degrees, button in self.pushes.items():
             button.clicked.connect(partial(self._on_pushed, degrees))
         self.take.clicked.connect(lambda: stimuli.take_posture(str(self.posture.currentData())))
         self.turn.clicked.connect(self._on_turned)
-
-    def _lay_out(self) -> None:
-        box = QVBoxLayout(self)
-        box.setContentsMargins(0, 0, 0, 0)
-        rows: tuple[tuple[QWidget, ...], ...] = (
-            tuple(self.pushes.values()),
-            (self.posture, self.take),
-            (self.joint, self.angle, self.turn),
-        )
-        for widgets in rows:
-            row = QWidget()
-            flow = FlowLayout(row, self.fontMetrics().height() // 3)
-            for widget in widgets:
-                flow.addWidget(widget)
-            box.addWidget(row)
 
     def _on_pushed(self, degrees: int) -> None:
         self._stimuli.push(float(degrees))
 
     def _on_turned(self) -> None:
         self._stimuli.turn_joint(str(self.joint.currentData()), self.angle.value())
+
+
+def _may_be_narrow(box: QComboBox, letters: int) -> None:
+    """Let a list of long words be as narrow as there is room."""
+    box.setSizeAdjustPolicy(QComboBox.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon)
+    box.setMinimumContentsLength(letters)
 
 
 def _postures(language: Language) -> dict[object, str]:
@@ -192,9 +169,7 @@ class ThingsBox(QWidget):
         self._stimuli = stimuli
         self.ball = labelled(QCheckBox(), text="The red ball")
         self.mark = labelled(QCheckBox(), text="The mark")
-        self.number = QSpinBox()
-        self.number.setRange(0, 999)
-        self.number.setValue(FIRST_MARK)
+        self.number = QSpinBox(minimum=0, maximum=999, value=FIRST_MARK)
         labelled(self.number, name="The number of the mark")
         self.sounds = {
             degrees: WordsButton(text_of("Sound from {side}", side=Text(side)), look, "volume-2")
@@ -210,14 +185,9 @@ class ThingsBox(QWidget):
         self.refresh()
 
     def _lay_out(self) -> None:
-        sounds = QWidget()
-        flow = FlowLayout(sounds, self.fontMetrics().height() // 3)
-        for button in self.sounds.values():
-            flow.addWidget(button)
-        hint = labelled(QLabel(), text="Other things are placed in the scene of the robots.")
-        hint.setWordWrap(True)
-        hint.setProperty("role", "hint")
-        in_column(self.ball, in_row(self.mark, self.number, 1), sounds, hint, of=self, margins=0)
+        marked, sounds = in_row(self.mark, self.number, 1), Buttons(self.sounds.values())
+        more = hint("Other things are placed in the scene of the robots.")
+        in_column(self.ball, marked, sounds, more, of=self, margins=0)
 
     def refresh(self) -> None:
         """Show what is there."""
@@ -246,19 +216,16 @@ class ThingsBox(QWidget):
 # Touching a robot, and making gestures before it.
 
 
-class TouchBox(QWidget):
+class TouchBox(Buttons):
     """A button for each place that feels; it is touched as long as the button is held."""
 
     def __init__(self, stimuli: Stimuli, language: Callable[[], Language], look: Look) -> None:
-        super().__init__()
-        self._language = language
-        self.buttons = [
+        buttons = [
             OccurrenceButton(Occurrence("touch", part), look, stimuli.begin, stimuli.end)
             for part in TOUCH_SENSORS
         ]
-        flow = FlowLayout(self, self.fontMetrics().height() // 3)
-        for button in self.buttons:
-            flow.addWidget(button)
+        super().__init__(buttons)
+        self.buttons, self._language = buttons, language
         follow_words(self, self._say)
 
     def _say(self) -> None:
@@ -273,13 +240,10 @@ class GestureBox(QWidget):
         self._stimuli, self._look = stimuli, look
         self.buttons: list[OccurrenceButton] = []
         self._shown: dict[str, str] | None = None
-        self._rows = QWidget()
-        self._flow = FlowLayout(self._rows, self.fontMetrics().height() // 3)
+        self._rows = Buttons()
         self.how = QLabel(wordWrap=True)
         self.how.setProperty("role", "hint")
-        self.certainty = QSpinBox()
-        self.certainty.setRange(1, 100)
-        self.certainty.setValue(100)
+        self.certainty = QSpinBox(minimum=1, maximum=100, value=100)
         labelled(self.certainty, name="How certain the gesture is")
         self.certainty.valueChanged.connect(self._on_certainty_changed)
         self._certain = QWidget()
@@ -297,20 +261,10 @@ class GestureBox(QWidget):
         offered = {**wanted, **known}
         if offered != self._shown:
             self._shown = offered
-            for button in self.buttons:
-                self._flow.removeWidget(button)
-                button.hide()
-                button.deleteLater()
-            self.buttons = [
-                OccurrenceButton(
-                    Occurrence("gesture", name), self._look, self._stimuli.begin, self._stimuli.end
-                )
-                for name in offered
-            ]
+            old, do = self.buttons, (self._look, self._stimuli.begin, self._stimuli.end)
+            self.buttons = [OccurrenceButton(Occurrence("gesture", one), *do) for one in offered]
             call(self.buttons, offered)
-            for button in self.buttons:
-                self._flow.addWidget(button)
-                button.show()
+            self._rows.replace(old, self.buttons)
         self.refresh()
 
     def refresh(self) -> None:

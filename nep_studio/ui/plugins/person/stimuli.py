@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 import uuid
 from collections.abc import Callable, Collection, Mapping
-from typing import Literal
 
 import msgspec
 from PySide6.QtCore import QObject, QTimer, Signal
@@ -92,7 +91,6 @@ def _measured_words(occurrence: Occurrence, about: str) -> str:
 
 # Lets a person, a ball or a mark come before a robot, nearer or farther, and go again.
 
-What = Literal["face", "ball", "mark"]
 KINDS: dict[str, ThingKind] = {"face": "person", "ball": "ball", "mark": "mark"}
 BESIDE_RAD = {"face": 0.0, "ball": -0.38, "mark": 0.38}
 """A ball and a mark come beside where a robot looks, so that a person does not hide them."""
@@ -139,11 +137,6 @@ class Visitors(QObject):
         """Let it go."""
         self._floor.hide(_id(what))
 
-    def go_all(self) -> None:
-        """Let all go."""
-        for what in KINDS:
-            self.go(what)
-
     def way_m(self, what: str, robot: str) -> float:
         """How far it is from a robot."""
         thing = self.find(what)
@@ -169,9 +162,7 @@ class Visitors(QObject):
         """The place that a robot looks at, so far away, and in which direction that is."""
         x, y, theta = self._base(robot)
         state = self.states.get(robot)
-        angle = (
-            theta + beside_rad + (state.joints.get("HeadYaw", 0.0) if state is not None else 0.0)
-        )
+        angle = theta + beside_rad + (state.joints.get("HeadYaw", 0.0) if state else 0.0)
         return round(x + way_m * math.cos(angle), 3), round(y + way_m * math.sin(angle), 3), angle
 
     def _base(self, robot: str) -> tuple[float, float, float]:
@@ -263,8 +254,7 @@ class Stimuli(QObject):
 
     def begin(self, occurrence: Occurrence) -> bool:
         """Let something happen; what lasts goes on until ``end``."""
-        reason = self.why_not
-        if reason:
+        if reason := self.why_not:
             self.refused.emit(reason)
             return False
         robot = self.noticing(occurrence)
@@ -360,9 +350,8 @@ class Stimuli(QObject):
 
     def _gesture(self, occurrence: Occurrence) -> bool:
         if self.has_watch and occurrence.value in self._watch_gestures():
-            is_sent = self._runner.send(
-                m.GESTURE_REQUEST, m.GestureRequest(gesture=occurrence.value)
-            )
+            request = m.GestureRequest(gesture=occurrence.value)
+            is_sent = self._runner.send(m.GESTURE_REQUEST, request)
             self.told.emit(tr("The watch moves: {gesture}", gesture=occurrence.words))
             return is_sent
         return self._tell(state_of(occurrence), SOURCE, occurrence)
@@ -388,10 +377,8 @@ class Stimuli(QObject):
         return self._runner.send(m.SENSE_REQUEST, request)
 
     def _ask(self, robot: str, action: str, args: Mapping[str, object]) -> bool:
-        robots = [robot or self.robot]
-        request = m.ActionRequest(
-            id=uuid.uuid4().hex, robots=robots, action=action, args=dict(args)
-        )
+        robots, new_id = [robot or self.robot], uuid.uuid4().hex
+        request = m.ActionRequest(id=new_id, robots=robots, action=action, args=dict(args))
         return self._runner.send(m.ACTION_REQUEST, request)
 
     def _is_there(self, robot: str = "") -> bool:

@@ -22,7 +22,7 @@ def make(host: Host) -> Parts:
         Starts(runner, runner),
     )
     services.running.plan_changed.connect(panel.refresh)
-    panel.stage.tools.connecting_asked.connect(lambda: host.ask("connecting.open"))
+    panel.stage.tools.real.triggered.connect(lambda: host.ask("connecting.open"))
     return Parts(NewPanel(panel, "Robots", "bot", "right"))
 
 

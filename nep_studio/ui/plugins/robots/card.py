@@ -10,13 +10,11 @@ from functools import partial
 from PySide6.QtCore import Qt, QTimer, Signal
 from PySide6.QtWidgets import (
     QFrame,
-    QHBoxLayout,
     QLabel,
     QMenu,
     QPushButton,
     QSizePolicy,
     QToolButton,
-    QVBoxLayout,
     QWidget,
 )
 
@@ -29,7 +27,7 @@ from nep_studio.ui.running.runner import Runner
 from nep_studio.ui.theme.icons import icon, icon_pixmap, icon_room
 from nep_studio.ui.theme.look import Look
 from nep_studio.ui.widgets.forms import ElidedLabel
-from nep_studio.ui.widgets.layouts import FlowLayout
+from nep_studio.ui.widgets.layouts import FlowLayout, in_column, in_row
 from nep_studio.ui.words import tr
 from robots.body.limbs import TOUCH_SENSORS
 
@@ -58,10 +56,7 @@ class Facts(QWidget):
         line = self.fontMetrics().height()
         self._short = QWidget()
         self._flow = FlowLayout(self._short, line // 2)
-        self._box = QVBoxLayout(self)
-        self._box.setContentsMargins(0, 0, 0, 0)
-        self._box.setSpacing(line // 5)
-        self._box.addWidget(self._short)
+        self._box = in_column(self._short, of=self, margins=0, spacing=line // 5)
         look.theme_changed.connect(self._dress)
 
     def show_fact(self, name: str, icon_name: str, words: str, colour: str = "muted") -> None:
@@ -72,11 +67,8 @@ class Facts(QWidget):
         if name not in self._parts:
             part, sign, label = self._parts[name] = QWidget(), QLabel(), QLabel()
             label.setTextFormat(Qt.TextFormat.PlainText)
-            row = QHBoxLayout(part)
-            row.setContentsMargins(0, 0, 0, 0)
-            row.setSpacing(self.fontMetrics().height() // 4)
-            row.addWidget(sign, 0, Qt.AlignmentFlag.AlignTop)
-            row.addWidget(label, 1)
+            top, gap = Qt.AlignmentFlag.AlignTop, self.fontMetrics().height() // 4
+            in_row((sign, 0, top), (label, 1), of=part, margins=0, spacing=gap)
             if name in LONG:
                 label.setWordWrap(True)
                 label.setSizePolicy(WRAPPED)
@@ -125,16 +117,12 @@ class FallenBar(QFrame):
         self._look = look
         self.setProperty("kind", "warning")
         self.sign = QLabel()
-        self.words = labelled(QLabel(), text="It has fallen.")
-        self.words.setWordWrap(True)
+        self.words = labelled(QLabel(wordWrap=True), text="It has fallen.")
         self.words.setSizePolicy(WRAPPED)
         self.help_button = labelled(QPushButton(), text="Help it up", tip="Let it stand up again")
-        row = QHBoxLayout(self)
-        line = self.fontMetrics().height()
-        row.setContentsMargins(line // 3, line // 4, line // 3, line // 4)
-        row.addWidget(self.sign, 0, Qt.AlignmentFlag.AlignVCenter)
-        row.addWidget(self.words, 1)
-        row.addWidget(self.help_button)
+        sign, line = (self.sign, 0, Qt.AlignmentFlag.AlignVCenter), self.fontMetrics().height()
+        margins = line // 3, line // 4, line // 3, line // 4
+        in_row(sign, (self.words, 1), self.help_button, of=self, margins=margins)
         self.hide()
         look.theme_changed.connect(self._dress)
         self._dress()
@@ -202,26 +190,16 @@ class RobotCard(QFrame):
         self.name.setTextFormat(Qt.TextFormat.PlainText)
         self.kind.setTextFormat(Qt.TextFormat.PlainText)
         self.kind.setProperty("role", "hint")
-        head = QHBoxLayout()
-        head.addWidget(self.name, 1)
-        head.addWidget(self.sign)
-        head.addWidget(self.health)
-        kind = QHBoxLayout()
-        kind.addWidget(self.kind_sign)
-        kind.addWidget(self.kind, 1)
+        head = in_row((self.name, 1), self.sign, self.health)
+        kind = in_row(self.kind_sign, (self.kind, 1))
         self._buttons = QWidget()
         flow = FlowLayout(self._buttons, line // 4)
         for button in (self.touch, self.back):
             button.setToolButtonStyle(Qt.ToolButtonStyle.ToolButtonTextBesideIcon)
             flow.addWidget(button)
-        box = QVBoxLayout(self)
-        box.setSpacing(line // 5)
-        box.setContentsMargins(line // 2, line // 3, line // 2, line // 3)
-        box.addLayout(head)
-        box.addLayout(kind)
-        box.addWidget(self.fallen)
-        box.addWidget(self.facts)
-        box.addWidget(self._buttons)
+        parts = head, kind, self.fallen, self.facts, self._buttons
+        margins = line // 2, line // 3, line // 2, line // 3
+        in_column(*parts, of=self, margins=margins, spacing=line // 5)
 
     def show_plan(self, plan: RobotPlan) -> None:
         """Say which kind of robot it is."""
@@ -231,10 +209,8 @@ class RobotCard(QFrame):
 
     def _say(self) -> None:
         self.name.set_words(self.plan.name)
-        address = self.plan.address or "?"
-        is_real = self.plan.is_real
-        real = tr("A real NAO at {address}", address=address)
-        self.kind.set_words(real if is_real else tr("On this screen"))
+        real = tr("A real NAO at {address}", address=self.plan.address or "?")
+        self.kind.set_words(real if self.plan.is_real else tr("On this screen"))
         names, menu = touch_names(self._language()), self.touch.menu()
         for action in menu.actions() if menu is not None else ():
             action.setText(names.get(action.data(), action.data()))
@@ -267,11 +243,10 @@ class RobotCard(QFrame):
             facts.show_fact("posture", "person-standing", posture)
             moves = tr("Moves") if state.moving else tr("At rest")
             facts.show_fact("moving", "footprints" if state.moving else "pause", moves)
-            battery, colour = tr("Battery {percent}", percent=f"{state.battery:.0%}"), "muted"
-            if state.battery < LOW_BATTERY:
-                colour = "warning"
-                percent = f"{state.battery:.0%}"
-                battery = tr("Battery {percent}: charge it soon", percent=percent)
+            percent, is_low = f"{state.battery:.0%}", state.battery < LOW_BATTERY
+            soon = tr("Battery {percent}: charge it soon", percent=percent)
+            battery = soon if is_low else tr("Battery {percent}", percent=percent)
+            colour = "warning" if is_low else "muted"
             facts.show_fact("battery", "battery-medium", battery, colour)
             says = tr("Says “{text}”", text=state.saying) if state.saying else ""
             facts.show_fact("saying", "message-square", says)
@@ -314,20 +289,14 @@ def touch_names(language: Language) -> Mapping[str, str]:
 # What a person asks robots on the screen for by hand.
 
 
-class Asking:
-    """Touches robots, and helps them up."""
+def touch(runner: Runner, robot: str, sensor: str, is_pressed: bool) -> None:
+    """Touch a sensor of a robot, or let go of it."""
+    request = m.SenseRequest(robot=robot, sense=sensor, value=float(is_pressed))
+    runner.send(m.SENSE_REQUEST, request)
 
-    def __init__(self, runner: Runner) -> None:
-        self._runner = runner
 
-    def touch(self, robot: str, sensor: str, is_pressed: bool) -> None:
-        """Touch a sensor, or let go of it."""
-        request = m.SenseRequest(robot=robot, sense=sensor, value=float(is_pressed))
-        self._runner.send(m.SENSE_REQUEST, request)
-
-    def help_up(self, robot: str) -> None:
-        """Let a robot that lies there stand up."""
-        request = m.ActionRequest(
-            id=uuid.uuid4().hex, robots=[robot], action="do", args={"posture": "posture_stand"}
-        )
-        self._runner.send(m.ACTION_REQUEST, request)
+def help_up(runner: Runner, robot: str) -> None:
+    """Let a robot that lies there stand up."""
+    args = {"posture": "posture_stand"}
+    request = m.ActionRequest(id=uuid.uuid4().hex, robots=[robot], action="do", args=args)
+    runner.send(m.ACTION_REQUEST, request)

@@ -4,22 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from functools import partial
-from typing import TYPE_CHECKING
 
 import msgspec
 from PySide6.QtCore import QEvent, QObject, Qt, Signal
 from PySide6.QtGui import QCloseEvent, QHideEvent, QKeyEvent, QResizeEvent, QShowEvent
 from PySide6.QtWidgets import (
-    QFrame,
-    QLabel,
     QPushButton,
-    QScrollArea,
     QSplitter,
-    QVBoxLayout,
     QWidget,
 )
 
-from faults import Tr
 from nep_core.wire import messages as m
 from nep_studio.blocks.language import Language
 from nep_studio.run.timeline import action_words
@@ -29,17 +23,13 @@ from nep_studio.ui.node_style import state_look
 from nep_studio.ui.running.runner import Heard, Runner, Tap
 from nep_studio.ui.speech import Sound
 from nep_studio.ui.theme.look import Look
-from nep_studio.ui.widgets.forms import room_around
-from nep_studio.ui.widgets.layouts import InLines
+from nep_studio.ui.widgets.forms import hint, room_around
+from nep_studio.ui.widgets.layouts import InLines, in_column, scrolled
 from nep_studio.ui.words import tr
 
-from .card import Asking, RobotCard
+from .card import RobotCard, help_up, touch
 from .participants import ORIGIN, Base, RobotPlan, Starts, look_of, robots_of, start_places
 from .stage import RobotStage
-
-if TYPE_CHECKING:
-    pass
-
 
 # A window of its own for the scene of the robots, for a room full of people.
 
@@ -55,10 +45,7 @@ class LargeWindow(QWidget):
         super().__init__(parent, Qt.WindowType.Window)
         labelled(self, window_title="Robots")
         self.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
-        line = self.fontMetrics().height()
-        box = QVBoxLayout(self)
-        box.setContentsMargins(line // 2, line // 2, line // 2, line // 2)
-        box.addWidget(held)
+        in_column(held, of=self, margins=self.fontMetrics().height() // 2)
         held.show()
         self.resize(room_around(parent).size() * SHARE)
 
@@ -88,9 +75,8 @@ MOST_REQUESTS = 200
 class Doings:
     """The actions that go on, by robot."""
 
-    def __init__(self, language: Callable[[], Language], tr: Tr) -> None:
+    def __init__(self, language: Callable[[], Language]) -> None:
         self._language = language
-        self.tr = tr
         self._requests: dict[str, m.ActionRequest] = {}
         self._going_on: dict[str, dict[str, None]] = {}
 
@@ -111,9 +97,7 @@ class Doings:
     def words(self, robot: str) -> list[str]:
         """What it does, each as the predicate of a sentence."""
         requests = [self._requests.get(action) for action in self._going_on.get(robot, {})]
-        found = [
-            action_words(one, self._language(), self.tr) for one in requests if one is not None
-        ]
+        found = [action_words(one, self._language(), tr) for one in requests if one is not None]
         return list(dict.fromkeys(found))
 
     def clear(self) -> None:
@@ -143,8 +127,8 @@ class RobotsPanel(InLines):
     ) -> None:
         super().__init__()
         self._runner, self._language, self._look = runner, language, look
-        self._asking, self._starts = Asking(runner), starts
-        self._doings = Doings(language, tr)
+        self._starts = starts
+        self._doings = Doings(language)
         self._tap: Tap | None = None
         self._is_arranged = False
         self._heard: dict[str, m.RobotState] = {}
@@ -152,11 +136,11 @@ class RobotsPanel(InLines):
         self.cards: dict[str, RobotCard] = {}
         self.large: LargeWindow | None = None
         self.stage = RobotStage(look, floor, sound, language)
-        self.hint, self.elsewhere = QLabel(), labelled(QPushButton(), text="Back into the panel")
+        self.elsewhere = labelled(QPushButton(), text="Back into the panel")
         self._lay_out()
-        self.stage.touched.connect(self._asking.touch)
+        self.stage.touched.connect(partial(touch, runner))
         self.stage.chosen.connect(self._on_chosen)
-        self.stage.large_switched.connect(self.show_large)
+        self.stage.tools.large.clicked.connect(self.show_large)
         self.elsewhere.clicked.connect(lambda: self.show_large(False))
         runner.arrived.connect(self._on_arrived)
         runner.nodes_changed.connect(self._on_nodes_changed)
@@ -166,35 +150,20 @@ class RobotsPanel(InLines):
 
     def _lay_out(self) -> None:
         labelled(self, name="Robots")
-        labelled(
-            self.hint,
-            text="No robot takes part yet. "
-            "Add one on the Robots page: it may be one on this screen.",
+        self.hint = hint(
+            "No robot takes part yet. Add one on the Robots page: it may be one on this screen."
         )
-        self.hint.setWordWrap(True)
-        self.hint.setProperty("role", "hint")
         self.hint.setAlignment(Qt.AlignmentFlag.AlignCenter)
         self.elsewhere.hide()
-        inner, line = QWidget(), self.fontMetrics().height()
-        self._cards_box = QVBoxLayout(inner)
-        self._cards_box.setContentsMargins(0, 0, 0, 0)
-        self._cards_box.addWidget(self.hint)
-        self._cards_box.addStretch(1)
-        self.area = QScrollArea()
-        self.area.setWidgetResizable(True)
-        self.area.setFrameShape(QFrame.Shape.NoFrame)
-        self.area.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
-        self.area.setWidget(inner)
-        self.split = QSplitter(Qt.Orientation.Vertical)
-        self.split.setChildrenCollapsible(False)
-        for widget in (self.stage, self.area):
-            self.split.addWidget(widget)
+        inner = QWidget()
+        self._cards_box = in_column(self.hint, 1, of=inner, margins=0)
+        self.area = scrolled(inner)
+        self.split = QSplitter(Qt.Orientation.Vertical, childrenCollapsible=False)
+        self.split.addWidget(self.stage)
+        self.split.addWidget(self.area)
         self.split.setStretchFactor(0, 1)
         self.split.splitterMoved.connect(self._on_split_moved)
-        box = QVBoxLayout(self)
-        box.setContentsMargins(line // 3, line // 3, line // 3, line // 3)
-        box.addWidget(self.elsewhere)
-        box.addWidget(self.split)
+        in_column(self.elsewhere, self.split, of=self, margins=self.fontMetrics().height() // 3)
 
     # What is shown
 
@@ -218,8 +187,8 @@ class RobotsPanel(InLines):
             card = self.cards.get(plan.name)
             if card is None:
                 card = self.cards[plan.name] = RobotCard(plan, self._language, self._look)
-                card.touched.connect(partial(self._asking.touch, plan.name))
-                card.help_asked.connect(partial(self._asking.help_up, plan.name))
+                card.touched.connect(partial(touch, self._runner, plan.name))
+                card.help_asked.connect(partial(help_up, self._runner, plan.name))
                 card.start_asked.connect(partial(self._on_start_asked, plan.name))
             if plan != card.plan:
                 card.show_plan(plan)

@@ -6,7 +6,6 @@ import uuid
 from collections.abc import Iterable
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QObject, QTimer
 
@@ -18,10 +17,6 @@ from nep_studio.ui.node_style import StateLook
 from nep_studio.ui.running.runner import Runner
 from nep_studio.ui.words import tr
 
-if TYPE_CHECKING:
-    pass
-
-
 # Where the robots on the screen begin: beside each other, so that all are seen.
 
 ACTION = "action/"
@@ -32,6 +27,7 @@ BRAKING_MS = 500
 READY = ("ready", "busy", "warning")
 """How nodes are that hear what they are asked."""
 Base = tuple[float, float, float]
+"""x m, y m, theta rad on the floor."""
 
 
 class Starts(QObject):
@@ -43,10 +39,6 @@ class Starts(QObject):
         self._there: set[str] = set()
         runner.nodes_changed.connect(self._on_nodes_changed)
 
-    def place_of(self, robot: str) -> Base:
-        """Where a robot begins: x m, y m, theta rad on the floor."""
-        return start_places(self._runner.planned()).get(robot, ORIGIN)
-
     def put_back(self, robot: str) -> None:
         """Stop a robot, and put it to where it began."""
         stop = m.ActionRequest(id=uuid.uuid4().hex, robots=[robot], action="stop", priority=100)
@@ -54,8 +46,8 @@ class Starts(QObject):
         QTimer.singleShot(BRAKING_MS, self, lambda: self._put(robot))
 
     def _put(self, robot: str) -> None:
-        request = m.SenseRequest(robot=robot, sense="place", place=self.place_of(robot))
-        self._runner.send(m.SENSE_REQUEST, request)
+        place = start_places(self._runner.planned()).get(robot, ORIGIN)
+        self._runner.send(m.SENSE_REQUEST, m.SenseRequest(robot=robot, sense="place", place=place))
 
     def _on_nodes_changed(self, names: list[str]) -> None:
         nodes = self._runner.board.nodes

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QEvent, QObject, Qt, QTimer, Signal
 from PySide6.QtGui import QKeyEvent
-from PySide6.QtWidgets import QPushButton, QSizePolicy, QVBoxLayout
+from PySide6.QtWidgets import QPushButton, QSizePolicy
 
 from nep_core.wire.messages import RobotState, Thing, ThingKind
 from nep_studio.blocks.language import Language
@@ -18,7 +18,7 @@ from nep_studio.ui.floor import Floor
 from nep_studio.ui.labels import follow_words, labelled
 from nep_studio.ui.speech import Sound
 from nep_studio.ui.theme.look import Look
-from nep_studio.ui.widgets.layouts import InLines
+from nep_studio.ui.widgets.layouts import InLines, in_column
 from nep_studio.ui.words import tr
 
 from .card import touch_names
@@ -69,13 +69,15 @@ class StageKeys(QObject):
         """Take keys that are meant for the chosen thing."""
         if event.type() == QEvent.Type.MouseButtonRelease:
             QTimer.singleShot(0, self, self.put_down.emit)  # after the view has seen it
-        if isinstance(event, QKeyEvent) and self.chosen is not None and self._take(event):
+        if isinstance(event, QKeyEvent) and self._take(event):
             return True
         return super().eventFilter(watched, event)
 
     def _take(self, event: QKeyEvent) -> bool:
         """Take a key for the chosen thing; whether it is meant for that."""
-        if self.chosen is None or event.key() not in MEANT or _is_command(event):
+        plain = Qt.KeyboardModifier.ShiftModifier | Qt.KeyboardModifier.KeypadModifier
+        is_command = bool(event.modifiers() & ~plain)  # a shortcut of the window
+        if self.chosen is None or event.key() not in MEANT or is_command:
             return False
         if event.type() == QEvent.Type.ShortcutOverride:
             event.accept()  # else Delete would delete blocks
@@ -88,10 +90,8 @@ class StageKeys(QObject):
         if key in ARROWS:
             way_m = SMALL_STEP_M if is_small else STEP_M
             angle = self._view.camera.yaw + math.pi + ARROWS[key]
-            x, y = (
-                thing.place[0] + way_m * math.cos(angle),
-                thing.place[1] + way_m * math.sin(angle),
-            )
+            x, y, _ = thing.place
+            x, y = x + way_m * math.cos(angle), y + way_m * math.sin(angle)
             self.changed.emit(moved(thing, x, y))
         elif key in TURNING:
             self.changed.emit(turned(thing, thing.heading + TURNING[key]))
@@ -99,12 +99,6 @@ class StageKeys(QObject):
             self.removed.emit()
         else:
             self.left.emit()
-
-
-def _is_command(event: QKeyEvent) -> bool:
-    """Whether a key is a shortcut of the window, such as Ctrl and a key."""
-    plain = Qt.KeyboardModifier.ShiftModifier | Qt.KeyboardModifier.KeypadModifier
-    return bool(event.modifiers() & ~plain)
 
 
 # Keeps robots in sight that fall or are put elsewhere, as long as nobody looks closer.
@@ -160,7 +154,6 @@ class RobotStage(InLines):
 
     touched = Signal(str, str, bool)
     chosen = Signal(str)
-    large_switched = Signal(bool)
     usual_lines = (16, 18)
     """Room for a robot that stands."""
 
@@ -182,12 +175,8 @@ class RobotStage(InLines):
         line = self.fontMetrics().height()
         self.invitation.setProperty("kind", "quiet")
         self.invitation.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Fixed)
-        self._box = QVBoxLayout(self)
-        self._box.setContentsMargins(0, 0, 0, 0)
-        self._box.setSpacing(line // 5)
-        self._box.addWidget(self.tools)
-        self._box.addWidget(self.invitation)
-        self._box.addWidget(self.thing_bar)
+        parts = self.tools, self.invitation, self.thing_bar
+        self._box = in_column(*parts, of=self, margins=0, spacing=line // 5)
         self._connect()
         self._on_floor_changed()
         follow_words(self, self._tell_names)
@@ -195,20 +184,19 @@ class RobotStage(InLines):
     def _connect(self) -> None:
         tools, bar = self.tools, self.thing_bar
         tools.view_asked.connect(lambda preset: self.view.look_from(preset))
-        tools.fit_asked.connect(lambda: self.view.fit())
-        tools.follow_switched.connect(self._on_follow_switched)
+        tools.fit.triggered.connect(lambda: self.view.fit())
+        tools.follow.toggled.connect(self._on_follow_switched)
         tools.place_asked.connect(self.place)
         tools.thing_asked.connect(self._on_thing_asked)
-        tools.clear_asked.connect(lambda: self.view.clear_paths())
-        tools.sound_switched.connect(self._sound.switch)
-        tools.large_switched.connect(self.large_switched)
+        tools.clear.triggered.connect(lambda: self.view.clear_paths())
+        tools.sound.clicked.connect(self._sound.switch)
         self._sound.switched.connect(tools.show_sound)
         tools.show_sound(self._sound.is_on)
         self.invitation.clicked.connect(lambda: self.place("person"))
         bar.named.connect(lambda name: self._change(lambda thing: named(thing, name)))
         bar.turned.connect(self._on_turned)
-        bar.removed.connect(self.remove)
-        bar.closed.connect(lambda: self.choose(""))
+        bar.remove.clicked.connect(self.remove)
+        bar.close_button.clicked.connect(lambda: self.choose(""))
         self.floor.changed.connect(self._on_floor_changed)
 
     def _tell_names(self) -> None:
@@ -259,12 +247,12 @@ class RobotStage(InLines):
 
     # Things
 
-    def place(self, kind: str | ThingKind) -> None:
+    def place(self, kind: ThingKind) -> None:
         """Put a new thing before the first robot, and choose it."""
         if not self.floor.has_room:
             return
         base = next(iter(self._bases()), ORIGIN)
-        thing = new_thing(kind, base, self.floor.things)  # type: ignore[arg-type]
+        thing = new_thing(kind, base, self.floor.things)
         self.floor.add(thing)
         self.choose(thing.id)
         self.view.setFocus()
@@ -285,9 +273,9 @@ class RobotStage(InLines):
             self.floor.remove(thing_id)
         self._on_floor_changed()
 
-    def _change(self, how: object) -> None:
+    def _change(self, how: Callable[[Thing], Thing]) -> None:
         thing = self.floor.find(self._chosen_id)
-        if thing is not None and callable(how):
+        if thing is not None:
             self.floor.change(how(thing))
 
     def _on_turned(self, degrees: int) -> None:
@@ -298,8 +286,7 @@ class RobotStage(InLines):
         self.view.setFocus()
 
     def _on_thing_moved(self, thing_id: str, x: float, y: float) -> None:
-        thing = self.floor.find(thing_id)
-        if thing is not None:
+        if thing := self.floor.find(thing_id):
             self._held = moved(thing, x, y)
             self.floor.hold(self._held)
 
@@ -320,16 +307,14 @@ class RobotStage(InLines):
         self.tools.allow_placing(self.floor.has_room)
         self.invitation.setVisible(not things and self.floor.has_room)
         if self._view is not None:
-            is_first = bool(things) and not self._view.room.things
-            self._view.show_things(things)
-            if is_first:
-                # Look from aside, where what stands before a robot does not hide it
-                view = self._view
-                bases = self._bases()
-                heading = bases[0][2] if bases else 0.0
-                if abs(math.remainder(view.camera.yaw - heading, math.tau)) < ASIDE_RAD:
-                    view.look_through(replace(view.camera, yaw=heading + ASIDE_RAD))
-                    view.fit()
+            view = self._view
+            is_first = bool(things) and not view.room.things
+            view.show_things(things)
+            heading = next(iter(self._bases()), ORIGIN)[2]
+            is_before = abs(math.remainder(view.camera.yaw - heading, math.tau)) < ASIDE_RAD
+            if is_first and is_before:  # from aside no thing hides a robot
+                view.look_through(replace(view.camera, yaw=heading + ASIDE_RAD))
+                view.fit()
 
     def _on_follow_switched(self, is_on: bool) -> None:
         self.view.follows = is_on

@@ -6,14 +6,14 @@ from functools import partial
 
 from PySide6.QtCore import QSignalBlocker, Qt, Signal
 from PySide6.QtGui import QAction, QActionGroup
-from PySide6.QtWidgets import QHBoxLayout, QLabel, QLineEdit, QMenu, QToolButton, QWidget
+from PySide6.QtWidgets import QLabel, QLineEdit, QMenu, QToolButton, QWidget
 
 from nep_core.wire.messages import Thing, ThingKind
 from nep_studio.project.surroundings import LONGEST_NAME
 from nep_studio.ui.labels import explained, follow_words, labelled
 from nep_studio.ui.theme.icons import icon, icon_pixmap, icon_room
 from nep_studio.ui.theme.look import Look
-from nep_studio.ui.widgets.layouts import FlowLayout
+from nep_studio.ui.widgets.layouts import FlowLayout, in_row
 from nep_studio.ui.words import tr
 
 # What can be done with the thing that is chosen: name it, turn it, take it away.
@@ -27,20 +27,17 @@ ICONS: dict[ThingKind, str] = {
 
 
 class ThingBar(QWidget):
-    """``named`` gives a new name, ``turned`` by how many degrees, ``removed`` that it is to go."""
+    """``named`` gives a new name, ``turned`` by how many degrees."""
 
     named = Signal(str)
     turned = Signal(int)
-    removed = Signal()
-    closed = Signal()
 
     def __init__(self, look: Look) -> None:
         super().__init__()
         self._look = look
         self.thing: Thing | None = None
         self.sign, self.kind = QLabel(), QLabel()
-        self.name = QLineEdit()
-        self.name.setMaxLength(LONGEST_NAME)
+        self.name = QLineEdit(maxLength=LONGEST_NAME)
         self.name.setMinimumWidth(self.fontMetrics().averageCharWidth() * 8)
         self.left = explained(_button("rotate-ccw"), "Turn it to the left")
         self.right = explained(_button("rotate-cw"), "Turn it to the right")
@@ -54,8 +51,6 @@ class ThingBar(QWidget):
         self.name.editingFinished.connect(self._on_named)
         self.left.clicked.connect(lambda: self.turned.emit(15))
         self.right.clicked.connect(lambda: self.turned.emit(-15))
-        self.remove.clicked.connect(self.removed)
-        self.close_button.clicked.connect(self.closed)
         look.theme_changed.connect(self._dress)
         self._dress()
 
@@ -114,10 +109,7 @@ def thing_words(thing: Thing) -> str:
 def _beside(*widgets: QWidget) -> QWidget:
     """Widgets that stay in one row."""
     group = QWidget()
-    row = QHBoxLayout(group)
-    row.setContentsMargins(0, 0, 0, 0)
-    for widget in widgets:
-        row.addWidget(widget)
+    in_row(*widgets, of=group, margins=0)
     return group
 
 
@@ -139,21 +131,14 @@ VIEWS = {
 
 
 class StageTools(QWidget):
-    """Tells what was asked for.
+    """``view_asked`` gives a preset, ``place_asked`` a kind, ``thing_asked`` the id of a thing.
 
-    ``view_asked`` gives a preset, ``follow_switched`` whether a robot is followed, ``place_asked``
-    a kind of thing, ``thing_asked`` the id of one, ``sound_switched`` whether robots are heard.
+    Whoever can do it is connected with the other buttons and actions.
     """
 
     view_asked = Signal(str)
-    fit_asked = Signal()
-    follow_switched = Signal(bool)
     place_asked = Signal(str)
     thing_asked = Signal(str)
-    clear_asked = Signal()
-    sound_switched = Signal(bool)
-    large_switched = Signal(bool)
-    connecting_asked = Signal()
 
     def __init__(self, look: Look) -> None:
         super().__init__()
@@ -170,13 +155,11 @@ class StageTools(QWidget):
         self._lay_out()
         menu = QMenu(self.view)
         for preset, words in VIEWS.items():
-            action = labelled(menu.addAction(""), text=words)
-            action.triggered.connect(partial(self._ask_view, preset))
+            labelled(menu.addAction("", partial(self.view_asked.emit, preset)), text=words)
         menu.addSeparator()
         menu.addActions([self.fit, self.follow, self.clear])
         self.view.setMenu(menu)
         self._fill_place_menu()
-        self._connect()
         self.show_things([])
         follow_words(self, self._fill_things_menu)
         self.show_sound(True)
@@ -199,9 +182,6 @@ class StageTools(QWidget):
         self.sound.setCheckable(True)
         self.large.setCheckable(True)
 
-    def _ask_view(self, preset: str) -> None:
-        self.view_asked.emit(preset)
-
     def _fill_place_menu(self) -> None:
         menu = QMenu(self.place)
         self._placing = QActionGroup(self)
@@ -214,14 +194,6 @@ class StageTools(QWidget):
         menu.addAction(self.real)
         self.place.setMenu(menu)
         self._placing.triggered.connect(lambda action: self.place_asked.emit(action.data()))
-
-    def _connect(self) -> None:
-        self.fit.triggered.connect(self.fit_asked)
-        self.follow.toggled.connect(self.follow_switched)
-        self.clear.triggered.connect(self.clear_asked)
-        self.sound.clicked.connect(self.sound_switched)
-        self.large.clicked.connect(self.large_switched)
-        self.real.triggered.connect(self.connecting_asked)
 
     def allow_placing(self, is_allowed: bool) -> None:
         """Let things be placed, where there is a project that keeps them."""
@@ -236,12 +208,9 @@ class StageTools(QWidget):
     def _fill_things_menu(self) -> None:
         self._things_menu.clear()
         for thing in self._things:
-            action = self._things_menu.addAction(icon(ICONS[thing.kind], self._look.theme), "")
-            action.setText(thing_words(thing).replace("&", "&&"))
-            action.triggered.connect(partial(self._ask_thing, thing.id))
-
-    def _ask_thing(self, thing_id: str) -> None:
-        self.thing_asked.emit(thing_id)
+            sign, words = icon(ICONS[thing.kind], self._look.theme), thing_words(thing)
+            ask = partial(self.thing_asked.emit, thing.id)
+            self._things_menu.addAction(sign, words.replace("&", "&&"), ask)
 
     def show_sound(self, is_on: bool) -> None:
         """Show whether robots are heard."""
