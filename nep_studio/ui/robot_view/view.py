@@ -37,16 +37,7 @@ from nep_studio.ui.words import tr
 from .camera import PRESETS, Camera, Frame, Lens
 from .drawing import Drawing, gl_bodies
 from .figure import load_figure
-from .gestures import (
-    Found,
-    Gesture,
-    ahead_of,
-    at_face,
-    begun,
-    find_at,
-    place_of_sensor,
-    seeing_all,
-)
+from .gestures import Found, Gesture, ahead_of, at_face, begun, find_at, place_of_sensor, seeing_all
 from .painter import ScenePainter
 from .parts import VIEW_FILE
 from .scene import ORIGIN, Base, Marked, Room, Scene, moved
@@ -138,10 +129,7 @@ class RoomPicture(InLines):
     """Room for a robot that can be touched; one is known at the lesser size, too."""
 
     def __init__(
-        self,
-        look: Look,
-        touch_names: Mapping[str, str] | None = None,
-        drawing: Drawing = "auto",
+        self, look: Look, touch_names: Mapping[str, str] | None = None, drawing: Drawing = "auto"
     ) -> None:
         super().__init__()
         self.look, self.touch_names = look, touch_names or {}
@@ -424,10 +412,7 @@ class RobotView(RoomPicture):
     limb_released = Signal(str, str)
 
     def __init__(
-        self,
-        look: Look,
-        touch_names: Mapping[str, str] | None = None,
-        drawing: Drawing = "auto",
+        self, look: Look, touch_names: Mapping[str, str] | None = None, drawing: Drawing = "auto"
     ) -> None:
         super().__init__(look, touch_names, drawing)
         self.is_posing = False

@@ -7,14 +7,7 @@ from typing import TYPE_CHECKING, cast
 
 from PySide6.QtCore import QSize, Qt
 from PySide6.QtGui import QAction, QActionGroup, QGuiApplication, QKeySequence, QPalette
-from PySide6.QtWidgets import (
-    QApplication,
-    QLineEdit,
-    QMenu,
-    QPlainTextEdit,
-    QToolBar,
-    QToolButton,
-)
+from PySide6.QtWidgets import QApplication, QLineEdit, QMenu, QPlainTextEdit, QToolBar, QToolButton
 
 from faults import Words, verbatim
 from nep_studio.settings import SYSTEM
@@ -155,10 +148,7 @@ def _finding(window: MainWindow) -> list[QAction]:
         add("find", "Find…", lambda: find().open(), icon_name="search", keys=Key.Find),
         add("find_next", "Find next", lambda: find().find_next(), keys=Key.FindNext),
         add(
-            "find_previous",
-            "Find previous",
-            lambda: find().find_previous(),
-            keys=Key.FindPrevious,
+            "find_previous", "Find previous", lambda: find().find_previous(), keys=Key.FindPrevious
         ),
         add("insert", "Insert by typing…", insert, icon_name="keyboard", keys="Ctrl+Space"),
     ]
@@ -382,12 +372,7 @@ def add_help_menu(window: MainWindow) -> QMenu:
         )
     )
     menu.addAction(
-        add(
-            "report",
-            "Report for support…",
-            lambda: show_report(window),
-            icon_name="file-text",
-        )
+        add("report", "Report for support…", lambda: show_report(window), icon_name="file-text")
     )
     about = add("about", "About NEP Studio", lambda: show_about(window), icon_name="info")
     about.setMenuRole(about.MenuRole.AboutRole)
