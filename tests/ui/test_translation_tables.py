@@ -48,6 +48,7 @@ NAMED = {
     "ui/canvas/fields/editors.py": "_BUTTON_TIPS",
     "blocks/operations/wrapping.py": "LABELS",
     "ui/workbench/problems.py": "SEVERITIES",
+    "ui/shell/commands.py": "NOT_NOW",
     "ui/shell/gallery.py": "NEEDS DIFFICULTIES TAGS",
     "ui/running/actions.py": "PACES RUN_WORDS STATE_WORDS",
     "ui/shell/settings_dialog.py": "FOLDERS FOLDER_BUTTONS",

@@ -11,6 +11,7 @@ from PySide6.QtGui import QAction, QActionGroup, QGuiApplication, QKeySequence, 
 from PySide6.QtWidgets import QApplication, QLineEdit, QMenu, QPlainTextEdit, QToolBar, QToolButton
 
 from faults import Words, verbatim
+from nep_studio.project.examples import examples
 from nep_studio.settings import SYSTEM
 from nep_studio.ui.labels import labelled
 from nep_studio.ui.running.actions import RUN_BUTTONS, RunState, keep_width, style_buttons
@@ -19,7 +20,6 @@ from nep_studio.ui.theme.icons import icon, icon_room
 from nep_studio.ui.words import available_languages, count_words, tr
 
 from .dialogs import show_about, show_report, show_shortcuts
-from .gallery import example_files, example_words
 
 if TYPE_CHECKING:
     from nep_studio.blocks.checks.diagnostic import Diagnostic
@@ -157,10 +157,10 @@ def add_file_menu(window: MainWindow) -> QMenu:
     add("open", "Open…", files.choose, icon_name="folder-open", keys=Key.Open)
     recent = _submenu(menu, window, "history", "Open recent")
     recent.aboutToShow.connect(lambda: fill_recent(recent, window))
-    examples = _submenu(menu, window, "graduation-cap", "Examples")
-    for path in example_files():
-        action = labelled(examples.addAction(""), text=example_words(path))
-        action.triggered.connect(lambda _=False, path=path: files.open_example(path))
+    shown = _submenu(menu, window, "graduation-cap", "Examples")
+    for example in examples():
+        action = labelled(shown.addAction(""), text=example.title)
+        action.triggered.connect(lambda _=False, path=example.path: files.open_example(path))
     menu.addSeparator()
     save_keys, picture = (Key.SaveAs, "Ctrl+Shift+S"), partial(window.host.ask, "exporting.picture")
     add("save", "Save", files.save, icon_name="save", keys=Key.Save)
