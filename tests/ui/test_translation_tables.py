@@ -52,6 +52,7 @@ NAMED = {
     "ui/shell/gallery.py": "NEEDS DIFFICULTIES TAGS",
     "ui/running/actions.py": "PACES RUN_WORDS STATE_WORDS",
     "ui/shell/settings_dialog.py": "FOLDERS FOLDER_BUTTONS",
+    "ui/plugins/cues/arranging.py": "COLOURS",
     "ui/plugins/gestures/project_gestures.py": "LABELS",
     "ui/plugins/motion/commands.py": "LOOKS",
     "ui/plugins/network/sending.py": "SENT NO_NETWORK",

@@ -183,8 +183,11 @@ class StartPage(QScrollArea):
     def _recent_button(self, path: Path) -> QPushButton:
         is_there = path.is_file()
         name = f"{path.stem}   —   {_short(path.parent)}"
-        words = verbatim(name) if is_there else text_of("{name} (not there any more)", name=name)
-        button = labelled(styled(QPushButton(), kind="quiet"), text=words)
+        button = styled(QPushButton(), kind="quiet")
+        if is_there:
+            labelled(button, text=verbatim(name))
+        else:
+            labelled(button, text=text_of("{name} (not there any more)", name=name))
         button.setIcon(icon("file-text", self._studio.look.theme))
         button.setEnabled(is_there)
         button.setToolTip(str(path))

@@ -340,7 +340,7 @@ class CodeView(QFrame):
         super().__init__(parent)
         self._sharing = sharing
         self._shown = ""
-        self.line = CopyLine(look, "Copy the code")
+        self.line = CopyLine(look, tr("Copy the code"))
         self.line.text.setAccessibleName(tr("Code"))
         self.left = hint("")
         self.new_button = QPushButton(tr("New code"), autoDefault=False)
@@ -403,7 +403,7 @@ class OpenPage(QWidget):
         super().__init__(parent)
         self._sharing = sharing
         self.code = CodeView(sharing, look)
-        self.command = CopyLine(look, "Copy", is_long=True)
+        self.command = CopyLine(look, tr("Copy"), is_long=True)
         self.command.text.setAccessibleName(tr("The command for a terminal"))
         self.found_by = words_label("")
         self.computers, self.refused = ComputersList(), RefusedList()
