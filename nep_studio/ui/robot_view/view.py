@@ -334,11 +334,7 @@ ARROWS = {
     Qt.Key.Key_Down: (0, -1),
 }
 ZOOMS = {Qt.Key.Key_Plus: ZOOM, Qt.Key.Key_Equal: ZOOM, Qt.Key.Key_Minus: 1 / ZOOM}
-PRESET_KEYS = dict(
-    zip(
-        (Qt.Key.Key_1, Qt.Key.Key_2, Qt.Key.Key_3, Qt.Key.Key_4, Qt.Key.Key_5), PRESETS, strict=True
-    )
-)
+PRESET_KEYS = {Qt.Key(Qt.Key.Key_1 + place): preset for place, preset in enumerate(PRESETS)}
 TOUCHES = (Qt.Key.Key_Space, Qt.Key.Key_Return, Qt.Key.Key_Enter)
 
 
@@ -388,8 +384,6 @@ def next_mark(view: RobotView, step: int) -> Marked | None:
     number = stops.index(now) + step if now in stops else (0 if step > 0 else len(stops) - 1)
     return stops[number] if 0 <= number < len(stops) else None
 
-
-__all__ = ["RobotView", "nao_folder"]
 
 WHEEL_STEP = 1.0015
 
