@@ -7,8 +7,8 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Protocol
 
-from PySide6.QtCore import QObject, Signal
-from PySide6.QtWidgets import QWidget
+from PySide6.QtCore import QObject, Qt, Signal
+from PySide6.QtWidgets import QFileDialog, QWidget
 
 from nep_studio import settings
 from nep_studio.blocks.errors import BlocksError, ProjectFileError
@@ -50,17 +50,29 @@ class SystemFileChooser:
 
     def choose_to_open(self, parent: QWidget, folder: Path, on_chosen: OnChosen) -> None:
         """Ask which project to open."""
-        from .widgets.questions import ask_for_path  # not at a start
-
-        kinds = (tr("Projects, and pictures with one (*.nep *.png *.svg)"), tr("All files (*)"))
-        ask_for_path(parent, tr("Open a project"), folder, on_chosen, kinds=kinds)
+        kinds = tr("Projects, and pictures with one (*.nep *.png *.svg)")
+        dialog = _dialog(parent, tr("Open a project"), folder, kinds, on_chosen)
+        dialog.setFileMode(QFileDialog.FileMode.ExistingFile)
+        dialog.open()
 
     def choose_to_save(self, parent: QWidget, suggested: Path, on_chosen: OnChosen) -> None:
         """Ask where to save a project."""
-        from .widgets.questions import ask_for_path
+        kinds, title = tr("NEP Studio projects (*.nep)"), tr("Save the project as")
+        dialog = _dialog(parent, title, suggested.parent, kinds, on_chosen)
+        dialog.setAcceptMode(QFileDialog.AcceptMode.AcceptSave)
+        dialog.setDefaultSuffix(SUFFIX.removeprefix("."))
+        dialog.selectFile(suggested.name)
+        dialog.open()
 
-        kinds = (tr("NEP Studio projects (*.nep)"), tr("All files (*)"))
-        ask_for_path(parent, tr("Save the project as"), suggested, on_chosen, "save", kinds)
+
+def _dialog(
+    parent: QWidget, title: str, folder: Path, kinds: str, on_chosen: OnChosen
+) -> QFileDialog:
+    dialog = QFileDialog(parent, title, str(folder))
+    dialog.setNameFilters([kinds, tr("All files (*)")])
+    dialog.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
+    dialog.fileSelected.connect(lambda name: on_chosen(Path(name)))
+    return dialog
 
 
 Then = Callable[[], object]
