@@ -46,8 +46,7 @@ class Actions(QObject):
     ) -> QAction:
         """Make an action; ``words`` in English, with an ellipsis where a question follows.
 
-        ``colour`` is the theme's colour of an icon that does not stand on a panel. The action
-        comes to the end of ``menu``.
+        ``colour`` is the theme's, of an icon that is not on a panel; ``menu`` has it at its end.
         """
         action = QAction(self)
         action.setObjectName(name)

@@ -66,6 +66,19 @@ def add_edit_menu(window: MainWindow) -> QMenu:
     add("duplicate", "Duplicate", lambda: edit().duplicate(), icon_name="copy-plus", keys="Ctrl+D")
     add("delete", "Delete", lambda: edit().delete(), icon_name="trash-2", keys=Key.Delete)
     menu.addSeparator()
+    _add_about_blocks(menu, window, edit)
+    menu.addSeparator()
+    _add_finding(menu, window)
+    menu.addSeparator()
+    settings = add("settings", "Settings…", window.open_settings, icon_name="settings")
+    settings.setMenuRole(settings.MenuRole.PreferencesRole)
+    settings.setShortcuts(QKeySequence.keyBindings(Key.Preferences))
+    QGuiApplication.clipboard().dataChanged.connect(window.update_actions)
+    return menu
+
+
+def _add_about_blocks(menu: QMenu, window: MainWindow, edit: Callable[[], Commands]) -> None:
+    add = partial(window.actions_by_name.add, menu=menu)
     add("select_all", "Select all", lambda: edit().select_all(), keys=Key.SelectAll)
     add("disable", "Switch off or on", lambda: edit().toggle("disabled"), icon_name="eye-off")
     add("collapse", "Fold or unfold", lambda: edit().toggle("collapsed"), icon_name="fold-vertical")
@@ -77,14 +90,6 @@ def add_edit_menu(window: MainWindow) -> QMenu:
         tip="Push stacks apart that overlap",
     )
     add("add_page", "Add a page", lambda: window.workbench.pages_bar.add_page(), icon_name="plus")
-    menu.addSeparator()
-    _add_finding(menu, window)
-    menu.addSeparator()
-    settings = add("settings", "Settings…", window.open_settings, icon_name="settings")
-    settings.setMenuRole(settings.MenuRole.PreferencesRole)
-    settings.setShortcuts(QKeySequence.keyBindings(Key.Preferences))
-    QGuiApplication.clipboard().dataChanged.connect(window.update_actions)
-    return menu
 
 
 def _add_finding(menu: QMenu, window: MainWindow) -> None:
@@ -244,6 +249,12 @@ def add_view_menu(window: MainWindow) -> QMenu:
     minimap.toggled.connect(lambda is_on: window.workbench.helpers.show_minimap(is_on))
     add("check", "Check", window.show_problems, icon_name="circle-check", keys="F8")
     menu.addSeparator()
+    _add_looks(menu, window)
+    menu.addSeparator()  # before what plugins add
+    return menu
+
+
+def _add_looks(menu: QMenu, window: MainWindow) -> None:
     settings, studio = window.settings, window.studio
     choices = _submenu(menu, window, "contrast", "Theme")
     _add_choices(choices, _themes(), lambda: settings.theme, studio.choose_theme)
@@ -256,8 +267,6 @@ def add_view_menu(window: MainWindow) -> QMenu:
         lambda: f"{settings.text_scale:g}",
         lambda scale: studio.choose_text_scale(float(scale)),
     )
-    menu.addSeparator()  # before what plugins add
-    return menu
 
 
 def _fill_panels(menu: QMenu, window: MainWindow) -> None:

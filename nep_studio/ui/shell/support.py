@@ -288,12 +288,15 @@ class RecoveryDialog(QDialog):
         self.look_button.clicked.connect(self._on_look)
         self.discard_button.clicked.connect(self._on_discard)
         self.later_button.clicked.connect(self.reject)
+        self._fill()
+
+    def _fill(self) -> None:
         for work in self._found:
             blocks = count_words(len(work.project.blocks), "1 block", "{n} blocks")
             moment = QDateTime.fromSecsSinceEpoch(int(work.time))
             when = QLocale().toString(moment, QLocale.FormatType.ShortFormat)
             words = f"{work.name}   —   {when}, {blocks}"
-            item = QListWidgetItem(icon("history", studio.look.theme), words)
+            item = QListWidgetItem(icon("history", self._studio.look.theme), words)
             item.setToolTip(str(work.path or tr("It had no file yet.")))
             self.list.addItem(item)
         self.list.setCurrentRow(0)

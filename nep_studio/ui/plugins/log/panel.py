@@ -108,6 +108,14 @@ class WhatHappens(QWidget):
         copy = QShortcut(QKeySequence(QKeySequence.StandardKey.Copy), self.list)
         copy.setContext(Qt.ShortcutContext.WidgetShortcut)
         copy.activated.connect(self.copy)
+        self._lay_out()
+        runner.arrived.connect(self._on_arrived)
+        runner.state_changed.connect(self._on_state_changed)
+        look.theme_changed.connect(self._dress)
+        self._dress()
+        follow_words(self, self._speak)
+
+    def _lay_out(self) -> None:
         self.part.currentIndexChanged.connect(lambda: self.model.show_part(self.part.currentData()))
         self.search.textChanged.connect(self.model.search)
         self.model.modelReset.connect(self._show_hint)
@@ -118,11 +126,6 @@ class WhatHappens(QWidget):
         self._stack.addWidget(self.list)
         self._stack.addWidget(self.hint)
         in_column(in_row(self.part, (self.search, 1), self.buttons), (self._stack, 1), of=self)
-        runner.arrived.connect(self._on_arrived)
-        runner.state_changed.connect(self._on_state_changed)
-        look.theme_changed.connect(self._dress)
-        self._dress()
-        follow_words(self, self._speak)
 
     # What a person asks for
 

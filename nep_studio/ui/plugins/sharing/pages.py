@@ -410,6 +410,13 @@ class OpenPage(QWidget):
         self.removed = words_label("")
         self.anew_button = QPushButton(tr("Start everything anew"), autoDefault=False)
         self.keep = QCheckBox(tr("Open it again whenever NEP Studio starts"))
+        self._lay_out()
+        self.computers.remove_asked.connect(self._on_remove)
+        self.anew_button.clicked.connect(self.begin_anew_asked)
+        sharing.changed.connect(self.refresh)
+        self.refresh()
+
+    def _lay_out(self) -> None:
         about = tr(
             "On the other computer open this window too, choose “Join another computer…”"
             " there, and type this code:"
@@ -430,10 +437,6 @@ class OpenPage(QWidget):
             1,
         )
         in_column(*parts, of=self, margins=0, spacing=self.fontMetrics().height() // 2)
-        self.computers.remove_asked.connect(self._on_remove)
-        self.anew_button.clicked.connect(self.begin_anew_asked)
-        sharing.changed.connect(self.refresh)
-        self.refresh()
 
     def refresh(self) -> None:
         """Show how it is now."""
