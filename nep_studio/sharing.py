@@ -113,6 +113,7 @@ class Sharing(QObject):
     failed = Signal(object)
     went_down = Signal()
     _heard = Signal(object)  # Fault
+    _done = Signal(object)  # NepError | None
 
     def __init__(
         self,
@@ -137,6 +138,7 @@ class Sharing(QObject):
         self._looking = QTimer(self, interval=LOOK_MS)
         self._looking.timeout.connect(self._on_look)
         self._heard.connect(self._on_heard)
+        self._done.connect(self._on_done)
         self.happened.connect(self._on_happened)
         local.listen(self._on_message)
 
@@ -235,19 +237,23 @@ class Sharing(QObject):
                     "The network could not be changed.",
                     checklist=("Try it once more.", "Start NEP Studio again."),
                 )
-            self._thread = None
-            if self._is_ended:
-                return
-            self.changed.emit()
-            if error is None:
-                self.settled.emit(self.state)
-            else:
-                self.failed.emit(error)
+            self._done.emit(error)
 
         self._thread = threading.Thread(target=run, name="nep-studio-sharing", daemon=True)
         self.changed.emit()
         self._thread.start()
         self._looking.start()
+
+    def _on_done(self, error: NepError | None) -> None:
+        """In the window's thread: who sees the new state has been told how it went, too."""
+        if self._is_ended:
+            return
+        self._thread = None
+        self.changed.emit()
+        if error is None:
+            self.settled.emit(self.state)
+        else:
+            self.failed.emit(error)
 
     def _open(self, address: str) -> None:
         if not is_ours(address):

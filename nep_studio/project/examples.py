@@ -86,11 +86,6 @@ def examples() -> tuple[Example, ...]:
     return (*named, *(_example(path, {}) for name, path in files.items() if name not in told))
 
 
-def example_of(path: Path) -> Example | None:
-    """The example that is in this file."""
-    return next((example for example in examples() if example.path == path), None)
-
-
 def _example(path: Path, told: Mapping[str, Any]) -> Example:
     usual = {"title": path.stem.replace("_", " ").capitalize()}
     return msgspec.convert({**usual, **told, "path": path}, Example)

@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterable
 
 from PySide6.QtCore import QKeyCombination, QObject, Qt
 from PySide6.QtGui import QAction, QKeySequence
-from PySide6.QtWidgets import QWidget
+from PySide6.QtWidgets import QMenu, QWidget
 
 from faults import Words
 from nep_studio.ui.labels import follow_words
@@ -42,10 +42,11 @@ class Actions(QObject):
         keys: Keys | tuple[Keys, ...] = (),
         tip: Words = "",
         colour: str = "text",
+        menu: QMenu | None = None,
     ) -> QAction:
         """Make an action; ``words`` in English, with an ellipsis where a question follows.
 
-        ``colour`` is the theme's colour of an icon that does not stand on a panel.
+        ``colour`` is the theme's, of an icon that is not on a panel; ``menu`` has it at its end.
         """
         action = QAction(self)
         action.setObjectName(name)
@@ -58,6 +59,8 @@ class Actions(QObject):
         if icon_name:
             self._icons[name] = icon_name, colour
             self._dress(name)
+        if menu is not None:
+            menu.addAction(action)
         return action
 
     def label(self, name: str, words: Words, tip: Words = "") -> None:

@@ -50,28 +50,28 @@ class SystemFileChooser:
 
     def choose_to_open(self, parent: QWidget, folder: Path, on_chosen: OnChosen) -> None:
         """Ask which project to open."""
-        dialog = _dialog(parent, tr("Open a project"), folder)
-        dialog.setNameFilters(
-            [tr("Projects, and pictures with one (*.nep *.png *.svg)"), tr("All files (*)")]
-        )
+        kinds = tr("Projects, and pictures with one (*.nep *.png *.svg)")
+        dialog = _dialog(parent, tr("Open a project"), folder, kinds, on_chosen)
         dialog.setFileMode(QFileDialog.FileMode.ExistingFile)
-        dialog.fileSelected.connect(lambda name: on_chosen(Path(name)))
         dialog.open()
 
     def choose_to_save(self, parent: QWidget, suggested: Path, on_chosen: OnChosen) -> None:
         """Ask where to save a project."""
-        dialog = _dialog(parent, tr("Save the project as"), suggested.parent)
+        kinds, title = tr("NEP Studio projects (*.nep)"), tr("Save the project as")
+        dialog = _dialog(parent, title, suggested.parent, kinds, on_chosen)
         dialog.setAcceptMode(QFileDialog.AcceptMode.AcceptSave)
         dialog.setDefaultSuffix(SUFFIX.removeprefix("."))
         dialog.selectFile(suggested.name)
-        dialog.fileSelected.connect(lambda name: on_chosen(Path(name)))
         dialog.open()
 
 
-def _dialog(parent: QWidget, title: str, folder: Path) -> QFileDialog:
+def _dialog(
+    parent: QWidget, title: str, folder: Path, kinds: str, on_chosen: OnChosen
+) -> QFileDialog:
     dialog = QFileDialog(parent, title, str(folder))
-    dialog.setNameFilters([tr("NEP Studio projects (*.nep)"), tr("All files (*)")])
+    dialog.setNameFilters([kinds, tr("All files (*)")])
     dialog.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
+    dialog.fileSelected.connect(lambda name: on_chosen(Path(name)))
     return dialog
 
 
@@ -189,9 +189,11 @@ class Files(QObject):
             return
         name = "".join(" " if letter in '\\/:*?"<>|' else letter for letter in document.title)
         suggested = document.path or self._settings.last_folder / f"{name.strip()}{SUFFIX}"
-        self._chooser.choose_to_save(
-            self._window, suggested, lambda path: self._write(_with_suffix(path), then)
-        )
+
+        def write(path: Path) -> None:
+            self._write(path if path.suffix else path.with_name(path.name + SUFFIX), then)
+
+        self._chooser.choose_to_save(self._window, suggested, write)
 
     def _write(self, path: Path, then: Then) -> None:
         document = self.document
@@ -212,18 +214,16 @@ class Files(QObject):
     def _read(self, path: Path, on_opened: Callable[[Path, Project], None]) -> None:
         from .documents import Opening
 
+        def on_read(project: Project) -> None:
+            self._end_opening()
+            on_opened(path, project)
+
         self.cancel_opening()
         opening = self._opening = Opening(path, self._language(), self)
-        opening.opened.connect(lambda project: self._on_read(path, project, on_opened))
-        opening.failed.connect(lambda error: self._on_failed(path, error))
+        opening.opened.connect(on_read)
+        opening.failed.connect(self._on_failed)
         opening.became_slow.connect(lambda: self.opening_changed.emit(opening))
         opening.start()
-
-    def _on_read(
-        self, path: Path, project: Project, on_opened: Callable[[Path, Project], None]
-    ) -> None:
-        self._end_opening()
-        on_opened(path, project)
 
     def _on_opened(self, path: Path, project: Project) -> None:
         self._show(self._document(project, path))
@@ -232,7 +232,7 @@ class Files(QObject):
     def _on_example_opened(self, path: Path, project: Project) -> None:
         self._show(self._document(project))
 
-    def _on_failed(self, path: Path, error: BlocksError) -> None:
+    def _on_failed(self, error: BlocksError) -> None:
         self._end_opening()
         self._messages.tell_error(error)
         self.recent_changed.emit()
@@ -282,11 +282,8 @@ class Files(QObject):
             "The program cannot write into its own folder, so work that is not saved is lost"
             " if the computer stops."
         )
-        folder = str(settings.user_folder())
-        steps = (
-            tr("Is there room on the disk?"),
-            tr("May this program write into {folder}?", folder=folder),
-        )
+        may_write = tr("May this program write into {folder}?", folder=str(settings.user_folder()))
+        steps = (tr("Is there room on the disk?"), may_write)
         save = Answer(tr("Save"), self.save, "primary")
         self._warning = Message("warning", title, sentence, steps, answers=(save,))
         self._messages.tell(self._warning)
@@ -300,7 +297,3 @@ class Files(QObject):
     def _remember(self, path: Path) -> None:
         self._settings.add_recent(path)
         self.recent_changed.emit()
-
-
-def _with_suffix(path: Path) -> Path:
-    return path if path.suffix else path.with_name(path.name + SUFFIX)

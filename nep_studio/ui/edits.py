@@ -11,7 +11,6 @@ from nep_studio.blocks.editor import Editor
 from nep_studio.blocks.program import Changes
 
 if TYPE_CHECKING:
-    from nep_studio.blocks.editor import Editor
     from nep_studio.ui.document_files import Files
     from nep_studio.ui.documents import Document
 

@@ -8,7 +8,6 @@ from PySide6.QtWidgets import (
     QApplication,
     QDialog,
     QFrame,
-    QHBoxLayout,
     QLabel,
     QPlainTextEdit,
     QProgressBar,
@@ -19,6 +18,7 @@ from PySide6.QtWidgets import (
 )
 
 from faults import Words
+from nep_studio.ui.widgets.forms import styled
 from nep_studio.ui.widgets.layouts import in_column, in_row
 
 from .labels import labelled
@@ -62,8 +62,8 @@ class Details(QWidget):
         self.text = QPlainTextEdit(details, readOnly=True)
         self.text.setVisible(False)
         self.text.setFixedHeight(self.fontMetrics().height() * 7)
-        self.show_button = _quiet_button("Show details")
-        self.copy_button = _quiet_button("Copy details")
+        self.show_button = labelled(styled(QPushButton(), kind="quiet"), text="Show details")
+        self.copy_button = labelled(styled(QPushButton(), kind="quiet"), text="Copy details")
         self.copy_button.setVisible(False)
         self.show_button.clicked.connect(self._on_show_clicked)
         self.copy_button.clicked.connect(self._on_copy_clicked)
@@ -88,37 +88,28 @@ class MessageCard(QFrame):
     def __init__(self, message: Message, theme: Theme, parent: QWidget) -> None:
         super().__init__(parent)
         self.message = message
-        self.setProperty("kind", message.kind)
-        self.setAccessibleName(message.spoken)
-        button = labelled(QToolButton(), tip="Close", name="Close this message")
-        button.setIcon(icon("x", theme))
-        button.setIconSize(icon_room(button.fontMetrics().height()))
-        self.close_button = button
+        styled(self, kind=message.kind).setAccessibleName(message.spoken)
+        self.close_button = labelled(QToolButton(), tip="Close", name="Close this message")
+        self.close_button.setIcon(icon("x", theme))
+        self.close_button.setIconSize(icon_room(self.close_button.fontMetrics().height()))
         self.close_button.clicked.connect(self.closed)
         self.buttons: list[QPushButton] = []
         line = self.fontMetrics().height()
-        sign, size, kind = QLabel(), round(line * 1.3), self.message.kind
+        size, kind, top = round(line * 1.3), message.kind, Qt.AlignmentFlag.AlignTop
         picture = icon(KIND_ICONS[kind], theme, kind)
-        sign.setPixmap(picture.pixmap(QSize(size, size), self.devicePixelRatioF()))
-        row = in_row((sign, 0, Qt.AlignmentFlag.AlignTop), of=self, spacing=line // 2)
-        words = in_column(MessageText(self.message))
-        if self.message.is_busy:
-            bar = QProgressBar(textVisible=False)
-            bar.setRange(0, 0)
-            words.addWidget(bar)
-        if self.message.answers:
-            for answer in self.message.answers:
-                answering = QPushButton(answer.words)
-                if answer.look:
-                    answering.setProperty("kind", answer.look)
-                answering.clicked.connect(self.closed)
-                answering.clicked.connect(lambda _=False, do=answer.do: do())
-                self.buttons.append(answering)
-            answers = in_row(*self.buttons, 1)
-            words.addLayout(answers)
-        row.addLayout(words, 1)
-        row.addWidget(self.close_button, 0, Qt.AlignmentFlag.AlignTop)
-        self.close_button.setVisible(not self.message.is_busy)
+        sign = QLabel(pixmap=picture.pixmap(QSize(size, size), self.devicePixelRatioF()))
+        words = in_column(MessageText(message))
+        if message.is_busy:
+            words.addWidget(QProgressBar(textVisible=False, minimum=0, maximum=0))
+        for answer in message.answers:
+            button = styled(QPushButton(answer.words), kind=answer.look)
+            button.clicked.connect(self.closed)
+            button.clicked.connect(lambda _=False, do=answer.do: do())
+            self.buttons.append(button)
+        if self.buttons:
+            words.addLayout(in_row(*self.buttons, 1))
+        in_row((sign, 0, top), (words, 1), (self.close_button, 0, top), of=self, spacing=line // 2)
+        self.close_button.setVisible(not message.is_busy)
 
     def changeEvent(self, event: QEvent) -> None:
         """Take the room that the words need in another font."""
@@ -128,17 +119,9 @@ class MessageCard(QFrame):
 
 
 def _label(words: Words, role: str = "") -> QLabel:
-    label = labelled(QLabel(wordWrap=True, textFormat=Qt.TextFormat.PlainText), text=words)
-    label.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
-    if role:
-        label.setProperty("role", role)
-    return label
-
-
-def _quiet_button(words: str) -> QPushButton:
-    button = labelled(QPushButton(), text=words)
-    button.setProperty("kind", "quiet")
-    return button
+    flags = Qt.TextInteractionFlag.TextSelectableByMouse
+    label = QLabel(wordWrap=True, textFormat=Qt.TextFormat.PlainText, textInteractionFlags=flags)
+    return labelled(styled(label, role=role), text=words)
 
 
 MOST_CARDS = 3
@@ -277,30 +260,23 @@ class QuestionDialog(QDialog):
         self.buttons = [self._button(answer) for answer in message.answers]
         self._answered: Answer | None = None
         line = self.fontMetrics().height()
-        box = in_column(self._words(line), of=self, margins=line, spacing=line)
-        row = in_row(1, *reversed(self.buttons))
-        box.addLayout(row)
+        picture = icon(KIND_ICONS[message.kind], self.palette().color(self.foregroundRole()))
+        size = QSize(line * 2, line * 2)
+        sign = QLabel(pixmap=picture.pixmap(size, self.devicePixelRatioF()))
+        words = ((sign, 0, Qt.AlignmentFlag.AlignTop), (MessageText(message), 1))
+        foot = in_row(1, *reversed(self.buttons))
+        in_column(in_row(*words, spacing=line), foot, of=self, margins=line, spacing=line)
         self.setMinimumWidth(line * 24)
         for button in self.buttons:
             if button.isDefault():
                 button.setFocus()  # Enter means what the eye is led to
         self.finished.connect(self._on_finished)
 
-    def _words(self, line: int) -> QHBoxLayout:
-        sign, kind = QLabel(), self.message.kind
-        colour = self.palette().color(self.foregroundRole())
-        size, picture = QSize(line * 2, line * 2), icon(KIND_ICONS[kind], colour)
-        sign.setPixmap(picture.pixmap(size, self.devicePixelRatioF()))
-        row = in_row(
-            (sign, 0, Qt.AlignmentFlag.AlignTop), (MessageText(self.message), 1), spacing=line
-        )
-        return row
-
     def _button(self, answer: Answer) -> QPushButton:
-        button = QPushButton(answer.words)
-        button.setDefault(answer.look == "primary")  # which has its look, and moves with the focus
+        # The default has its own look, which moves with the focus
+        button = QPushButton(answer.words, default=answer.look == "primary")
         if answer.look == "quiet":
-            button.setProperty("kind", answer.look)
+            styled(button, kind=answer.look)
         button.clicked.connect(lambda: self._on_answered(answer))
         return button
 

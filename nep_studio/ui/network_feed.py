@@ -427,9 +427,5 @@ class NetworkFeed(QObject):
 
 def feed_of(host: Host) -> NetworkFeed:
     """The one feed, which all panels share."""
-    running, runner = host.services.running, host.services.runner
-
-    def find_network() -> Network | None:
-        return runner.local.network
-
-    return host.shared(NetworkFeed, lambda: NetworkFeed(find_network, running))
+    running, local = host.services.running, host.services.runner.local
+    return host.shared(NetworkFeed, lambda: NetworkFeed(lambda: local.network, running))

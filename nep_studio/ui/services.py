@@ -116,13 +116,8 @@ class Services(QObject):
         self.studio = studio
         self.settings, self.look = studio.settings, studio.look
         self.messages = Messages(over)
-        self.files = Files(
-            lambda: studio.language,
-            studio.settings,
-            self.messages,
-            chooser or SystemFileChooser(),
-            over,
-        )
+        chooser = chooser or SystemFileChooser()
+        self.files = Files(lambda: studio.language, studio.settings, self.messages, chooser, over)
         self._make_running = make_running
         self.made_running: RunControl | None = None
 

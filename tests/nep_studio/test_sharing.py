@@ -116,6 +116,16 @@ def test_a_wrong_code_is_told_and_lets_nobody_in(
     assert sharing.computers == ()
 
 
+def test_who_sees_that_it_is_open_has_been_told_so(sharing: Sharing, qtbot: QtBot) -> None:
+    told = []
+    sharing.settled.connect(told.append)
+
+    sharing.open(HOST)
+    is_now(sharing, qtbot, "open")
+
+    assert told == ["open"]
+
+
 @pytest.mark.parametrize("fault", ["address", "keys", "port"])
 def test_when_it_cannot_be_opened_all_runs_on_as_before(
     fault: str, local: LocalNetwork, sharing: Sharing, qtbot: QtBot, monkeypatch

@@ -37,16 +37,7 @@ from nep_studio.ui.words import tr
 from .camera import PRESETS, Camera, Frame, Lens
 from .drawing import Drawing, gl_bodies
 from .figure import load_figure
-from .gestures import (
-    Found,
-    Gesture,
-    ahead_of,
-    at_face,
-    begun,
-    find_at,
-    place_of_sensor,
-    seeing_all,
-)
+from .gestures import Found, Gesture, ahead_of, at_face, begun, find_at, place_of_sensor, seeing_all
 from .painter import ScenePainter
 from .parts import VIEW_FILE
 from .scene import ORIGIN, Base, Marked, Room, Scene, moved
@@ -138,10 +129,7 @@ class RoomPicture(InLines):
     """Room for a robot that can be touched; one is known at the lesser size, too."""
 
     def __init__(
-        self,
-        look: Look,
-        touch_names: Mapping[str, str] | None = None,
-        drawing: Drawing = "auto",
+        self, look: Look, touch_names: Mapping[str, str] | None = None, drawing: Drawing = "auto"
     ) -> None:
         super().__init__()
         self.look, self.touch_names = look, touch_names or {}
@@ -346,11 +334,7 @@ ARROWS = {
     Qt.Key.Key_Down: (0, -1),
 }
 ZOOMS = {Qt.Key.Key_Plus: ZOOM, Qt.Key.Key_Equal: ZOOM, Qt.Key.Key_Minus: 1 / ZOOM}
-PRESET_KEYS = dict(
-    zip(
-        (Qt.Key.Key_1, Qt.Key.Key_2, Qt.Key.Key_3, Qt.Key.Key_4, Qt.Key.Key_5), PRESETS, strict=True
-    )
-)
+PRESET_KEYS = {Qt.Key(Qt.Key.Key_1 + place): preset for place, preset in enumerate(PRESETS)}
 TOUCHES = (Qt.Key.Key_Space, Qt.Key.Key_Return, Qt.Key.Key_Enter)
 
 
@@ -401,8 +385,6 @@ def next_mark(view: RobotView, step: int) -> Marked | None:
     return stops[number] if 0 <= number < len(stops) else None
 
 
-__all__ = ["RobotView", "nao_folder"]
-
 WHEEL_STEP = 1.0015
 
 
@@ -424,10 +406,7 @@ class RobotView(RoomPicture):
     limb_released = Signal(str, str)
 
     def __init__(
-        self,
-        look: Look,
-        touch_names: Mapping[str, str] | None = None,
-        drawing: Drawing = "auto",
+        self, look: Look, touch_names: Mapping[str, str] | None = None, drawing: Drawing = "auto"
     ) -> None:
         super().__init__(look, touch_names, drawing)
         self.is_posing = False

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass
+from functools import partial
+from itertools import groupby
 from typing import TYPE_CHECKING
 
 from PySide6.QtCore import (
@@ -38,11 +39,13 @@ from PySide6.QtWidgets import (
     QStyleOptionViewItem,
     QWidget,
 )
+from shiboken6 import isValid
 
 from nep_studio.ui.labels import labelled
 from nep_studio.ui.messages import announce
 from nep_studio.ui.theme.icons import icon
 from nep_studio.ui.theme.look import Look
+from nep_studio.ui.widgets.forms import styled
 from nep_studio.ui.widgets.layouts import in_column
 from nep_studio.ui.words import count_words, tr
 
@@ -56,22 +59,6 @@ if TYPE_CHECKING:
 
 RANKED = Qt.ItemDataRole.UserRole
 Index = QModelIndex | QPersistentModelIndex
-
-
-@dataclass(frozen=True)
-class _Row:
-    """The measures of a row, all from the font."""
-
-    rect: QRect
-    metrics: QFontMetrics
-
-    @property
-    def line(self) -> int:
-        return self.metrics.height()
-
-    @property
-    def gap(self) -> int:
-        return self.line // 2
 
 
 class RowPainter(QStyledItemDelegate):
@@ -95,47 +82,52 @@ class RowPainter(QStyledItemDelegate):
             return
         theme = self._look.theme
         is_current = bool(option.state & QStyle.StateFlag.State_Selected)
-        row = _Row(option.rect, option.fontMetrics)
+        gap = option.fontMetrics.height() // 2
         painter.save()
         painter.setFont(option.font)
         if is_current:
             painter.setPen(Qt.PenStyle.NoPen)
             painter.setBrush(theme.colour("selection"))
             painter.setRenderHint(QPainter.RenderHint.Antialiasing)
-            painter.drawRoundedRect(row.rect.adjusted(1, 1, -1, -1), row.gap / 2, row.gap / 2)
+            painter.drawRoundedRect(option.rect.adjusted(1, 1, -1, -1), gap / 2, gap / 2)
         ink = theme.colour("selection_text" if is_current else "text")
         pale = ink if is_current else theme.colour("muted")
-        self._paint_row(painter, row, ranked, ink, pale)
+        _paint_row(painter, option, ranked, ink, pale)
         painter.restore()
 
-    def _paint_row(
-        self, painter: QPainter, row: _Row, ranked: Ranked, ink: QColor, pale: QColor
-    ) -> None:
-        command, is_mirrored = ranked.command, painter.layoutDirection() == _RIGHT_TO_LEFT
-        top = QRect(row.rect.left(), row.rect.top(), row.rect.width(), round(row.line * 1.6))
-        room = top.adjusted(row.gap, 0, -row.gap, 0)
-        sign = icon("check", ink) if command.is_on else command.icon
-        room = _paint_icon(painter, sign, room, row, is_mirrored, is_off=bool(command.why_not))
+
+def _paint_row(
+    painter: QPainter, option: QStyleOptionViewItem, ranked: Ranked, ink: QColor, pale: QColor
+) -> None:
+    command, line, flags = ranked.command, option.fontMetrics.height(), Qt.AlignmentFlag
+    gap = line // 2
+
+    def placed(rect: QRect) -> QRect:
+        """Where it is that would be there if one read from the left."""
+        return QStyle.visualRect(painter.layoutDirection(), option.rect, rect)
+
+    room = option.rect.adjusted(gap, 0, -gap, 0)
+    room.setHeight(round(line * 1.6))
+    sign = icon("check", ink) if command.is_on else command.icon
+    side = placed(QRect(room.left(), room.center().y() - line // 2, line, line))
+    sign.paint(painter, side, mode=QIcon.Mode.Disabled if command.why_not else QIcon.Mode.Normal)
+    room.setLeft(room.left() + line + gap)
+    painter.setPen(pale)
+    for words in (command.keys, "" if ranked.is_recent and command.keys else command.kind):
+        width = option.fontMetrics.horizontalAdvance(words)
+        if words and width <= room.width() // 2:
+            painter.drawText(placed(room), flags.AlignRight | flags.AlignVCenter, words)
+            room.setRight(room.right() - width - 2 * gap)
+    painter.setPen(pale if command.why_not else ink)
+    _paint_words(painter, ranked, placed(room))
+    if command.why_not:
+        below = QRect(room.left(), room.bottom() - gap // 2, 0, line)
+        below.setRight(option.rect.right() - gap)
         painter.setPen(pale)
-        ends = [command.keys, "" if ranked.is_recent and command.keys else command.kind]
-        for words in filter(None, ends):
-            room = _paint_end(painter, words, room, row, is_mirrored)
-        painter.setPen(pale if command.why_not else ink)
-        _paint_words(painter, ranked, room, is_mirrored)
-        if command.why_not:
-            below = QRect(room.left(), top.bottom() - row.gap // 2, room.width(), row.line)
-            below.setWidth(row.rect.right() - row.gap - below.left())
-            if is_mirrored:
-                below = QRect(
-                    row.rect.left() + row.gap, below.y(), room.right() - row.gap, row.line
-                )
-            painter.setPen(pale)
-            side = Qt.AlignmentFlag.AlignRight if is_mirrored else Qt.AlignmentFlag.AlignLeft
-            shown = row.metrics.elidedText(command.why_not, _ELIDE, below.width())
-            painter.drawText(below, side | Qt.AlignmentFlag.AlignAbsolute, shown)
+        shown = option.fontMetrics.elidedText(command.why_not, _ELIDE, below.width())
+        painter.drawText(placed(below), flags.AlignLeft, shown)
 
 
-_RIGHT_TO_LEFT = Qt.LayoutDirection.RightToLeft
 _ELIDE = Qt.TextElideMode.ElideRight
 
 
@@ -144,31 +136,7 @@ def _ranked(index: Index) -> Ranked | None:
     return ranked if isinstance(ranked, Ranked) else None
 
 
-def _paint_icon(
-    painter: QPainter, sign: QIcon, room: QRect, row: _Row, is_mirrored: bool, *, is_off: bool
-) -> QRect:
-    """Paint the icon where reading begins; the room that is left."""
-    side = row.line
-    left = room.right() - side if is_mirrored else room.left()
-    place = QRect(left, room.center().y() - side // 2, side, side)
-    sign.paint(painter, place, mode=QIcon.Mode.Disabled if is_off else QIcon.Mode.Normal)
-    used = side + row.gap
-    return room.adjusted(0, 0, -used, 0) if is_mirrored else room.adjusted(used, 0, 0, 0)
-
-
-def _paint_end(painter: QPainter, words: str, room: QRect, row: _Row, is_mirrored: bool) -> QRect:
-    """Paint words where reading ends, if there is room; what is left."""
-    width = row.metrics.horizontalAdvance(words)
-    if width > room.width() // 2:
-        return room
-    side = Qt.AlignmentFlag.AlignLeft if is_mirrored else Qt.AlignmentFlag.AlignRight
-    middle = Qt.AlignmentFlag.AlignVCenter
-    painter.drawText(room, side | middle | Qt.AlignmentFlag.AlignAbsolute, words)
-    used = width + 2 * row.gap
-    return room.adjusted(used, 0, 0, 0) if is_mirrored else room.adjusted(0, 0, -used, 0)
-
-
-def _paint_words(painter: QPainter, ranked: Ranked, room: QRect, is_mirrored: bool) -> None:
+def _paint_words(painter: QPainter, ranked: Ranked, room: QRect) -> None:
     """Paint the words; the letters that were typed are bold and underlined."""
     plain, bold = QFont(painter.font()), QFont(painter.font())
     bold.setWeight(QFont.Weight.Bold)
@@ -176,10 +144,9 @@ def _paint_words(painter: QPainter, ranked: Ranked, room: QRect, is_mirrored: bo
     words = ranked.command.words
     metrics = QFontMetrics(bold)
     shown = metrics.elidedText(words, _ELIDE, room.width())
+    is_mirrored = painter.layoutDirection() == Qt.LayoutDirection.RightToLeft
     if is_mirrored or not ranked.letters:  # joined letters must not be torn apart
-        side = Qt.AlignmentFlag.AlignRight if is_mirrored else Qt.AlignmentFlag.AlignLeft
-        middle = Qt.AlignmentFlag.AlignVCenter | Qt.AlignmentFlag.AlignAbsolute
-        painter.drawText(room, side | middle, shown)
+        painter.drawText(room, Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignVCenter, shown)
         return
     x, base = float(room.left()), room.center().y() + (metrics.ascent() - metrics.descent()) / 2
     for text, is_found in _runs(shown, set(ranked.letters)):
@@ -191,14 +158,8 @@ def _paint_words(painter: QPainter, ranked: Ranked, room: QRect, is_mirrored: bo
 
 def _runs(text: str, found: set[int]) -> list[tuple[str, bool]]:
     """A text in pieces that are found or not."""
-    runs: list[tuple[str, bool]] = []
-    for place, letter in enumerate(text):
-        is_found = place in found
-        if runs and runs[-1][1] == is_found:
-            runs[-1] = (runs[-1][0] + letter, is_found)
-        else:
-            runs.append((letter, is_found))
-    return runs
+    runs = groupby(enumerate(text), key=lambda one: one[0] in found)
+    return [("".join(letter for _, letter in run), is_found) for is_found, run in runs]
 
 
 MOST_RECENT = 20
@@ -228,8 +189,7 @@ class CommandPalette(QFrame):
         self.list.setItemDelegate(RowPainter(window.look, self.list))
         self.model = CommandModel(self)
         self.list.setModel(self.model)
-        self.hint = QLabel(wordWrap=True)
-        self.hint.setProperty("role", "hint")
+        self.hint = styled(QLabel(wordWrap=True), role="hint")
         in_column(self.line, self.list, self.hint, of=self)
         self.line.textChanged.connect(self._on_typed)
         self.line.installEventFilter(self)
@@ -247,7 +207,7 @@ class CommandPalette(QFrame):
         if self.isVisible():
             self.leave()
             return
-        self._come_from(QApplication.focusWidget())
+        self._before = QApplication.focusWidget()
         self._commands = [command for source in self._sources for command in source()]
         self.line.setText(typed)
         self._on_typed(typed)
@@ -260,21 +220,9 @@ class CommandPalette(QFrame):
     def leave(self) -> None:
         """Close it, and go back to where the person was."""
         self.hide()
-        before = self._before
-        self._come_from(None)
-        if before is not None and before.isVisible():
+        before, self._before = self._before, None
+        if before is not None and isValid(before) and before.isVisible():  # a field may have gone
             before.setFocus(Qt.FocusReason.PopupFocusReason)
-
-    def _come_from(self, widget: QWidget | None) -> None:
-        """Remember where the person was, as long as that is there: a field may go meanwhile."""
-        if self._before is not None:
-            self._before.destroyed.disconnect(self._on_before_destroyed)
-        self._before = widget
-        if widget is not None:
-            widget.destroyed.connect(self._on_before_destroyed)
-
-    def _on_before_destroyed(self) -> None:
-        self._before = None
 
     def run(self, number: int) -> bool:
         """Do what is in a row; False, and said why, when that cannot be now."""
@@ -321,10 +269,8 @@ class CommandPalette(QFrame):
             self.run(self.list.currentIndex().row())
         elif step and self.rows:
             here, last = self.list.currentIndex().row(), len(self.rows) - 1
-            if abs(step) == 1:
-                self._go((here + step) % len(self.rows))
-            else:
-                self._go(min(max(here + step, 0), last))
+            is_round = abs(step) == 1
+            self._go((here + step) % (last + 1) if is_round else min(max(here + step, 0), last))
         else:
             return False
         return True
@@ -333,8 +279,9 @@ class CommandPalette(QFrame):
         index = self.model.index(number)
         self.list.setCurrentIndex(index)
         self.list.scrollTo(index)
-        command = self.rows[number].command
-        self.hint.setText(self._hint(command))
+        found = count_words(len(self.rows), "1 command", "{n} commands")
+        usual = f"{found} · {tr('Enter does it, Esc closes.')}"
+        self.hint.setText(self.rows[number].command.why_not or usual)
         announce(self.list, self.model.spoken(number))
 
     def _on_typed(self, typed: str) -> None:
@@ -347,12 +294,6 @@ class CommandPalette(QFrame):
             words = tr("Nothing is called like that. Try fewer letters.")
             self.hint.setText(words)
             announce(self.line, words)
-
-    def _hint(self, command: Command) -> str:
-        if command.why_not:
-            return command.why_not
-        found = count_words(len(self.rows), "1 command", "{n} commands")
-        return f"{found} · {tr('Enter does it, Esc closes.')}"
 
     def _place(self) -> None:
         """Be as wide as a line of text can be, below the toolbar, in the middle."""
@@ -429,12 +370,7 @@ class CommandModel(QStringListModel):
 
 def add_command_palette(window: MainWindow) -> CommandPalette:
     """Make the palette and the action that opens it."""
-    palette = CommandPalette(window)
-    window.actions_by_name.add(
-        NOT_IN_ITSELF,
-        "Find a command…",
-        palette.open,
-        icon_name="search",
-        keys=("Ctrl+K", "Ctrl+Shift+P"),
-    )
+    palette, keys = CommandPalette(window), ("Ctrl+K", "Ctrl+Shift+P")
+    add = partial(window.actions_by_name.add, menu=window.menus["view"])
+    add(NOT_IN_ITSELF, "Find a command…", palette.open, icon_name="search", keys=keys)
     return palette

@@ -12,11 +12,11 @@ from typing import TYPE_CHECKING
 from PySide6.QtGui import QAction, QIcon, QKeySequence
 from PySide6.QtWidgets import QMenu
 
+from nep_studio.project.examples import examples
 from nep_studio.ui.theme.icons import icon
 from nep_studio.ui.words import tr
 from nep_studio.ui.workbench.pages_bar import page_title
 
-from .gallery import example_files, example_sentence, example_words
 from .menus import NEEDS_SELECTION
 
 if TYPE_CHECKING:
@@ -51,34 +51,28 @@ Source = Callable[[], Iterable[Command]]
 
 # Why an action cannot be used now, in a sentence that says what to do.
 
-WHY_NOT = "why_not"
-"""An action may carry its own sentence in this property of Qt."""
+NOT_NOW = {
+    "undo": "Nothing has been changed yet.",
+    "redo": "Nothing has been taken back.",
+    "paste": "Copy something first.",
+    "compare": "The project is saved as it is now.",
+    "stop": "Nothing runs now.",
+    "pause": "Nothing runs now.",
+    "step": "Pause the program first.",
+    "run": "The program runs already.",
+}
 
 
 def why_not(window: MainWindow, action: QAction) -> str:
     """Why an action cannot be used now, "" when it can."""
     if action.isEnabled():
         return ""
-    own = action.property(WHY_NOT)
-    if isinstance(own, str) and own:
-        return own
-    name = action.objectName()
     if window.files.document is None:
         return tr("Open a project first.")
-    if name in NEEDS_SELECTION:
+    if action.objectName() in NEEDS_SELECTION:
         return tr("Select a block first.")
-    return (
-        {
-            "undo": tr("Nothing has been changed yet."),
-            "redo": tr("Nothing has been taken back."),
-            "paste": tr("Copy something first."),
-            "compare": tr("The project is saved as it is now."),
-            "stop": tr("Nothing runs now."),
-            "pause": tr("Nothing runs now."),
-            "step": tr("Pause the program first."),
-            "run": tr("The program runs already."),
-        }
-    ).get(name) or tr("There is nothing to do for it now.")
+    reason = tr(NOT_NOW.get(action.objectName(), ""))
+    return reason or tr("There is nothing to do for it now.")
 
 
 NOT_IN_ITSELF = "palette"
@@ -86,14 +80,8 @@ NOT_IN_ITSELF = "palette"
 
 def sources_of(window: MainWindow) -> list[Source]:
     """All that a window offers by itself."""
-    return [
-        lambda: _actions(window),
-        lambda: _pages(window),
-        lambda: _panels(window),
-        lambda: _examples(window),
-        lambda: _recent(window),
-        lambda: _choices(window),
-    ]
+    kinds = (_actions, _pages, _panels, _examples, _recent, _choices)
+    return [partial(kind, window) for kind in kinds]
 
 
 def _actions(window: MainWindow) -> Iterator[Command]:
@@ -122,9 +110,8 @@ def _command(command_id: str, action: QAction, kind: str, reason: str) -> Comman
 
 def _panels(window: MainWindow) -> Iterator[Command]:
     for panel in window.workbench.panels.all:
-        yield _command(
-            f"panel:{panel.name}", panel.action, tr("Panel"), why_not(window, panel.action)
-        )
+        action = panel.action
+        yield _command(f"panel:{panel.name}", action, tr("Panel"), why_not(window, action))
 
 
 def _pages(window: MainWindow) -> Iterator[Command]:
@@ -143,14 +130,14 @@ def _pages(window: MainWindow) -> Iterator[Command]:
 
 
 def _examples(window: MainWindow) -> Iterator[Command]:
-    for path in example_files():
+    for example in examples():
         yield Command(
-            f"example:{path.stem}",
-            tr(example_words(path)),
-            partial(window.files.open_example, path),
+            f"example:{example.path.stem}",
+            tr(example.title),
+            partial(window.files.open_example, example.path),
             tr("Example"),
             icon=icon("graduation-cap", window.look.theme),
-            also=example_sentence(path),
+            also=tr(example.sentence),
         )
 
 
@@ -169,19 +156,15 @@ def _recent(window: MainWindow) -> Iterator[Command]:
 
 def _choices(window: MainWindow) -> Iterator[Command]:
     """The choices inside menus, such as the themes and the languages."""
-    for menu in window.menus.values():
-        for action in menu.actions():
-            inner = action.menu()
-            if isinstance(inner, QMenu):
-                yield from _choices_of(inner)
-
-
-def _choices_of(menu: QMenu) -> Iterator[Command]:
-    title = _plain(menu.title())
-    for action in menu.actions():
-        group = action.actionGroup()
-        if group is not None and group.isExclusive():
-            yield _command(f"choice:{title}:{action.data()}", action, title, "")
+    entries = (action for menu in window.menus.values() for action in menu.actions())
+    for inner in (action.menu() for action in entries):
+        if not isinstance(inner, QMenu):
+            continue
+        title = _plain(inner.title())
+        for action in inner.actions():
+            group = action.actionGroup()
+            if group is not None and group.isExclusive():
+                yield _command(f"choice:{title}:{action.data()}", action, title, "")
 
 
 def _plain(words: str) -> str:
@@ -247,21 +230,16 @@ def _best(word: str, text: str) -> Match | None:
 
 def _together(word: str, text: str) -> Match | None:
     """The word as it is: at the start of a word if it can be."""
-    at = _find_start(word, text)
-    if at >= 0:
-        end = at + len(word)
+    inside = start = text.find(word)
+    while start > 0 and text[start - 1].isalnum():
+        start = text.find(word, start + 1)
+    at = start if start >= 0 else inside
+    end = at + len(word)
+    if start >= 0:
         is_whole = end == len(text) or not text[end].isalnum()
         score = (WHOLE if is_whole else START) + (5 if at == 0 else 0)
         return Match(score, tuple(range(at, end)))
-    at = text.find(word)
-    return Match(INSIDE, tuple(range(at, at + len(word)))) if at >= 0 else None
-
-
-def _find_start(word: str, text: str) -> int:
-    at = text.find(word)
-    while at > 0 and text[at - 1].isalnum():
-        at = text.find(word, at + 1)
-    return at
+    return Match(INSIDE, tuple(range(at, end))) if at >= 0 else None
 
 
 def _initials(word: str, text: str) -> Match | None:
@@ -318,7 +296,10 @@ def ranked(commands: Iterable[Command], typed: str, recent: Sequence[str]) -> li
     """
     places = {one: number for number, one in enumerate(recent)}
     found: list[tuple[float, float, int, Ranked]] = []
-    for number, command in enumerate(_once(commands)):
+    first: dict[str, Command] = {}
+    for command in commands:  # each once, as it was given first
+        first.setdefault(command.id, command)
+    for number, command in enumerate(first.values()):
         fit = match(typed, command.words, f"{command.kind} {command.also}")
         if fit is None:
             continue
@@ -329,11 +310,3 @@ def ranked(commands: Iterable[Command], typed: str, recent: Sequence[str]) -> li
         found.append((-score, bool(command.why_not), number, one))
     found.sort(key=lambda entry: entry[:3])
     return [one for *_, one in found[:MOST_SHOWN]]
-
-
-def _once(commands: Iterable[Command]) -> Iterable[Command]:
-    """Each command once, as it was given first."""
-    first: dict[str, Command] = {}
-    for command in commands:
-        first.setdefault(command.id, command)
-    return first.values()

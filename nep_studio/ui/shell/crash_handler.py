@@ -8,6 +8,7 @@ import threading
 import traceback
 from collections.abc import Callable
 from contextlib import suppress
+from functools import partial
 from logging.handlers import RotatingFileHandler
 from pathlib import Path
 from types import TracebackType
@@ -59,8 +60,8 @@ class LastResort(QObject):
             root = logging.getLogger()
             root.addHandler(file)
             self._restore += [file.close, lambda: root.removeHandler(file)]
-        self._restore.append(_setter(sys, "excepthook", sys.excepthook))
-        self._restore.append(_setter(threading, "excepthook", threading.excepthook))
+        for module in (sys, threading):
+            self._restore.append(partial(setattr, module, "excepthook", module.excepthook))
         sys.excepthook = self._on_error
         threading.excepthook = self._on_thread_error
         qInstallMessageHandler(_log_qt)
@@ -124,7 +125,3 @@ def _message(window: MainWindow, details: str, log_file: Path) -> Message:
 
 def _log_qt(kind: QtMsgType, context: QMessageLogContext, text: str) -> None:
     logging.getLogger("qt").log(_LEVELS.get(kind, logging.WARNING), "%s", text)
-
-
-def _setter(owner: object, name: str, value: object) -> Callable[[], None]:
-    return lambda: setattr(owner, name, value)

@@ -7,8 +7,6 @@ from pathlib import Path
 
 from PySide6.QtCore import QRectF, QSize, Qt, QTimer, Signal
 from PySide6.QtGui import (
-    QEnterEvent,
-    QFocusEvent,
     QFont,
     QFontMetrics,
     QKeyEvent,
@@ -16,7 +14,6 @@ from PySide6.QtGui import (
     QPainter,
     QPaintEvent,
     QPen,
-    QPixmap,
     QShowEvent,
 )
 from PySide6.QtWidgets import (
@@ -27,18 +24,18 @@ from PySide6.QtWidgets import (
     QLineEdit,
     QPushButton,
     QSizePolicy,
-    QVBoxLayout,
     QWidget,
 )
 
-from faults import Words, text_of, verbatim
+from faults import text_of
 from nep_studio.blocks.errors import BlocksError
-from nep_studio.project.examples import Example, example_of, examples
+from nep_studio.project.examples import Example, examples
 from nep_studio.ui.labels import follow_words, labelled
 from nep_studio.ui.messages import announce
 from nep_studio.ui.services import Studio
 from nep_studio.ui.theme.icons import icon, icon_room, paint_icon
 from nep_studio.ui.theme.look import Look
+from nep_studio.ui.widgets.forms import hint, styled
 from nep_studio.ui.widgets.layouts import Flow, ReadingLabel, in_column, in_row
 from nep_studio.ui.words import count_words, is_right_to_left, tr
 
@@ -122,23 +119,6 @@ ARROWS = {
 }
 
 
-def example_files() -> list[Path]:
-    """The examples that come with the program, in the order of the gallery."""
-    return [example.path for example in examples()]
-
-
-def example_words(path: Path) -> Words:
-    """What an example is called."""
-    example = example_of(path)
-    return example.title if example else verbatim(path.stem)
-
-
-def example_sentence(path: Path) -> str:
-    """What an example does, in a sentence."""
-    example = example_of(path)
-    return tr(example.sentence) if example else ""
-
-
 class Signs(QWidget):
     """Small icons with words under each other: what one needs, how long it takes."""
 
@@ -207,7 +187,8 @@ class Card(QFrame):
     def __init__(self, example: Example, look: Look, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self.example, self._look = example, look
-        self.setProperty("kind", "card")
+        styled(self, kind="card")
+        self.setAttribute(Qt.WidgetAttribute.WA_Hover)
         self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
         self.setCursor(Qt.CursorShape.PointingHandCursor)
         line = self.fontMetrics().height()
@@ -215,14 +196,13 @@ class Card(QFrame):
         self.picture.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Fixed)
         self.picture.setFixedHeight(round(line * PICTURE_LINES))
         self.signs = Signs(example, self._look)
-        inside = QVBoxLayout()
-        inside.setContentsMargins(line // 2, line // 4, line // 2, 0)
-        inside.setSpacing(line // 4)
-        inside.addWidget(_label(example.title, "heading"))
-        inside.addWidget(_label(example.sentence, "hint"))
-        inside.addWidget(self.signs)
-        inside.addStretch(1)
-        inside.addLayout(self._buttons(example.title, line))
+        title = _label(example.title, "heading")
+        font = title.font()
+        font.setWeight(QFont.Weight.DemiBold)
+        title.setFont(font)
+        words = (title, _label(example.sentence, "hint"), self.signs, 1)
+        margins, buttons = (line // 2, line // 4, line // 2, 0), self._buttons(example.title, line)
+        inside = in_column(*words, buttons, margins=margins, spacing=line // 4)
         in_column(self.picture, (inside, 1), of=self, margins=(2, 2, 2, line // 2), spacing=0)
         self.set_width(round(line * CARD_LINES) + 4)
         follow_words(self, self._say)
@@ -276,15 +256,10 @@ class Card(QFrame):
         wide = round(picture.width() / picture.devicePixelRatio()) if picture else 0
         return wide == self.picture_size().width()
 
-    def show_picture(self, picture: QPixmap) -> None:
-        """Show the picture."""
-        self.picture.setPixmap(picture)
-
     def mouseReleaseEvent(self, event: QMouseEvent) -> None:
         """A click."""
-        if event.button() == Qt.MouseButton.LeftButton and self.rect().contains(
-            event.position().toPoint()
-        ):
+        is_inside = self.rect().contains(event.position().toPoint())
+        if event.button() == Qt.MouseButton.LeftButton and is_inside:
             self.clicked.emit()
 
     def keyPressEvent(self, event: QKeyEvent) -> None:
@@ -300,16 +275,6 @@ class Card(QFrame):
         else:
             super().keyPressEvent(event)
 
-    def enterEvent(self, event: QEnterEvent) -> None:
-        """Show that it can be clicked."""
-        super().enterEvent(event)
-        self.update()
-
-    def focusInEvent(self, event: QFocusEvent) -> None:
-        """Show the focus."""
-        super().focusInEvent(event)
-        self.update()
-
     def paintEvent(self, event: QPaintEvent) -> None:
         """Draw a line around it when the mouse or the keyboard is there."""
         super().paintEvent(event)
@@ -318,22 +283,16 @@ class Card(QFrame):
         with QPainter(self) as painter:
             painter.setRenderHint(QPainter.RenderHint.Antialiasing)
             width = max(2.0, self.fontMetrics().height() / 9)
-            painter.setPen(
-                QPen(self._look.theme.colour("focus" if self.hasFocus() else "accent"), width)
-            )
+            colour = self._look.theme.colour("focus" if self.hasFocus() else "accent")
+            painter.setPen(QPen(colour, width))
             half, round_ = width / 2, self.fontMetrics().height() * 0.42
             inner = self.rect().toRectF().adjusted(half, half, -half, -half)
             painter.drawRoundedRect(inner, round_, round_)
 
 
 def _label(words: str, role: str) -> QLabel:
-    label = labelled(ReadingLabel(), text=words)
+    label = labelled(styled(ReadingLabel(), role=role), text=words)
     label.setWordWrap(True)
-    label.setProperty("role", role)
-    if role == "heading":
-        font = QFont(label.font())
-        font.setWeight(QFont.Weight.DemiBold)
-        label.setFont(font)
     return label
 
 
@@ -385,9 +344,7 @@ class Gallery(QWidget):
         box = in_column(
             self._search_row(line), self._tag_row(line), of=self, margins=0, spacing=line // 2
         )
-        self.nothing = labelled(QLabel(), text="No example is about this. Try fewer words.")
-        self.nothing.setProperty("role", "hint")
-        self.nothing.setWordWrap(True)
+        self.nothing = hint("No example is about this. Try fewer words.")
         self.nothing.hide()
         box.addWidget(self.nothing)
         self._grid = QGridLayout()
@@ -427,8 +384,7 @@ class Gallery(QWidget):
         self.search.setMaximumWidth(line * 18)
         self.search.textChanged.connect(self._on_filter_changed)
         self.search.left_downwards.connect(self._on_left_search)
-        row = in_row(self.search, 1)
-        return row
+        return in_row(self.search, 1)
 
     def _tag_row(self, line: int) -> QWidget:
         row = QWidget()
@@ -502,11 +458,9 @@ class Gallery(QWidget):
             self._focus(self.shown[0])
 
     def _on_moved(self, card: Card, side: str) -> None:
-        at, is_mirrored = self.shown.index(card), is_right_to_left()
-        forward = -1 if is_mirrored else 1
-        to = at + {"left": -forward, "right": forward, "up": -self._columns}.get(
-            side, self._columns
-        )
+        forward, down = -1 if is_right_to_left() else 1, self._columns
+        steps = {"left": -forward, "right": forward, "up": -down, "down": down}
+        to = self.shown.index(card) + steps[side]
         if 0 <= to < len(self.shown):
             self._focus(self.shown[to])
         elif side == "up":
@@ -570,7 +524,7 @@ class Gallery(QWidget):
             self.devicePixelRatioF(),
             is_mirrored=is_right_to_left(),
         )
-        card.show_picture(picture)
+        card.picture.setPixmap(picture)
 
 
 def _fits(example: Example, wanted: list[str], tags: set[str]) -> bool:

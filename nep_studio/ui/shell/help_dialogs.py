@@ -16,7 +16,6 @@ from PySide6.QtWidgets import (
     QPushButton,
     QTableWidget,
     QTableWidgetItem,
-    QVBoxLayout,
     QWidget,
 )
 
@@ -27,6 +26,7 @@ from nep_studio.blocks.operations.finding import Difference, compare
 from nep_studio.blocks.program import Project
 from nep_studio.ui.documents import Document
 from nep_studio.ui.theme.icons import application_icon
+from nep_studio.ui.widgets.forms import styled
 from nep_studio.ui.widgets.layouts import in_column
 from nep_studio.ui.words import tr
 
@@ -67,20 +67,13 @@ class AboutDialog(QDialog):
         self.setWindowTitle(tr("About NEP Studio"))
         self.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
         line = self.fontMetrics().height()
-        sign = QLabel()
         side = QSize(line * 5, line * 5)
-        sign.setPixmap(application_icon().pixmap(side, self.devicePixelRatioF()))
-        title = QLabel(f"NEP Studio {__version__}")
-        title.setProperty("role", "title")
+        sign = QLabel(pixmap=application_icon().pixmap(side, self.devicePixelRatioF()))
+        title = styled(QLabel(f"NEP Studio {__version__}"), role="title")
         words = QLabel("\n\n".join(self.words()), wordWrap=True)
         words.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
-        box = QVBoxLayout(self)
-        box.setContentsMargins(line, line, line, line)
-        box.setSpacing(line // 2)
-        box.addWidget(sign)
-        box.addWidget(title)
-        box.addWidget(words)
-        box.addWidget(_closer(self), 0, Qt.AlignmentFlag.AlignTrailing)
+        closer = (_closer(self), 0, Qt.AlignmentFlag.AlignTrailing)
+        in_column(sign, title, words, closer, of=self, margins=line, spacing=line // 2)
         self.setMinimumWidth(line * 26)
 
     @staticmethod
@@ -132,13 +125,11 @@ class ComparingDialog(QDialog):
         self.list.itemActivated.connect(self._on_item_chosen)
         line = self.fontMetrics().height()
         self.words = QLabel(self._told(), wordWrap=True)
-        box = in_column(self.words, of=self, margins=line, spacing=line // 2)
-        self.list.setVisible(bool(self.differences))
-        box.addWidget(self.list, 1)
-        close = QPushButton(tr("Close"))
-        close.setAutoDefault(False)  # Enter shows the block of a line
+        close = QPushButton(tr("Close"), autoDefault=False)  # Enter shows the block of a line
         close.clicked.connect(self.close)
-        box.addWidget(close, 0, Qt.AlignmentFlag.AlignTrailing)
+        closer = (close, 0, Qt.AlignmentFlag.AlignTrailing)
+        in_column(self.words, (self.list, 1), closer, of=self, margins=line, spacing=line // 2)
+        self.list.setVisible(bool(self.differences))
         self.resize(line * WIDTH_LINES, line * (HEIGHT_LINES if self.differences else 6))
         document.destroyed.connect(self.close)
 

@@ -178,7 +178,6 @@ class LazyInitialiser(QObject):
         follow_running(window.host, window.toolbar)
         yield from add_plugins(window.host)
         add_command_palette(window)
-        window.menus["view"].addAction(window.actions_by_name["palette"])
         fit_icons(workbench)
         if self.is_laid_out:
             workbench.restore(window.fontMetrics().height())

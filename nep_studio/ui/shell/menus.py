@@ -3,20 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
+from functools import partial
 from typing import TYPE_CHECKING, cast
 
 from PySide6.QtCore import QSize, Qt
 from PySide6.QtGui import QAction, QActionGroup, QGuiApplication, QKeySequence, QPalette
-from PySide6.QtWidgets import (
-    QApplication,
-    QLineEdit,
-    QMenu,
-    QPlainTextEdit,
-    QToolBar,
-    QToolButton,
-)
+from PySide6.QtWidgets import QApplication, QLineEdit, QMenu, QPlainTextEdit, QToolBar, QToolButton
 
 from faults import Words, verbatim
+from nep_studio.project.examples import examples
 from nep_studio.settings import SYSTEM
 from nep_studio.ui.labels import labelled
 from nep_studio.ui.running.actions import RUN_BUTTONS, RunState, keep_width, style_buttons
@@ -25,7 +20,6 @@ from nep_studio.ui.theme.icons import icon, icon_room
 from nep_studio.ui.words import available_languages, count_words, tr
 
 from .dialogs import show_about, show_report, show_shortcuts
-from .gallery import example_files, example_words
 
 if TYPE_CHECKING:
     from nep_studio.blocks.checks.diagnostic import Diagnostic
@@ -56,112 +50,61 @@ NEEDS_PROJECT = (
 
 def add_edit_menu(window: MainWindow) -> QMenu:
     """Make the Edit menu."""
-    menu, actions = add_menu(window, "&Edit"), window.actions_by_name
-    add = actions.add
+    menu = add_menu(window, "&Edit")
+    add = partial(window.actions_by_name.add, menu=menu)
 
-    def commands() -> Commands:
+    def edit() -> Commands:
         return window.workbench.canvas.commands
 
-    menu.addActions(
-        [
-            add("undo", "Undo", lambda: commands().undo(), icon_name="undo-2", keys=Key.Undo),
-            add(
-                "redo",
-                "Redo",
-                lambda: commands().redo(),
-                icon_name="redo-2",
-                keys=(Key.Redo, "Ctrl+Y"),
-            ),
-        ]
-    )
+    add("undo", "Undo", lambda: edit().undo(), icon_name="undo-2", keys=Key.Undo)
+    add("redo", "Redo", lambda: edit().redo(), icon_name="redo-2", keys=(Key.Redo, "Ctrl+Y"))
     menu.addSeparator()
-    cut, copy, paste = _in_texts_too(commands)
-    menu.addActions(
-        [
-            add("cut", "Cut", cut, icon_name="scissors", keys=Key.Cut),
-            add("copy", "Copy", copy, icon_name="copy", keys=Key.Copy),
-            add("paste", "Paste", paste, icon_name="clipboard-paste", keys=Key.Paste),
-            add(
-                "duplicate",
-                "Duplicate",
-                lambda: commands().duplicate(),
-                icon_name="copy-plus",
-                keys="Ctrl+D",
-            ),
-            add(
-                "delete",
-                "Delete",
-                lambda: commands().delete(),
-                icon_name="trash-2",
-                keys=Key.Delete,
-            ),
-        ]
-    )
+    cut, copy, paste = _in_texts_too(edit)
+    add("cut", "Cut", cut, icon_name="scissors", keys=Key.Cut)
+    add("copy", "Copy", copy, icon_name="copy", keys=Key.Copy)
+    add("paste", "Paste", paste, icon_name="clipboard-paste", keys=Key.Paste)
+    add("duplicate", "Duplicate", lambda: edit().duplicate(), icon_name="copy-plus", keys="Ctrl+D")
+    add("delete", "Delete", lambda: edit().delete(), icon_name="trash-2", keys=Key.Delete)
     menu.addSeparator()
-    menu.addActions(_about_blocks(window, commands))
+    _add_about_blocks(menu, window, edit)
     menu.addSeparator()
-    menu.addActions(_finding(window))
+    _add_finding(menu, window)
     menu.addSeparator()
     settings = add("settings", "Settings…", window.open_settings, icon_name="settings")
     settings.setMenuRole(settings.MenuRole.PreferencesRole)
     settings.setShortcuts(QKeySequence.keyBindings(Key.Preferences))
-    menu.addAction(settings)
     QGuiApplication.clipboard().dataChanged.connect(window.update_actions)
     return menu
 
 
-def _about_blocks(window: MainWindow, commands: Callable[[], Commands]) -> list[QAction]:
-    add = window.actions_by_name.add
-    return [
-        add("select_all", "Select all", lambda: commands().select_all(), keys=Key.SelectAll),
-        add(
-            "disable",
-            "Switch off or on",
-            lambda: commands().toggle("disabled"),
-            icon_name="eye-off",
-        ),
-        add(
-            "collapse",
-            "Fold or unfold",
-            lambda: commands().toggle("collapsed"),
-            icon_name="fold-vertical",
-        ),
-        add(
-            "tidy",
-            "Tidy up",
-            lambda: commands().tidy(),
-            icon_name="brush",
-            tip="Push stacks apart that overlap",
-        ),
-        add(
-            "add_page",
-            "Add a page",
-            lambda: window.workbench.pages_bar.add_page(),
-            icon_name="plus",
-        ),
-    ]
+def _add_about_blocks(menu: QMenu, window: MainWindow, edit: Callable[[], Commands]) -> None:
+    add = partial(window.actions_by_name.add, menu=menu)
+    add("select_all", "Select all", lambda: edit().select_all(), keys=Key.SelectAll)
+    add("disable", "Switch off or on", lambda: edit().toggle("disabled"), icon_name="eye-off")
+    add("collapse", "Fold or unfold", lambda: edit().toggle("collapsed"), icon_name="fold-vertical")
+    add(
+        "tidy",
+        "Tidy up",
+        lambda: edit().tidy(),
+        icon_name="brush",
+        tip="Push stacks apart that overlap",
+    )
+    add("add_page", "Add a page", lambda: window.workbench.pages_bar.add_page(), icon_name="plus")
 
 
-def _finding(window: MainWindow) -> list[QAction]:
-    add = window.actions_by_name.add
+def _add_finding(menu: QMenu, window: MainWindow) -> None:
+    add = partial(window.actions_by_name.add, menu=menu)
 
-    def find() -> FindBar:
+    def bar() -> FindBar:
         return window.workbench.helpers.find_bar
 
     def insert() -> None:
         window.workbench.helpers.insert_bar.open()
 
-    return [
-        add("find", "Find…", lambda: find().open(), icon_name="search", keys=Key.Find),
-        add("find_next", "Find next", lambda: find().find_next(), keys=Key.FindNext),
-        add(
-            "find_previous",
-            "Find previous",
-            lambda: find().find_previous(),
-            keys=Key.FindPrevious,
-        ),
-        add("insert", "Insert by typing…", insert, icon_name="keyboard", keys="Ctrl+Space"),
-    ]
+    add("find", "Find…", lambda: bar().open(), icon_name="search", keys=Key.Find)
+    add("find_next", "Find next", lambda: bar().find_next(), keys=Key.FindNext)
+    add("find_previous", "Find previous", lambda: bar().find_previous(), keys=Key.FindPrevious)
+    add("insert", "Insert by typing…", insert, icon_name="keyboard", keys="Ctrl+Space")
 
 
 def _in_texts_too(commands: Callable[[], Commands]) -> tuple[Callable[[], object], ...]:
@@ -213,40 +156,26 @@ def _submenu(menu: QMenu, window: MainWindow, icon_name: str, words: str) -> QMe
 
 def add_file_menu(window: MainWindow) -> QMenu:
     """Make the File menu."""
-    menu, actions, files = add_menu(window, "&File"), window.actions_by_name, window.files
-    menu.addAction(actions.add("new", "New", files.new, icon_name="file-plus", keys=Key.New))
-    open_ = actions.add("open", "Open…", files.choose, icon_name="folder-open", keys=Key.Open)
-    menu.addAction(open_)
+    menu, files = add_menu(window, "&File"), window.files
+    add = partial(window.actions_by_name.add, menu=menu)
+    add("new", "New", files.new, icon_name="file-plus", keys=Key.New)
+    add("open", "Open…", files.choose, icon_name="folder-open", keys=Key.Open)
     recent = _submenu(menu, window, "history", "Open recent")
     recent.aboutToShow.connect(lambda: fill_recent(recent, window))
-    _add_examples(_submenu(menu, window, "graduation-cap", "Examples"), window)
+    shown = _submenu(menu, window, "graduation-cap", "Examples")
+    for example in examples():
+        action = labelled(shown.addAction(""), text=example.title)
+        action.triggered.connect(lambda _=False, path=example.path: files.open_example(path))
     menu.addSeparator()
-    save = actions.add("save", "Save", files.save, icon_name="save", keys=Key.Save)
-    save_as = actions.add(
-        "save_as",
-        "Save as…",
-        files.save_as,
-        icon_name="save-all",
-        keys=(Key.SaveAs, "Ctrl+Shift+S"),
-    )
-    compare = actions.add(
-        "compare",
-        "Compare with the saved version…",
-        lambda: _compare(window),
-        icon_name="file-text",
-    )
-    menu.addActions([save, save_as, compare])
-    picture = actions.add(
-        "picture",
-        "Export picture…",
-        lambda: window.host.ask("exporting.picture"),
-        icon_name="image",
-    )
-    menu.addAction(picture)
+    save_keys, picture = (Key.SaveAs, "Ctrl+Shift+S"), partial(window.host.ask, "exporting.picture")
+    add("save", "Save", files.save, icon_name="save", keys=Key.Save)
+    add("save_as", "Save as…", files.save_as, icon_name="save-all", keys=save_keys)
+    compare = partial(_compare, window)
+    add("compare", "Compare with the saved version…", compare, icon_name="file-text")
+    add("picture", "Export picture…", picture, icon_name="image")
     menu.addSeparator()
-    menu.addAction(actions.add("close", "Close the project", files.close, keys=Key.Close))
-    leave = actions.add("quit", "Quit", window.close, icon_name="power", keys=(Key.Quit, "Ctrl+Q"))
-    menu.addAction(leave)
+    add("close", "Close the project", files.close, keys=Key.Close)
+    add("quit", "Quit", window.close, icon_name="power", keys=(Key.Quit, "Ctrl+Q"))
     return menu
 
 
@@ -269,12 +198,6 @@ def fill_recent(menu: QMenu, window: MainWindow) -> None:
     if menu.isEmpty():
         menu.addAction(tr("No project has been opened yet")).setEnabled(False)
     menu.setToolTipsVisible(True)
-
-
-def _add_examples(menu: QMenu, window: MainWindow) -> None:
-    for path in example_files():
-        action = labelled(menu.addAction(""), text=example_words(path))
-        action.triggered.connect(lambda _=False, path=path: window.files.open_example(path))
 
 
 # The View and Help menus, and the toolbar.
@@ -302,38 +225,21 @@ WORDS_KEPT = (
 
 def add_view_menu(window: MainWindow) -> QMenu:
     """Make the View menu."""
-    menu, add = add_menu(window, "&View"), window.actions_by_name.add
+    menu = add_menu(window, "&View")
+    add = partial(window.actions_by_name.add, menu=menu)
 
     def zoom(factor: float) -> None:
-        canvas = window.workbench.canvas
-        canvas.sight.zoom(canvas.sight.camera.scale * factor)
+        sight = window.workbench.canvas.sight
+        sight.zoom(sight.camera.scale * factor)
 
-    menu.addActions(
-        [
-            add(
-                "zoom_in",
-                "Zoom in",
-                lambda: zoom(ZOOM_STEP),
-                icon_name="zoom-in",
-                keys=(Key.ZoomIn, "Ctrl+="),
-            ),
-            add(
-                "zoom_out",
-                "Zoom out",
-                lambda: zoom(1 / ZOOM_STEP),
-                icon_name="zoom-out",
-                keys=Key.ZoomOut,
-            ),
-            add("zoom_100", "Usual size", lambda: window.workbench.zoom_usual(), keys="Ctrl+0"),
-            add(
-                "zoom_fit",
-                "Show all",
-                lambda: window.workbench.canvas.sight.fit(),
-                icon_name="maximize",
-                keys="Ctrl+9",
-            ),
-        ]
-    )
+    def fit() -> None:
+        window.workbench.canvas.sight.fit()
+
+    nearer, farther = partial(zoom, ZOOM_STEP), partial(zoom, 1 / ZOOM_STEP)
+    add("zoom_in", "Zoom in", nearer, icon_name="zoom-in", keys=(Key.ZoomIn, "Ctrl+="))
+    add("zoom_out", "Zoom out", farther, icon_name="zoom-out", keys=Key.ZoomOut)
+    add("zoom_100", "Usual size", lambda: window.workbench.zoom_usual(), keys="Ctrl+0")
+    add("zoom_fit", "Show all", fit, icon_name="maximize", keys="Ctrl+9")
     menu.addSeparator()
     panels = _submenu(menu, window, "panel-right", "Panels")
     panels.aboutToShow.connect(lambda: _fill_panels(panels, window))
@@ -341,10 +247,14 @@ def add_view_menu(window: MainWindow) -> QMenu:
     minimap.setCheckable(True)
     minimap.setChecked(window.settings.is_minimap_shown)
     minimap.toggled.connect(lambda is_on: window.workbench.helpers.show_minimap(is_on))
-    menu.addAction(minimap)
-    check = add("check", "Check", window.show_problems, icon_name="circle-check", keys="F8")
-    menu.addAction(check)
+    add("check", "Check", window.show_problems, icon_name="circle-check", keys="F8")
     menu.addSeparator()
+    _add_looks(menu, window)
+    menu.addSeparator()  # before what plugins add
+    return menu
+
+
+def _add_looks(menu: QMenu, window: MainWindow) -> None:
     settings, studio = window.settings, window.studio
     choices = _submenu(menu, window, "contrast", "Theme")
     _add_choices(choices, _themes(), lambda: settings.theme, studio.choose_theme)
@@ -357,8 +267,6 @@ def add_view_menu(window: MainWindow) -> QMenu:
         lambda: f"{settings.text_scale:g}",
         lambda scale: studio.choose_text_scale(float(scale)),
     )
-    menu.addSeparator()  # before what plugins add
-    return menu
 
 
 def _fill_panels(menu: QMenu, window: MainWindow) -> None:
@@ -369,50 +277,22 @@ def _fill_panels(menu: QMenu, window: MainWindow) -> None:
 
 def add_help_menu(window: MainWindow) -> QMenu:
     """Make the Help menu."""
-    menu, add = add_menu(window, "&Help"), window.actions_by_name.add
-    menu.addActions(_help_actions(window))
+    menu, ask = add_menu(window, "&Help"), window.host.ask
+    add = partial(window.actions_by_name.add, menu=menu)
+    # These are there before the help, which may come a moment later
+    answer = partial(ask, "help.answer")
+    add("help", "Help", answer, icon_name="circle-question-mark", keys="F1")
+    add("help_contents", "Contents of the help", lambda: ask("help.open"), icon_name="book-open")
+    add("help_search", "Search the help…", lambda: ask("help.search"), icon_name="search")
+    pages = partial(ask, "help.documentation")
+    add("documentation", "Documentation in the browser", pages, icon_name="external-link")
     menu.addSeparator()
-    menu.addAction(
-        add(
-            "shortcuts",
-            "Keyboard shortcuts",
-            lambda: show_shortcuts(window),
-            icon_name="keyboard",
-            keys="Ctrl+F1",
-        )
-    )
-    menu.addAction(
-        add(
-            "report",
-            "Report for support…",
-            lambda: show_report(window),
-            icon_name="file-text",
-        )
-    )
+    keys = partial(show_shortcuts, window)
+    add("shortcuts", "Keyboard shortcuts", keys, icon_name="keyboard", keys="Ctrl+F1")
+    add("report", "Report for support…", lambda: show_report(window), icon_name="file-text")
     about = add("about", "About NEP Studio", lambda: show_about(window), icon_name="info")
     about.setMenuRole(about.MenuRole.AboutRole)
-    menu.addAction(about)
     return menu
-
-
-def _help_actions(window: MainWindow) -> list[QAction]:
-    """They are there before the help, which may come a moment later."""
-    add, sign = window.actions_by_name.add, "circle-question-mark"
-    ask = window.host.ask
-
-    return [
-        add("help", "Help", lambda: ask("help.answer"), icon_name=sign, keys="F1"),
-        add(
-            "help_contents", "Contents of the help", lambda: ask("help.open"), icon_name="book-open"
-        ),
-        add("help_search", "Search the help…", lambda: ask("help.search"), icon_name="search"),
-        add(
-            "documentation",
-            "Documentation in the browser",
-            lambda: ask("help.documentation"),
-            icon_name="external-link",
-        ),
-    ]
 
 
 def add_toolbar(window: MainWindow) -> QToolBar:

@@ -8,7 +8,6 @@ from functools import cached_property
 from importlib import import_module
 from typing import TYPE_CHECKING, Any, cast
 
-from PySide6.QtGui import QAction
 from PySide6.QtWidgets import QMenu, QStatusBar, QWidget
 
 from nep_studio.ui import plugins
@@ -105,21 +104,17 @@ class WindowHost:
         if not new.menu:
             return
         menu = self.menus[new.menu]
-        if next_one := _next(menu, new.after, new.before):
-            menu.insertAction(next_one, action)
+        entries = menu.actions()
+        names = [entry.objectName() for entry in entries]
+        place = len(entries)
+        if new.before and new.before in names:
+            place = names.index(new.before)
+        elif new.after and new.after in names:
+            place = names.index(new.after) + 1
+        if place < len(entries):
+            menu.insertAction(entries[place], action)
         else:
             menu.addAction(action)
-
-
-def _next(menu: QMenu, after: str, before: str) -> QAction | None:
-    """The entry of a menu that a new one comes before; None for the end."""
-    entries = menu.actions()
-    names = [entry.objectName() for entry in entries]
-    if before and before in names:
-        return entries[names.index(before)]
-    if after and after in names:
-        return next(iter(entries[names.index(after) + 1 :]), None)
-    return None
 
 
 def names_of_plugins() -> list[str]:

@@ -29,8 +29,8 @@ def findings() -> Iterator[Finding]:
 
     app = QApplication(sys.argv[:1])
     yield Finding("platform of Qt", "ok", app.platformName())
-    yield from _screens(app)
-    yield from _fonts(app)
+    yield from _screens()
+    yield from _fonts()
     yield from _graphics()
 
 
@@ -51,7 +51,7 @@ def _found(about: str, told: str, missing: str) -> Finding:
     return Finding(about, "ok", told) if told else Finding(about, "note", missing)
 
 
-def _screens(app: object) -> Iterator[Finding]:
+def _screens() -> Iterator[Finding]:
     from PySide6.QtGui import QGuiApplication
 
     for number, screen in enumerate(QGuiApplication.screens(), 1):
@@ -69,7 +69,7 @@ def _screens(app: object) -> Iterator[Finding]:
     yield Finding("colours", "ok", f"{scheme.lower()}, contrast {contrast.lower()}")
 
 
-def _fonts(app: object) -> Iterator[Finding]:
+def _fonts() -> Iterator[Finding]:
     from PySide6.QtGui import QFontDatabase, QGuiApplication
 
     from nep_studio.ui.theme.look import load_fonts

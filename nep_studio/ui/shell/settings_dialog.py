@@ -3,17 +3,17 @@
 from __future__ import annotations
 
 import time
-from dataclasses import dataclass, replace
+from collections.abc import Callable
+from dataclasses import replace
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from PySide6.QtCore import QObject, Qt, QTimer, QUrl, Signal
+from PySide6.QtCore import QObject, QSignalBlocker, Qt, QTimer, QUrl, Signal
 from PySide6.QtGui import QDesktopServices
 from PySide6.QtWidgets import (
     QCheckBox,
     QDialog,
-    QFileDialog,
     QFormLayout,
     QGridLayout,
     QHBoxLayout,
@@ -23,7 +23,6 @@ from PySide6.QtWidgets import (
     QSlider,
     QSpinBox,
     QTabWidget,
-    QVBoxLayout,
     QWidget,
 )
 
@@ -36,7 +35,6 @@ from nep_studio.settings import (
     SYSTEM,
     FolderName,
     Settings,
-    ShowOptions,
 )
 from nep_studio.support.updates import Newest, UpdateChoice, ask, is_usable
 from nep_studio.ui.background import Background
@@ -47,6 +45,7 @@ from nep_studio.ui.theme.colours import load_theme, themes
 from nep_studio.ui.widgets.choices import Choices
 from nep_studio.ui.widgets.forms import ElidedLabel, hint, label_of
 from nep_studio.ui.widgets.layouts import in_column, in_row
+from nep_studio.ui.widgets.questions import ask_for_path
 from nep_studio.ui.words import available_languages, tr
 
 if TYPE_CHECKING:
@@ -76,29 +75,23 @@ class LookPage(QWidget):
         self.language, self.theme = Choices(_languages), Choices(_themes)
         self.language.choose(settings.language)
         self.theme.choose(settings.theme)
+        steps = [round(100 * s / TEXT_STEP) for s in (SMALLEST_TEXT, LARGEST_TEXT)]
         self.text_size = QSlider(Qt.Orientation.Horizontal)
+        self.text_size.setPageStep(5)
+        self.text_size.setRange(*steps)
+        self.text_size.setValue(round(100 * settings.text_scale / TEXT_STEP))
         self.text_percent = QLabel()
-        scale = settings.text_scale
-        slider = self.text_size
-        slider.setRange(
-            round(100 * SMALLEST_TEXT / TEXT_STEP), round(100 * LARGEST_TEXT / TEXT_STEP)
-        )
-        slider.setPageStep(5)
-        slider.setValue(round(100 * scale / TEXT_STEP))
-        self._show_percent(slider.value())
+        self.text_percent.setMinimumWidth(self.fontMetrics().horizontalAdvance("0000 %"))
+        self._show_percent(self.text_size.value())
+        size = in_row((self.text_size, 1), self.text_percent)
         form = _form(self)
         form.addRow(label_of("Language", self.language), self.language)
         form.addRow(label_of("Theme", self.theme), self.theme)
-        form.addRow(label_of("Size of the text", self.text_size), self._size_row())
+        form.addRow(label_of("Size of the text", self.text_size), size)
         form.addRow("", hint("The window makes no sounds, and nothing in it moves by itself."))
         self.text_size.valueChanged.connect(self._show_percent)
         self.text_size.sliderReleased.connect(self.size_chosen)
         self.text_size.actionTriggered.connect(self._on_size_stepped)
-
-    def _size_row(self) -> QHBoxLayout:
-        row = in_row((self.text_size, 1), self.text_percent)
-        self.text_percent.setMinimumWidth(self.fontMetrics().horizontalAdvance("0000 %"))
-        return row
 
     def _show_percent(self, steps: int) -> None:
         self.text_percent.setText(f"{steps * TEXT_STEP} %")
@@ -139,11 +132,10 @@ class FoldersPage(QWidget):
 
     def _buttons(self, name: FolderName, title: str) -> QHBoxLayout:
         row = QHBoxLayout()
-        does = (self._on_open, self._on_change, self._on_reset)
+        does = (self._on_open, self._on_change, lambda name: self.choose(name, None))
         for words, do in zip(FOLDER_BUTTONS, does, strict=True):
             named = text_of("{name}: {kind}", name=text_of(title), kind=text_of(words))
-            button = labelled(QPushButton(), text=words, name=named)
-            button.setAutoDefault(False)
+            button = labelled(QPushButton(autoDefault=False), text=words, name=named)
             button.clicked.connect(lambda _=False, do=do: do(name))
             row.addWidget(button)
         self.reset_buttons[name] = button
@@ -162,15 +154,8 @@ class FoldersPage(QWidget):
         QDesktopServices.openUrl(QUrl.fromLocalFile(str(there)))
 
     def _on_change(self, name: FolderName) -> None:
-        dialog = QFileDialog(self, tr("Choose a folder"), str(self._settings.folder_for(name)))
-        dialog.setFileMode(QFileDialog.FileMode.Directory)
-        dialog.setOption(QFileDialog.Option.ShowDirsOnly)
-        dialog.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
-        dialog.fileSelected.connect(lambda folder: self.choose(name, Path(folder)))
-        dialog.open()
-
-    def _on_reset(self, name: FolderName) -> None:
-        self.choose(name, None)
+        folder, choose = self._settings.folder_for(name), partial(self.choose, name)
+        ask_for_path(self, tr("Choose a folder"), folder, choose, "folder")
 
 
 class ShowPage(QWidget):
@@ -181,19 +166,19 @@ class ShowPage(QWidget):
         self._settings = settings
         chosen = settings.show_options
         self.at_once = labelled(QCheckBox(), text="Run at once")
-        self.at_once.setChecked(chosen.runs_at_once)
         self.again = labelled(QCheckBox(), text="Begin again when the program has ended")
-        self.again.setChecked(chosen.again)
         self.cues = labelled(QCheckBox(), text="Show the cue buttons, for an operator")
-        self.cues.setChecked(chosen.has_cues)
-        self.restarts = QSpinBox()
-        self.restarts.setRange(0, MOST_RESTARTS)
-        self.restarts.setValue(chosen.restarts)
+        self.restarts = QSpinBox(minimum=0, maximum=MOST_RESTARTS, value=chosen.restarts)
         self.pin = QLineEdit(echoMode=QLineEdit.EchoMode.Password)
         self.pin_button = QPushButton(autoDefault=False)
         pin = in_row((self.pin, 1), self.pin_button)
         form = _form(self)
-        for box in (self.at_once, self.again, self.cues):
+        for box, is_on in (
+            (self.at_once, chosen.runs_at_once),
+            (self.again, chosen.again),
+            (self.cues, chosen.has_cues),
+        ):
+            box.setChecked(is_on)
             form.addRow(box)
             box.toggled.connect(self._on_chosen)
         most = label_of("After errors in a row, begin again at most", self.restarts)
@@ -234,12 +219,12 @@ class NetworkPage(QWidget):
         super().__init__()
         self.original = labelled(QCheckBox(), text="Programs of the original NEP may join")
         self.original.setChecked(settings.lets_original_join)
-        form = _form(self)
-        form.addRow(self.original)
         below = hint(
             "Programs of this computer only, by its ports 7000 and 50000. It counts when the"
             " network is started the next time."
         )
+        form = _form(self)
+        form.addRow(self.original)
         form.addRow(below)
         self.original.toggled.connect(lambda on: setattr(settings, "lets_original_join", on))
 
@@ -338,8 +323,7 @@ class PrivacyPage(QWidget):
         self.check = labelled(
             QCheckBox(), text="Ask once a day which version of NEP Studio is the newest"
         )
-        self.address = QLineEdit(self._choice.address)
-        self.address.setPlaceholderText("https://")
+        self.address = QLineEdit(self._choice.address, placeholderText="https://")
         self.ask_button = labelled(QPushButton(autoDefault=False), text="Ask now")
         self.state = QLabel(wordWrap=True)
         self.hint = hint(
@@ -351,44 +335,31 @@ class PrivacyPage(QWidget):
             " them. If you were given one, write it here.",
         )
         self._asking = Asking(self)
-        self._lay_out()
+        line = self.fontMetrics().height()
+        nothing_sent = labelled(
+            QLabel(wordWrap=True),
+            text="NEP Studio sends nothing by itself: projects, recordings and logs stay here.",
+        )
+        on_the_network = labelled(
+            QLabel(wordWrap=True),
+            text="What it does on the network is talking to your robots, watches and nodes.",
+        )
+        box = in_column(nothing_sent, on_the_network, of=self, margins=line)
+        box.addSpacing(line // 2)
+        asking = in_row(label_of("Address", self.address), (self.address, 1), self.ask_button)
+        choice = in_column(self.check, self.unknown, asking, self.hint, self.state, 1)
+        box.addLayout(choice)
         self.address.textEdited.connect(self._on_address_edited)
-        self.check.toggled.connect(self._on_toggled)
+        self.check.toggled.connect(lambda is_on: setattr(self._choice, "is_wanted", is_on))
         self.ask_button.clicked.connect(self._on_ask)
         self._asking.answered.connect(self._on_answered)
         self._show()
 
-    def _lay_out(self) -> None:
-        box = QVBoxLayout(self)
-        line = self.fontMetrics().height()
-        box.setContentsMargins(line, line, line, line)
-        box.addWidget(
-            labelled(
-                QLabel(wordWrap=True),
-                text="NEP Studio sends nothing by itself: projects, recordings and logs stay here.",
-            )
-        )
-        box.addWidget(
-            labelled(
-                QLabel(wordWrap=True),
-                text="What it does on the network is talking to your robots, watches and nodes.",
-            )
-        )
-        box.addSpacing(line // 2)
-        box.addWidget(self.check)
-        box.addWidget(self.unknown)
-        row = in_row(label_of("Address", self.address), (self.address, 1), self.ask_button)
-        box.addLayout(row)
-        box.addWidget(self.hint)
-        box.addWidget(self.state)
-        box.addStretch(1)
-
     def _show(self) -> None:
         """Where no address is known, there is nothing to choose, and it says so."""
         has_address = is_usable(self.address.text().strip())
-        self.check.blockSignals(True)
-        self.check.setChecked(has_address and self._choice.is_wanted)
-        self.check.blockSignals(False)
+        with QSignalBlocker(self.check):
+            self.check.setChecked(has_address and self._choice.is_wanted)
         for part in (self.check, self.ask_button, self.hint):
             part.setVisible(has_address)
         self.unknown.setVisible(not has_address)
@@ -399,9 +370,6 @@ class PrivacyPage(QWidget):
         self._asking.cancel()
         self._choice.address = words
         self._show()
-
-    def _on_toggled(self, is_on: bool) -> None:
-        self._choice.is_wanted = is_on
 
     def _on_ask(self) -> None:
         self.ask_button.setEnabled(False)
@@ -427,30 +395,27 @@ class PrivacyPage(QWidget):
             labelled(self.state, text="This is the newest version.")
 
 
-@dataclass(frozen=True)
-class _Kept:
-    """What Cancel gives back."""
+def _as_it_was(studio: Studio) -> Callable[[], None]:
+    """What puts all settings of the dialog back to what they are now."""
+    settings, updates = studio.settings, UpdateChoice(studio.settings)
+    language, theme, text_scale = settings.language, settings.theme, settings.text_scale
+    folders = {name: settings.chosen_folder(name) for name in FOLDERS}
+    show_options, lets_join = settings.show_options, settings.lets_original_join
+    is_wanted, address = updates.is_wanted, updates.address
 
-    language: str
-    theme: str
-    text_scale: float
-    folders: dict[FolderName, Path | None]
-    show: ShowOptions
-    lets_original_join: bool
-    updates: tuple[bool, str]
+    def take_back() -> None:
+        settings.show_options, settings.lets_original_join = show_options, lets_join
+        updates.is_wanted, updates.address = is_wanted, address
+        for name, folder in folders.items():
+            settings.set_folder(name, folder)
+        if settings.theme != theme:
+            studio.choose_theme(theme)
+        if settings.text_scale != text_scale:
+            studio.choose_text_scale(text_scale)
+        if settings.language != language:
+            studio.choose_language(language)
 
-
-def _kept(settings: Settings) -> _Kept:
-    updates = UpdateChoice(settings)
-    return _Kept(
-        settings.language,
-        settings.theme,
-        settings.text_scale,
-        {name: settings.chosen_folder(name) for name in FOLDERS},
-        settings.show_options,
-        settings.lets_original_join,
-        (updates.is_wanted, updates.address),
-    )
+    return take_back
 
 
 class SettingsDialog(QDialog):
@@ -459,27 +424,23 @@ class SettingsDialog(QDialog):
     def __init__(self, studio: Studio, parent: QWidget) -> None:
         super().__init__(parent)
         self._studio = studio
-        self._before = _kept(studio.settings)
+        self._take_back = _as_it_was(studio)
         self.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
         labelled(self, window_title="Settings")
-        self.reset_button = labelled(QPushButton(), text="Put the panels back")
-        self.cancel_button = labelled(QPushButton(), text="Cancel")
-        self.close_button = labelled(QPushButton(), text="Done")
+        self.reset_button = labelled(QPushButton(autoDefault=False), text="Put the panels back")
+        self.cancel_button = labelled(QPushButton(autoDefault=False), text="Cancel")
+        self.close_button = labelled(QPushButton(default=True), text="Done")
         self.pages = QTabWidget()
         line = self.fontMetrics().height()
         buttons = in_row(self.reset_button, 1, self.cancel_button, self.close_button)
-        self.close_button.setDefault(True)
-        self.cancel_button.setAutoDefault(False)
-        self.reset_button.setAutoDefault(False)
         in_column((self.pages, 1), buttons, of=self, margins=line, spacing=line)
         self.setMinimumWidth(line * 34)
-        # Make the pages
-        settings = self._studio.settings
+        settings = studio.settings
         look = LookPage(settings)
         self.language, self.theme = look.language, look.theme
-        self.text_size: QSlider = look.text_size
-        self.language.activated.connect(self._on_language_chosen)
-        self.theme.activated.connect(self._on_theme_chosen)
+        self.text_size = look.text_size
+        self.language.activated.connect(lambda: studio.choose_language(self.language.currentData()))
+        self.theme.activated.connect(lambda: studio.choose_theme(self.theme.currentData()))
         look.size_chosen.connect(self._on_size_chosen)
         self.folders, self.show_page = FoldersPage(settings), ShowPage(settings)
         self.network_page, self.privacy = NetworkPage(settings), PrivacyPage(settings)
@@ -491,26 +452,8 @@ class SettingsDialog(QDialog):
 
     def reject(self) -> None:
         """Take back what was chosen since the dialog was opened."""
-        before, studio, settings = self._before, self._studio, self._studio.settings
-        settings.show_options = before.show
-        settings.lets_original_join = before.lets_original_join
-        updates = UpdateChoice(settings)
-        updates.is_wanted, updates.address = before.updates
-        for name, folder in before.folders.items():
-            settings.set_folder(name, folder)
         super().reject()
-        if settings.theme != before.theme:
-            studio.choose_theme(before.theme)
-        if settings.text_scale != before.text_scale:
-            studio.choose_text_scale(before.text_scale)
-        if settings.language != before.language:
-            studio.choose_language(before.language)
-
-    def _on_language_chosen(self) -> None:
-        self._studio.choose_language(self.language.currentData())
-
-    def _on_theme_chosen(self) -> None:
-        self._studio.choose_theme(self.theme.currentData())
+        self._take_back()
 
     def _on_size_chosen(self) -> None:
         self._studio.choose_text_scale(self.text_size.value() * TEXT_STEP / 100)

@@ -12,7 +12,6 @@ from PySide6.QtWidgets import (
     QLabel,
     QPushButton,
     QScrollArea,
-    QVBoxLayout,
     QWidget,
 )
 
@@ -21,7 +20,8 @@ from nep_studio.ui.document_files import Files
 from nep_studio.ui.labels import labelled
 from nep_studio.ui.services import Studio
 from nep_studio.ui.theme.icons import application_icon, icon, icon_pixmap
-from nep_studio.ui.widgets.layouts import Flow, ReadingLabel, in_column
+from nep_studio.ui.widgets.forms import styled
+from nep_studio.ui.widgets.layouts import Flow, ReadingLabel, in_column, in_row
 
 from .gallery import Card, Gallery
 
@@ -36,33 +36,28 @@ class TourOffer(QFrame):
     def __init__(self, studio: Studio, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self._studio = studio
-        self.setProperty("kind", "info")
         line, theme = self.fontMetrics().height(), studio.look.theme
-        box = QHBoxLayout(self)
-        box.setContentsMargins(line // 2, line // 2, line // 2, line // 2)
-        box.setSpacing(line // 2)
-        sign = QLabel()
-        sign.setPixmap(
-            icon_pixmap("map", theme.colour("text"), line * 1.4, self.devicePixelRatioF())
-        )
-        box.addWidget(sign, 0, Qt.AlignmentFlag.AlignTop)
+        ratio = self.devicePixelRatioF()
+        sign = QLabel(pixmap=icon_pixmap("map", theme.colour("text"), line * 1.4, ratio))
         self.words = labelled(
             ReadingLabel(), text="New here? Five short steps show how a robot gets its behaviour."
         )
         self.words.setWordWrap(True)
         row = Flow(spacing=line // 3)
         self.take_button = labelled(QPushButton(), text="Take the tour")
-        self.take_button.setIcon(icon("footprints", self._studio.look.theme))
+        self.take_button.setIcon(icon("footprints", theme))
         self.take_button.clicked.connect(self._on_taken)
         self.leave_button = labelled(
-            QPushButton(), text="Not now", tip="The tour stays in the Help menu"
+            styled(QPushButton(), kind="quiet"),
+            text="Not now",
+            tip="The tour stays in the Help menu",
         )
-        self.leave_button.setProperty("kind", "quiet")
         self.leave_button.clicked.connect(self._on_left)
         row.addWidget(self.take_button)
         row.addWidget(self.leave_button)
         words = in_column(self.words, row)
-        box.addLayout(words, 1)
+        parts = (sign, 0, Qt.AlignmentFlag.AlignTop), (words, 1)
+        in_row(*parts, of=styled(self, kind="info"), margins=line // 2, spacing=line // 2)
         self.setVisible(not studio.settings.tour_done)
 
     def _on_taken(self) -> None:
@@ -94,8 +89,8 @@ class StartPage(QScrollArea):
         self.setFrameShape(QFrame.Shape.NoFrame)
         self.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
         self.recent_buttons: dict[Path, QPushButton] = {}
-        files.recent_changed.connect(self._on_recent_changed)
-        studio.look.theme_changed.connect(self._on_theme_changed)
+        files.recent_changed.connect(self._fill_recent)
+        studio.look.theme_changed.connect(self._fill)
         self._fill()
 
     @property
@@ -107,49 +102,32 @@ class StartPage(QScrollArea):
         line = self.fontMetrics().height()
         inner = QWidget()
         inner.setObjectName("start")
-        box = QVBoxLayout(inner)
-        margin = self._margin()
-        box.setContentsMargins(margin, line * 2, margin, line * 2)
-        box.setSpacing(line)
-        box.addLayout(self._header(line))
-        box.addLayout(self._beginnings(line))
         self.tour_offer = TourOffer(self._studio)
         self.tour_offer.accepted.connect(self.tour_requested)
-        box.addWidget(self.tour_offer)
-        self._recent = QVBoxLayout()
-        self._recent.setSpacing(line // 6)
-        box.addLayout(self._recent)
+        self._recent = in_column(spacing=line // 6)
         self._examples_heading = _heading("Examples to try and change", line)
-        box.addWidget(self._examples_heading)
         gallery = self.gallery = Gallery(self._studio)
         gallery.opened.connect(self._files.open_example)
         gallery.try_requested.connect(self.try_requested)
         gallery.focus_moved.connect(lambda widget: self.ensureWidgetVisible(widget, 0, 50))
-        box.addWidget(gallery)
-        box.addStretch(1)
+        above = (self._header(line), self._beginnings(line), self.tour_offer, self._recent)
+        self._box = in_column(*above, self._examples_heading, gallery, 1, of=inner, spacing=line)
         self._fill_recent()
         self.setWidget(inner)
         self._fit()
 
-    def _margin(self) -> int:
-        """Much room at the sides, but not in a narrow window."""
-        line = self.fontMetrics().height()
-        return min(line * 2, max(line // 2, self.viewport().width() // 20))
-
     def _header(self, line: int) -> QHBoxLayout:
-        row, sign = QHBoxLayout(), QLabel()
-        side = line * 4
-        sign.setPixmap(application_icon().pixmap(QSize(side, side), self.devicePixelRatioF()))
-        row.addWidget(sign)
+        side = QSize(line * 4, line * 4)
+        sign = QLabel(pixmap=application_icon().pixmap(side, self.devicePixelRatioF()))
         title = ReadingLabel("NEP Studio")
         title.setStyleSheet(f"font-size: {round(line * 1.7)}px; font-weight: 600;")
         about = labelled(
-            ReadingLabel(),
+            styled(ReadingLabel(), role="hint"),
             text="Give a social robot its behaviour with blocks, without programming.",
         )
-        about.setProperty("role", "hint")
         about.setWordWrap(True)
         words = in_column(1, title, about, 1, spacing=line // 4)
+        row = in_row(sign)
         row.addSpacing(line)
         row.addLayout(words, 1)
         return row
@@ -174,10 +152,7 @@ class StartPage(QScrollArea):
     def show_examples(self) -> None:
         """Go to the first example."""
         first = next(iter(self.gallery.shown), None)
-        inner = self.widget()
-        layout = inner.layout() if inner is not None else None
-        if layout is not None:
-            layout.activate()  # cards that were made just now have a place only then
+        self._box.activate()  # cards that were made just now have a place only then
         bar = self.verticalScrollBar()
         bar.setValue(min(bar.maximum(), self._examples_heading.y()))
         (first or self.gallery.search).setFocus(Qt.FocusReason.OtherFocusReason)
@@ -188,12 +163,10 @@ class StartPage(QScrollArea):
         self._fit()
 
     def _fit(self) -> None:
-        margin, inner = self._margin(), self.widget()
-        layout = inner.layout() if inner is not None else None
-        if layout is None:
-            return
+        # Much room at the sides, but not in a narrow window
         line = self.fontMetrics().height()
-        layout.setContentsMargins(margin, line * 2, margin, line * 2)
+        margin = min(line * 2, max(line // 2, self.viewport().width() // 20))
+        self._box.setContentsMargins(margin, line * 2, margin, line * 2)
         self.gallery.show_in(self.viewport().width() - 2 * margin)
 
     def _fill_recent(self) -> None:
@@ -209,14 +182,12 @@ class StartPage(QScrollArea):
 
     def _recent_button(self, path: Path) -> QPushButton:
         is_there = path.is_file()
-        words = f"{path.stem}   —   {_short(path.parent)}"
-        button = labelled(
-            QPushButton(),
-            text=verbatim(words)
-            if is_there
-            else text_of("{name} (not there any more)", name=words),
-        )
-        button.setProperty("kind", "quiet")
+        name = f"{path.stem}   —   {_short(path.parent)}"
+        button = styled(QPushButton(), kind="quiet")
+        if is_there:
+            labelled(button, text=verbatim(name))
+        else:
+            labelled(button, text=text_of("{name} (not there any more)", name=name))
         button.setIcon(icon("file-text", self._studio.look.theme))
         button.setEnabled(is_there)
         button.setToolTip(str(path))
@@ -224,16 +195,9 @@ class StartPage(QScrollArea):
         self.recent_buttons[path] = button
         return button
 
-    def _on_recent_changed(self) -> None:
-        self._fill_recent()
-
-    def _on_theme_changed(self) -> None:
-        self._fill()
-
 
 def _heading(words: str, line: int) -> QLabel:
-    label = labelled(ReadingLabel(), text=words)
-    label.setProperty("role", "title")
+    label = labelled(styled(ReadingLabel(), role="title"), text=words)
     label.setContentsMargins(0, line // 2, 0, 0)
     return label
 

@@ -11,7 +11,6 @@ from PySide6.QtCore import QDateTime, QLocale, QProcess, QSize, Qt
 from PySide6.QtGui import QGuiApplication
 from PySide6.QtWidgets import (
     QDialog,
-    QFileDialog,
     QLabel,
     QListWidget,
     QListWidgetItem,
@@ -35,8 +34,9 @@ from nep_studio.ui.messages import Answer, Message
 from nep_studio.ui.services import Studio
 from nep_studio.ui.theme.icons import icon
 from nep_studio.ui.theme.look import code_font, load_fonts
-from nep_studio.ui.widgets.forms import room_around
+from nep_studio.ui.widgets.forms import hint, room_around, styled
 from nep_studio.ui.widgets.layouts import in_column, in_row
+from nep_studio.ui.widgets.questions import ask_for_path
 from nep_studio.ui.words import count_words, is_right_to_left, tr
 from nep_studio.ui.workbench.workbench import block_font
 
@@ -55,7 +55,7 @@ class SupportDialog(QDialog):
 
     def __init__(self, parent: QWidget | None, folder: Path | None = None) -> None:
         super().__init__(parent)
-        self._folder = folder or usual_folder("projects")
+        self._suggested = (folder or usual_folder("projects")) / FILE
         self.report: Report | None = None
         self.setWindowTitle(tr("Report for support"))
         self.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose, parent is not None)
@@ -65,9 +65,9 @@ class SupportDialog(QDialog):
         self.preview.setLineWrapMode(QPlainTextEdit.LineWrapMode.NoWrap)
         self.preview.setFont(code_font(self.font().pointSizeF()))
         self.preview.setLayoutDirection(Qt.LayoutDirection.LeftToRight)
-        self.copy_button = QPushButton(tr("Copy"))
-        self.save_button = QPushButton(tr("Save…"))
-        self.close_button = QPushButton(tr("Close"))
+        self.copy_button = QPushButton(tr("Copy"), autoDefault=False)
+        self.save_button = styled(QPushButton(tr("Save…"), autoDefault=False), kind="primary")
+        self.close_button = QPushButton(tr("Close"), autoDefault=False)
         self._lay_out()
         self.copy_button.clicked.connect(self._on_copy)
         self.save_button.clicked.connect(self._on_save)
@@ -106,19 +106,13 @@ class SupportDialog(QDialog):
 
     def _lay_out(self) -> None:
         line = self.fontMetrics().height()
-        about = QLabel(
-            tr(
-                "This tells those who help you what they need to know. NEP Studio sends it to"
-                " nobody: read it, then copy or save it, and send it yourself."
-            )
+        about = tr(
+            "This tells those who help you what they need to know. NEP Studio sends it to"
+            " nobody: read it, then copy or save it, and send it yourself."
         )
-        about.setWordWrap(True)
-        buttons = in_row((self.state, 1))
-        for button in (self.copy_button, self.save_button, self.close_button):
-            button.setAutoDefault(False)
-            buttons.addWidget(button)
-        self.save_button.setProperty("kind", "primary")
-        in_column(about, (self.preview, 1), buttons, of=self, margins=line, spacing=line // 2)
+        told = QLabel(about, wordWrap=True)
+        buttons = in_row((self.state, 1), self.copy_button, self.save_button, self.close_button)
+        in_column(told, (self.preview, 1), buttons, of=self, margins=line, spacing=line // 2)
         letter = self.preview.fontMetrics()
         room = room_around(self.parentWidget())
         width = min(letter.averageCharWidth() * COLUMNS, room.width())
@@ -135,12 +129,8 @@ class SupportDialog(QDialog):
             return
         self.preview.setPlainText(self.report.text())
         looks = [one for part in self.report.parts for one in part.findings if one.state == "look"]
-        sound = tr("Nothing of what was checked is wrong.")
-        self.state.setText(
-            count_words(len(looks), "1 thing to look at", "{n} things to look at")
-            if looks
-            else sound
-        )
+        found = count_words(len(looks), "1 thing to look at", "{n} things to look at")
+        self.state.setText(found if looks else tr("Nothing of what was checked is wrong."))
         self._show_buttons()
 
     def _on_error(self, error: QProcess.ProcessError) -> None:
@@ -163,13 +153,7 @@ class SupportDialog(QDialog):
         self.state.setText(tr("The report is copied. Paste it into a message."))
 
     def _on_save(self) -> None:
-        dialog = QFileDialog(self, tr("Save as"), str(self._folder))
-        dialog.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
-        dialog.setAcceptMode(QFileDialog.AcceptMode.AcceptSave)
-        dialog.setDefaultSuffix("zip")
-        dialog.selectFile(FILE)
-        dialog.fileSelected.connect(lambda chosen: self.save(Path(chosen)))
-        dialog.open()
+        ask_for_path(self, tr("Save as"), self._suggested, self.save, "save")
 
 
 # Asks what is to be done when the last start failed, before anything of the person's is read.
@@ -190,17 +174,12 @@ class AfterACrash(QMessageBox):
                 " card. Nothing of it is deleted."
             )
         )
-        self.safe_button: QPushButton = self._button(tr("Start in safe mode"), role.AcceptRole)
-        self.usual_button: QPushButton = self._button(tr("Start as usual"), role.AcceptRole)
-        self.report_button: QPushButton = self._button(tr("Report for support…"), role.ActionRole)
-        self.close_button: QPushButton = self._button(tr("Close"), role.RejectRole)
+        self.safe_button = self.addButton(tr("Start in safe mode"), role.AcceptRole)
+        self.usual_button = self.addButton(tr("Start as usual"), role.AcceptRole)
+        self.report_button = self.addButton(tr("Report for support…"), role.ActionRole)
+        self.close_button = self.addButton(tr("Close"), role.RejectRole)
         self.setDefaultButton(self.safe_button)
         self.setEscapeButton(self.close_button)
-
-    def _button(self, text: str, role: QMessageBox.ButtonRole) -> QPushButton:
-        button = QPushButton(text)
-        self.addButton(button, role)
-        return button
 
 
 def ask() -> bool:
@@ -212,7 +191,6 @@ def ask() -> bool:
         box.exec()
         if box.clickedButton() is not box.report_button:
             break
-
         SupportDialog(None).exec()
     if box.clickedButton() is box.safe_button:
         safe_mode.begin()
@@ -288,45 +266,37 @@ class RecoveryDialog(QDialog):
         self.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
         self.list = QListWidget()
         self.picture = QLabel()
-        self.restore_button = QPushButton(tr("Restore"))
+        self.restore_button = styled(QPushButton(tr("Restore"), default=True), kind="primary")
         self.look_button = QPushButton(tr("Look"))
         self.discard_button = QPushButton(tr("Discard"))
         self.later_button = QPushButton(tr("Decide later"))
-        line = self.fontMetrics().height()
-        box = in_column(
-            _label(tr("Some work was not saved"), "title"), of=self, margins=line, spacing=line // 2
-        )
-        sentence = tr("NEP Studio ended without warning. This is what you had done until then.")
-        box.addWidget(_label(sentence, "hint"))
-        box.addWidget(self.list, 1)
-        box.addWidget(self.picture)
-        self.picture.hide()
-        self.picture.setAccessibleName(tr("The blocks of this project"))
-        row = in_row(
+        title = styled(QLabel(tr("Some work was not saved"), wordWrap=True), role="title")
+        about = hint("NEP Studio ended without warning. This is what you had done until then.")
+        foot = in_row(
             self.discard_button, self.look_button, 1, self.later_button, self.restore_button
         )
-        box.addLayout(row)
-        self.restore_button.setProperty("kind", "primary")
-        self.restore_button.setDefault(True)
+        line = self.fontMetrics().height()
+        parts = (title, about, (self.list, 1), self.picture, foot)
+        in_column(*parts, of=self, margins=line, spacing=line // 2)
+        self.picture.hide()
+        self.picture.setAccessibleName(tr("The blocks of this project"))
         self.list.setMinimumSize(line * WIDTH_LINES, line * 5)
         self.list.setAccessibleName(tr("Work that was not saved"))
-        self._connect()
-        self._fill()
-
-    def _connect(self) -> None:
         self.list.itemDoubleClicked.connect(self._on_restore)
         self.list.currentRowChanged.connect(self._on_row_changed)
         self.restore_button.clicked.connect(self._on_restore)
         self.look_button.clicked.connect(self._on_look)
         self.discard_button.clicked.connect(self._on_discard)
         self.later_button.clicked.connect(self.reject)
+        self._fill()
 
     def _fill(self) -> None:
-        theme = self._studio.look.theme
         for work in self._found:
             blocks = count_words(len(work.project.blocks), "1 block", "{n} blocks")
-            words = f"{work.name}   —   {_when(work.time)}, {blocks}"
-            item = QListWidgetItem(icon("history", theme), words)
+            moment = QDateTime.fromSecsSinceEpoch(int(work.time))
+            when = QLocale().toString(moment, QLocale.FormatType.ShortFormat)
+            words = f"{work.name}   —   {when}, {blocks}"
+            item = QListWidgetItem(icon("history", self._studio.look.theme), words)
             item.setToolTip(str(work.path or tr("It had no file yet.")))
             self.list.addItem(item)
         self.list.setCurrentRow(0)
@@ -372,14 +342,3 @@ class RecoveryDialog(QDialog):
         self.list.takeItem(row)
         if not self._found:
             self.reject()
-
-
-def _label(words: str, role: str) -> QLabel:
-    label = QLabel(words, wordWrap=True)
-    label.setProperty("role", role)
-    return label
-
-
-def _when(time: float) -> str:
-    moment = QDateTime.fromSecsSinceEpoch(int(time))
-    return QLocale().toString(moment, QLocale.FormatType.ShortFormat)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import TypeVar
+
 from PySide6.QtCore import QPoint, QRect, QSize, Qt, QTimer
 from PySide6.QtGui import QGuiApplication, QResizeEvent, QScreen
 from PySide6.QtWidgets import (
@@ -22,6 +24,8 @@ from nep_studio.ui import labels
 from nep_studio.ui.theme.icons import icon
 from nep_studio.ui.theme.look import Look
 from nep_studio.ui.widgets.layouts import Part, in_column
+
+Styled = TypeVar("Styled", bound=QWidget)
 
 UNKNOWN = "…"
 """Stands where an address is not known."""
@@ -75,12 +79,16 @@ class CopyLine(QWidget):
         self._again.start()
 
 
+def styled(widget: Styled, **looks: str) -> Styled:
+    """Give a widget what the style sheet of a theme asks for: its ``role``, or its ``kind``."""
+    for name, look in looks.items():
+        widget.setProperty(name, look)
+    return widget
+
+
 def hint(words: Words) -> QLabel:
     """Words that explain, in a quiet colour; in English, as all labels."""
-    label = labels.labelled(QLabel(), text=words)
-    label.setWordWrap(True)
-    label.setProperty("role", "hint")
-    return label
+    return labels.labelled(styled(QLabel(wordWrap=True), role="hint"), text=words)
 
 
 def label_of(words: Words, buddy: QWidget) -> QLabel:
@@ -101,10 +109,7 @@ def labelled(words: Words, field: QWidget) -> QWidget:
 
 def quiet_button(words: Words) -> QPushButton:
     """A button that does not call for attention, and never is what Enter presses."""
-    button = labels.labelled(QPushButton(), text=words)
-    button.setAutoDefault(False)
-    button.setProperty("kind", "quiet")
-    return button
+    return labels.labelled(styled(QPushButton(autoDefault=False), kind="quiet"), text=words)
 
 
 def column_in(widget: QWidget, *parts: Part) -> QVBoxLayout:
@@ -114,10 +119,8 @@ def column_in(widget: QWidget, *parts: Part) -> QVBoxLayout:
 
 def card_around(label: QLabel, kind: str) -> QFrame:
     """Put words into a card of a colour."""
-    card = QFrame()
-    card.setProperty("kind", kind)
-    room = label.fontMetrics().height() // 2
-    in_column(label, of=card, margins=room)
+    card = styled(QFrame(), kind=kind)
+    in_column(label, of=card, margins=label.fontMetrics().height() // 2)
     return card
 
 

@@ -187,7 +187,7 @@ def test_an_operator_arranges_colours_keys_and_own_cues(
 
     assert words(shown) == ["“hello”", "Chop", "Storm"]
     chop = kept_cues(window.files.document.project)[1]
-    assert (chop.state, chop.colour, chop.key) == ("gesture_karate", COLOURS[3], "7")
+    assert (chop.state, chop.colour, chop.key) == ("gesture_karate", list(COLOURS)[3], "7")
     assert window.files.document.is_modified
     window.actions_by_name["undo"].trigger()
     qtbot.waitUntil(lambda: words(shown) == ["Karate", "“hello”"])
@@ -252,7 +252,7 @@ def test_as_many_buttons_in_a_row_as_fit(panel: Callable[..., CuePanel], qtbot: 
     assert columns_for(board.buttons, 20 * one, 6) == 3
 
 
-@pytest.mark.parametrize("colour", COLOURS[1:])
+@pytest.mark.parametrize("colour", list(COLOURS)[1:])
 def test_words_can_be_read_on_every_colour(colour: str) -> None:
     from PySide6.QtGui import QColor
 

@@ -160,6 +160,18 @@ def test_the_pages_of_the_help_that_are_read_are_kept(
     assert read.count("block/robot.say") == 1
 
 
+def test_a_run_that_began_before_the_study_does_not_begin_again_after_a_pause(
+    window: MainWindow, recorder: StudyRecorder
+) -> None:
+    recorder.start(Sitting("P01"))
+
+    for state in ("paused", "running", "idle"):
+        window.running.runner.state_changed.emit(state)
+    window.running.runner.ended.emit(Ending())
+
+    assert told(recorder) == ["study_started", "run_ended"]
+
+
 def test_only_the_first_run_of_a_sitting_is_the_first(
     window: MainWindow, recorder: StudyRecorder
 ) -> None:

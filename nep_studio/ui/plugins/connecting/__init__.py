@@ -47,11 +47,9 @@ def open_connecting(host: Host, robot: str = "") -> ConnectDialog | None:
     meant = meant or next((one for one in entries if one.address.strip()), None)
     if meant is not None:
         dialog.robot.setCurrentText(meant.name)
-        login = saved_login(meant.address.strip())
-        if login is None:
-            dialog.show_address(meant.address.strip())
-        else:
-            dialog.show_address(meant.address.strip(), login.user, login.password)
+        address = meant.address.strip()
+        login = saved_login(address)
+        dialog.show_address(address, *((login.user, login.password) if login else ()))
     dialog.used.connect(
         lambda name, place, user, password, fingerprint: use_robot(
             host, name, place, SavedLogin(user, password, fingerprint) if password else None

@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-import logging
 import threading
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, cast
 
-from PySide6.QtCore import QSize, Qt, QTimer, Signal
-from PySide6.QtGui import QCloseEvent, QHideEvent
+from PySide6.QtCore import QSignalBlocker, QSize, Qt, QTimer, Signal
+from PySide6.QtGui import QHideEvent
 from PySide6.QtWidgets import (
     QCheckBox,
     QComboBox,
@@ -22,14 +21,13 @@ from PySide6.QtWidgets import (
     QListWidgetItem,
     QProgressBar,
     QPushButton,
-    QVBoxLayout,
     QWidget,
 )
 
 from nep_studio.ui.background import Job, Tell
 from nep_studio.ui.theme.icons import icon
 from nep_studio.ui.theme.look import Look
-from nep_studio.ui.widgets.forms import card_around, label_of, room_around
+from nep_studio.ui.widgets.forms import card_around, fit_on_screen, hint, label_of, styled
 from nep_studio.ui.widgets.layouts import in_column, in_row, scrolled
 from nep_studio.ui.words import count_words, tr
 
@@ -38,8 +36,6 @@ if TYPE_CHECKING:
     from robots.naoqi.probe import AboutRobot, Check
 
 # Looks for robots and tests the way to one, in threads of their own; news come as signals.
-
-log = logging.getLogger(__name__)
 
 
 class RobotSearch(Job):
@@ -87,6 +83,7 @@ class RobotTest(Job):
 
 # The robots that were found in the network, with the search that finds them.
 
+BY_MOUSE = Qt.TextInteractionFlag.TextSelectableByMouse
 SEARCH_S = 4.0
 ADDRESS = Qt.ItemDataRole.UserRole
 ROWS = 3
@@ -103,20 +100,18 @@ class FoundList(QWidget):
         self.interfaces: tuple[str, ...] = ()
         self.search = RobotSearch(self)
         self.robots = QListWidget()
-        self.told = QLabel(wordWrap=True)
-        self.progress = QProgressBar(textVisible=False)
-        self.button = QPushButton()
+        self.told = hint("")
+        self.progress = QProgressBar(textVisible=False, minimum=0, maximum=0)
+        self.button = QPushButton(autoDefault=False)
         line = self.fontMetrics().height()
         self.robots.setAccessibleName(tr("Robots in this network"))
         self.robots.setIconSize(QSize(round(line * 1.4), round(line * 1.4)))
         self.robots.setFixedHeight(round(line * 1.9) * ROWS)
-        self.told.setProperty("role", "hint")
-        self.progress.setRange(0, 0)
         self.progress.setAccessibleName(tr("Looking for robots…"))
         foot = in_row((self.told, 1), self.button)
         in_column(self.robots, self.progress, foot, of=self, margins=0, spacing=line // 3)
         self.search.found.connect(self._on_found)
-        self.search.ended.connect(self._on_ended)
+        self.search.ended.connect(self._show_end)
         self.robots.currentItemChanged.connect(self._on_chosen)
         self.robots.itemClicked.connect(self._on_chosen)
         self.button.clicked.connect(self._on_pressed)
@@ -145,10 +140,6 @@ class FoundList(QWidget):
         item.setData(ADDRESS, address)
         item.setToolTip(address)
         self.robots.addItem(item)
-
-    def _on_ended(self, problem: str) -> None:
-        self.search.stop()
-        self._show_end(problem)
 
     def _show_end(self, problem: str) -> None:
         self.progress.setVisible(False)
@@ -218,25 +209,24 @@ class StepsView(QFrame):
         super().__init__(parent)
         self._look = look
         self._questions = step_questions()
-        self.setProperty("kind", "card")
         self._signs: dict[str, QLabel] = {}
         self._words: dict[str, QLabel] = {}
         self.states: dict[str, str] = {}
-        self.advice = QLabel(wordWrap=True, textFormat=Qt.TextFormat.PlainText)
+        self.advice = QLabel(
+            wordWrap=True, textFormat=Qt.TextFormat.PlainText, textInteractionFlags=BY_MOUSE
+        )
         self.advice_card = card_around(self.advice, "warning")
         line = self.fontMetrics().height()
         grid = QGridLayout()
         grid.setColumnStretch(1, 1)
         grid.setVerticalSpacing(line // 3)
         for row, step in enumerate(self._questions):
-            sign, words = QLabel(), QLabel()
-            words.setWordWrap(True)
-            words.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
+            sign, words = QLabel(), QLabel(wordWrap=True, textInteractionFlags=BY_MOUSE)
             grid.addWidget(sign, row, 0, Qt.AlignmentFlag.AlignTop)
             grid.addWidget(words, row, 1)
             self._signs[step], self._words[step] = sign, words
-        self.advice.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
-        in_column(grid, self.advice_card, of=self, margins=line // 2, spacing=line // 2)
+        card, gap = styled(self, kind="card"), line // 2
+        in_column(grid, self.advice_card, of=card, margins=gap, spacing=gap)
         self.clear()
 
     def clear(self) -> None:
@@ -248,7 +238,8 @@ class StepsView(QFrame):
     def begin(self) -> None:
         """The first step is being tried."""
         self.clear()
-        self._try(next(iter(self._questions)))
+        first, question = next(iter(self._questions.items()))
+        self._show(first, "trying", question)
 
     def take(self, check: Check) -> None:
         """Show how a step went, and that the next one is being tried."""
@@ -259,22 +250,18 @@ class StepsView(QFrame):
             self.advice_card.setVisible(bool(check.checklist))
             return
         steps = list(self._questions)
-        later = steps[steps.index(check.step) + 1 :]
-        if later:
-            self._try(later[0])
-
-    def _try(self, step: str) -> None:
-        self._show(step, "trying", self._questions[step])
+        for step in steps[steps.index(check.step) + 1 :][:1]:
+            self._show(step, "trying", self._questions[step])
 
     def _show(self, step: str, state: str, words: str) -> None:
         name, colour = SIGNS[state]
         side = round(self.fontMetrics().height() * 1.1)
         picture = icon(name, self._look.theme.colour(colour))
         self._signs[step].setPixmap(picture.pixmap(QSize(side, side), self.devicePixelRatioF()))
-        self._words[step].setText(words)
-        self._words[step].setProperty("role", "hint" if state == "waiting" else "")
-        self._words[step].style().polish(self._words[step])
-        self._words[step].setAccessibleName(f"{words} {state_words()[state]}")
+        label = styled(self._words[step], role="hint" if state == "waiting" else "")
+        label.setText(words)
+        label.style().polish(label)
+        label.setAccessibleName(f"{words} {state_words()[state]}")
         self.states[step] = state
 
 
@@ -296,12 +283,18 @@ class ConnectDialog(QDialog):
         self.test = RobotTest(self)
         self.robot = QComboBox()
         self.robot.addItems(robots)
-        self.address, self.user, self.password = QLineEdit(), QLineEdit(USUAL_USER), QLineEdit()
+        self.address = QLineEdit(placeholderText="192.168.1.10")
+        self.user = QLineEdit(USUAL_USER)
+        self.password = QLineEdit(echoMode=QLineEdit.EchoMode.Password)
         self.asks_password = QCheckBox(tr("It asks for user and password"))
-        self.test_button = QPushButton(tr("Test the connection"))
-        self.use_button = QPushButton(tr("Use this robot"))
-        self.close_button = QPushButton(tr("Close"))
-        self.about = QLabel()
+        self.test_button = styled(
+            QPushButton(tr("Test the connection"), default=True), kind="primary"
+        )
+        self.use_button = styled(
+            QPushButton(tr("Use this robot"), autoDefault=False), kind="primary"
+        )
+        self.close_button = QPushButton(tr("Close"), autoDefault=False)
+        self.about = QLabel(wordWrap=True, textInteractionFlags=BY_MOUSE)
         self._about_card = card_around(self.about, "info")
         self._tested = ("", "", "", "")
         self._lay_out()
@@ -319,58 +312,38 @@ class ConnectDialog(QDialog):
     def _lay_out(self) -> None:
         line = self.fontMetrics().height()
         page = QWidget()
-        column = QVBoxLayout(page)
-        column.setContentsMargins(0, 0, line // 2, 0)
-        column.setSpacing(line * 2 // 3)
-        column.addWidget(_heading(tr("Robots in this network")))
-        column.addWidget(self.found)
-        column.addWidget(_heading(tr("Its address")))
-        column.addLayout(self._form())
-        column.addWidget(self.steps)
-        self.about.setWordWrap(True)
-        self.about.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
-        column.addWidget(self._about_card)
-        column.addStretch(1)
-        self._area = area = scrolled(page)
-        foot = in_row(1)
-        self.use_button.setProperty("kind", "primary")
-        for button in (self.close_button, self.use_button):
-            button.setAutoDefault(False)
-            foot.addWidget(button)
-        self.found.button.setAutoDefault(False)
-        in_column((area, 1), foot, of=self, margins=line, spacing=line // 2)
-        room = room_around(self.parentWidget()).size()
-        self.resize(min(line * 32, room.width()), min(line * 44, round(room.height() * 0.9)))
+        robots = styled(QLabel(tr("Robots in this network")), role="heading")
+        address = styled(QLabel(tr("Its address")), role="heading")
+        parts = (robots, self.found, address, self._form(), self.steps, self._about_card, 1)
+        in_column(*parts, of=page, margins=(0, 0, line // 2, 0), spacing=line * 2 // 3)
+        self._area = scrolled(page)
+        foot = in_row(1, self.close_button, self.use_button)
+        in_column((self._area, 1), foot, of=self, margins=line, spacing=line // 2)
+        fit_on_screen(self, 32, 44)
 
     def _form(self) -> QFormLayout:
         form = QFormLayout()
         form.setFieldGrowthPolicy(QFormLayout.FieldGrowthPolicy.ExpandingFieldsGrow)
         form.setRowWrapPolicy(QFormLayout.RowWrapPolicy.WrapLongRows)
-        self.address.setPlaceholderText("192.168.1.10")
-        self.password.setEchoMode(QLineEdit.EchoMode.Password)
-        form.addRow(label_of(tr("Address"), self.address), self.address)
+        form.addRow(label_of("Address", self.address), self.address)
         form.addRow("", self.asks_password)
-        self._user_label = label_of(tr("User"), self.user)
-        self._password_label = label_of(tr("Password"), self.password)
+        self._user_label = label_of("User", self.user)
+        self._password_label = label_of("Password", self.password)
         form.addRow(self._user_label, self.user)
         form.addRow(self._password_label, self.password)
-        self._kept = QLabel(
-            tr("The password is kept on this computer, for you alone. It is in no project.")
+        self._kept = hint(
+            "The password is kept on this computer, for you alone. It is in no project."
         )
-        self._kept.setWordWrap(True)
-        self._kept.setProperty("role", "hint")
         form.addRow("", self._kept)
-        form.addRow(label_of(tr("In this project it is"), self.robot), self.robot)
-        self.test_button.setProperty("kind", "primary")
-        self.test_button.setDefault(True)
+        form.addRow(label_of("In this project it is", self.robot), self.robot)
         form.addRow("", in_row(self.test_button, 1))
         return form
 
     def _connect(self) -> None:
         self.found.chosen.connect(self._on_chosen)
-        self.address.textEdited.connect(self._on_changed)
-        for signal in (self.user.textEdited, self.password.textEdited, self.asks_password.toggled):
-            signal.connect(self._on_changed)
+        for field in (self.address, self.user, self.password):
+            field.textEdited.connect(self._on_changed)
+        self.asks_password.toggled.connect(self._on_changed)
         self.test_button.clicked.connect(self._on_test)
         self.test.checked.connect(self._on_checked)
         self.test.ended.connect(self._on_ended)
@@ -428,16 +401,14 @@ class ConnectDialog(QDialog):
     def _on_checked(self, check: Check) -> None:
         self.steps.take(check)
         if check.step == "login" and not check.is_ok:
-            self.asks_password.blockSignals(True)  # what was told of the test stays
-            self.asks_password.setChecked(True)
-            self.asks_password.blockSignals(False)
+            with QSignalBlocker(self.asks_password):  # what was told of the test stays
+                self.asks_password.setChecked(True)
         if check.about is not None:
             self._tested = (self.address.text().strip(), *self._login, check.about.fingerprint)
             self.about.setText(about_words(check.about))
         self._update()
 
-    def _on_ended(self, _problem: str) -> None:
-        self.test.stop()
+    def _on_ended(self) -> None:
         self._update()
         outcome = self._about_card if self._tested[0] else self.steps
         QTimer.singleShot(0, self, lambda: self._area.ensureWidgetVisible(outcome))
@@ -455,12 +426,6 @@ class ConnectDialog(QDialog):
         self.test.stop()
         super().done(result)
 
-    def closeEvent(self, event: QCloseEvent) -> None:
-        """Look and test no longer."""
-        self.found.search.stop()
-        self.test.stop()
-        super().closeEvent(event)
-
 
 def about_words(about: AboutRobot) -> str:
     """What a robot says of itself, one line each."""
@@ -472,9 +437,3 @@ def about_words(about: AboutRobot) -> str:
     if about.body:
         lines.append(tr("Body: {body}", body=about.body))
     return "\n".join(lines)
-
-
-def _heading(words: str) -> QLabel:
-    label = QLabel(words)
-    label.setProperty("role", "heading")
-    return label

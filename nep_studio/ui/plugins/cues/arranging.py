@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 
 import msgspec
-from PySide6.QtCore import QEvent, QRect, QSize, Qt, QTimer, Signal
+from PySide6.QtCore import QEvent, QRect, QSignalBlocker, QSize, Qt, QTimer, Signal
 from PySide6.QtGui import (
     QColor,
     QFont,
@@ -23,7 +23,6 @@ from PySide6.QtWidgets import (
     QDialog,
     QFormLayout,
     QGridLayout,
-    QLabel,
     QLineEdit,
     QListWidget,
     QListWidgetItem,
@@ -38,6 +37,7 @@ from nep_studio.ui.labels import follow_words, labelled
 from nep_studio.ui.theme.colours import Theme
 from nep_studio.ui.theme.icons import icon, paint_icon
 from nep_studio.ui.theme.look import Look
+from nep_studio.ui.widgets.forms import hint
 from nep_studio.ui.widgets.layouts import in_column, in_row
 from nep_studio.ui.words import tr
 
@@ -53,23 +53,17 @@ ICONS: dict[CueKind, str] = {
     "person": "users",
 }
 
-COLOURS = ("", "#1f6f78", "#3b6fc9", "#7a4fb5", "#a33b5e", "#b3541e", "#8a6d00", "#2a6b3c")
-"""What a person can choose; "" is the theme's own."""
-
-
-def colour_words(colour: str) -> str:
-    """What a colour is called."""
-    words = (
-        tr("Usual colour"),
-        tr("Teal"),
-        tr("Blue"),
-        tr("Purple"),
-        tr("Raspberry"),
-        tr("Orange"),
-        tr("Gold"),
-        tr("Green"),
-    )
-    return dict(zip(COLOURS, words, strict=True)).get(colour, colour)
+COLOURS = {
+    "": "Usual colour",
+    "#1f6f78": "Teal",
+    "#3b6fc9": "Blue",
+    "#7a4fb5": "Purple",
+    "#a33b5e": "Raspberry",
+    "#b3541e": "Orange",
+    "#8a6d00": "Gold",
+    "#2a6b3c": "Green",
+}
+"""What a person can choose, and what it is called; "" is the theme's own."""
 
 
 def cue_words(cue: Cue) -> str:
@@ -141,9 +135,7 @@ class CueButton(QAbstractButton):
         line = self.fontMetrics().height()
         return QSize(round(line * WIDTH_LINES), round(line * HEIGHT_LINES))
 
-    def minimumSizeHint(self) -> QSize:
-        """Not smaller than that."""
-        return self.sizeHint()
+    minimumSizeHint = sizeHint  # noqa: N815 - as Qt calls it
 
     def paintEvent(self, event: QPaintEvent) -> None:
         """Paint the button."""
@@ -246,11 +238,10 @@ class CueBoard(QWidget):
 
     def press(self, key: str) -> bool:
         """Press the button of a key; whether there is one."""
-        for button in self.buttons:
-            if key and button.cue.key == key:
-                button.click()
-                return True
-        return False
+        found = next((one for one in self.buttons if key and one.cue.key == key), None)
+        if found is not None:
+            found.click()
+        return found is not None
 
     def keyPressEvent(self, event: QKeyEvent) -> None:
         """Keys press buttons, arrows go from one to the next."""
@@ -300,9 +291,8 @@ class ArrangeDialog(QDialog):
         self.cues, self._theme = list(cues), theme
         self.list = QListWidget()
         self.list.setAccessibleName(tr("Cues"))
-        self.label = QLineEdit()
-        self.colour = QComboBox()
-        self.key = QComboBox()
+        self.label = QLineEdit(placeholderText=tr("As it is"))
+        self.colour, self.key = QComboBox(), QComboBox()
         self.is_shown = QCheckBox(tr("Show its button"))
         self.up_button = _button(tr("Move up"), "arrow-up", theme)
         self.down_button = _button(tr("Move down"), "arrow-down", theme)
@@ -310,15 +300,14 @@ class ArrangeDialog(QDialog):
         self.own = QLineEdit()
         self.add_state_button = _button(tr("Add a state"), "flag", theme)
         self.add_word_button = _button(tr("Add words"), "ear", theme)
-        self.why_not = QLabel(wordWrap=True)
-        self.why_not.setProperty("role", "hint")
-        self.done_button = QPushButton(tr("Done"))
+        self.why_not = hint("")
+        self.done_button = QPushButton(tr("Done"), default=True)
         self.cancel_button = QPushButton(tr("Cancel"))
         side = self.fontMetrics().height()
-        for colour in COLOURS:
+        for colour, words in COLOURS.items():
             picture = QPixmap(side, side)
             picture.fill(QColor(colour) if colour else self._theme.colour("accent"))
-            self.colour.addItem(picture, colour_words(colour), colour)
+            self.colour.addItem(picture, tr(words), colour)
         self.key.addItem(tr("None"), "")
         for key in KEYS:
             self.key.addItem(key, key)
@@ -335,7 +324,6 @@ class ArrangeDialog(QDialog):
         line = self.fontMetrics().height()
         self.own.setPlaceholderText(tr("Name of a state, or words that somebody says"))
         self.own.setAccessibleName(self.own.placeholderText())
-        self.label.setPlaceholderText(tr("As it is"))
         order = in_column(self.up_button, self.down_button, self.remove_button, 1)
         top = in_row((self.list, 1), order)
         form = QFormLayout()
@@ -345,7 +333,6 @@ class ArrangeDialog(QDialog):
         form.addRow("", self.is_shown)
         new = in_row((self.own, 1), self.add_state_button, self.add_word_button)
         end = in_row(1, self.cancel_button, self.done_button)
-        self.done_button.setDefault(True)
         in_column(top, form, new, self.why_not, end, of=self, margins=line)
         self.resize(line * 30, line * 30)
 
@@ -363,26 +350,19 @@ class ArrangeDialog(QDialog):
         self.cancel_button.clicked.connect(self.reject)
         self.done_button.clicked.connect(self._on_done)
 
-    @property
-    def _row(self) -> int:
-        return self.list.currentRow()
-
     def _show(self, row: int) -> None:
-        self.list.blockSignals(True)
-        self.list.clear()
-        for cue in self.cues:
-            keys = f"  [{cue.key}]" if cue.key else ""
-            hidden = f"  ({tr('not shown')})" if cue.is_hidden else ""
-            item = QListWidgetItem(
-                icon(ICONS[cue.kind], self._theme), cue_words(cue) + keys + hidden
-            )
-            self.list.addItem(item)
-        self.list.setCurrentRow(min(row, len(self.cues) - 1))
-        self.list.blockSignals(False)
+        with QSignalBlocker(self.list):
+            self.list.clear()
+            for cue in self.cues:
+                keys = f"  [{cue.key}]" if cue.key else ""
+                hidden = f"  ({tr('not shown')})" if cue.is_hidden else ""
+                words = cue_words(cue) + keys + hidden
+                self.list.addItem(QListWidgetItem(icon(ICONS[cue.kind], self._theme), words))
+            self.list.setCurrentRow(min(row, len(self.cues) - 1))
         self._on_selected()
 
     def _on_selected(self) -> None:
-        row = self._row
+        row = self.list.currentRow()
         is_one = 0 <= row < len(self.cues)
         for widget in (self.label, self.colour, self.key, self.is_shown, self.remove_button):
             widget.setEnabled(is_one)
@@ -399,7 +379,7 @@ class ArrangeDialog(QDialog):
         self.is_shown.setChecked(not cue.is_hidden)
 
     def _change(self, **values: object) -> None:
-        row = self._row
+        row = self.list.currentRow()
         if 0 <= row < len(self.cues):
             self.cues[row] = msgspec.structs.replace(self.cues[row], **values)
             cursor = self.label.cursorPosition()
@@ -408,21 +388,23 @@ class ArrangeDialog(QDialog):
 
     def _on_key_chosen(self) -> None:
         """A key has one cue: the one that had it gives it away."""
-        key, row = self.key.currentData(), self._row
+        key, row = self.key.currentData(), self.list.currentRow()
         for number, cue in enumerate(self.cues):
             if key and cue.key == key and number != row:
                 self.cues[number] = msgspec.structs.replace(cue, key="")
         self._change(key=key)
 
     def _move(self, step: int) -> None:
-        row, to = self._row, self._row + step
+        row = self.list.currentRow()
+        to = row + step
         if 0 <= to < len(self.cues):
             self.cues[row], self.cues[to] = self.cues[to], self.cues[row]
             self._show(to)
 
     def _on_removed(self) -> None:
-        del self.cues[self._row]
-        self._show(self._row)
+        row = self.list.currentRow()
+        del self.cues[row]
+        self._show(row)
 
     def _add(self, *, is_word: bool) -> None:
         try:

@@ -32,7 +32,7 @@ from nep_studio.ui.labels import follow_words, labelled
 from nep_studio.ui.messages import announce
 from nep_studio.ui.running.runner import Runner
 from nep_studio.ui.theme.icons import icon
-from nep_studio.ui.theme.look import Look
+from nep_studio.ui.widgets.forms import hint, styled
 from nep_studio.ui.widgets.layouts import in_column, in_row
 from nep_studio.ui.words import tr
 
@@ -125,10 +125,6 @@ class CueSender(QObject):
         request = GestureRequest(gesture=gesture)
         return self._send(GESTURE_REQUEST, request, tr("movement: {gesture}", gesture=words))
 
-    def run(self) -> None:
-        """Run the program, so that somebody hears."""
-        self._runner.run()
-
     def _send(self, topic: str, message: HumanBehavior | GestureRequest, words: str) -> bool:
         reason = self.why_not
         if reason or not self._runner.send(topic, message):
@@ -150,22 +146,17 @@ class CuePanel(QWidget):
         self, host: Host, *, is_large: bool = False, parent: QWidget | None = None
     ) -> None:
         super().__init__(parent)
-        self._look: Look = host.services.look
-        self._runner: Runner = host.services.runner
+        self._look, self._runner = host.services.look, host.services.runner
         self.cues = ProjectCues(host.services.files, self)
         self.sending = CueSender(self._runner, self)
         self._heard: QMetaObject.Connection | None = None
         self.board = CueBoard(host.services.look, self)
-        self.empty = labelled(
-            QLabel(), text="The rules of this program wait for nothing that could be sent."
-        )
-        self.empty.setProperty("role", "hint")
-        self.empty.setWordWrap(True)
+        self.empty = hint("The rules of this program wait for nothing that could be sent.")
         self.why_not = QLabel(wordWrap=True)
-        self.run_button = labelled(QPushButton(), text="Run")
-        self.run_button.setProperty("kind", "run")
-        self.words = QLineEdit()
-        labelled(self.words, placeholder="Somebody says…", name="Words that somebody says")
+        self.run_button = labelled(styled(QPushButton(), kind="run"), text="Run")
+        self.words = labelled(
+            QLineEdit(), placeholder="Somebody says…", name="Words that somebody says"
+        )
         self.say_button = labelled(QPushButton(), text="Send")
         self.arrange_button = labelled(QPushButton(), text="Arrange…")
         self.movements = labelled(
@@ -174,8 +165,7 @@ class CuePanel(QWidget):
             tip="The movement, which has to be recognised like a real one",
         )
         self.movements.setMenu(QMenu(self.movements))
-        self.log = QListWidget()
-        labelled(self.log, name="What was sent")
+        self.log = labelled(QListWidget(), name="What was sent")
         self._has_run_button = not is_large  # a show has its own
         self._lay_out(is_large)
         self._connect()
@@ -228,13 +218,11 @@ class CuePanel(QWidget):
         area.setFocusPolicy(Qt.FocusPolicy.NoFocus)
         area.setWidget(self.board)
         say = in_row((self.words, 1), self.say_button)
-        others = in_row(self.movements, 1)
-        if not is_large:
-            others.addWidget(self.arrange_button)
+        others = in_row(self.movements, 1, *([] if is_large else [self.arrange_button]))
         upper = QWidget()
         in_column(state, self.empty, (area, 1), say, others, of=upper, margins=0)
-        split = QSplitter(Qt.Orientation.Horizontal if is_large else Qt.Orientation.Vertical)
-        split.setChildrenCollapsible(False)
+        direction = Qt.Orientation.Horizontal if is_large else Qt.Orientation.Vertical
+        split = QSplitter(direction, childrenCollapsible=False)
         split.addWidget(upper)
         split.addWidget(self.log)
         split.setStretchFactor(0, 4)
@@ -247,7 +235,7 @@ class CuePanel(QWidget):
         self.sending.refused.connect(self._on_refused)
         self.board.chosen.connect(self.send)
         self.board.change_asked.connect(self.arrange)
-        self.run_button.clicked.connect(self.sending.run)
+        self.run_button.clicked.connect(lambda: self._runner.run())
         self.say_button.clicked.connect(self._on_said)
         self.words.returnPressed.connect(self._on_said)
         self.arrange_button.clicked.connect(lambda: self.arrange())

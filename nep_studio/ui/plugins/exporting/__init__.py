@@ -36,15 +36,18 @@ def save_python(host: Host, path: Path) -> bool:
     """Write the Python of the open project; whether that went well, which the person is told."""
     document = host.services.document
     text = python_text(host, document, path.name) if document is not None else None
-    if text is None:
+    if document is None or text is None:
         return False
     try:
-        if document is not None:
-            write_kept(document.project, document.editor.language, path)
+        write_kept(document.project, document.editor.language, path)
         with whole_file(path) as file:
             file.write(text.encode())
     except OSError as error:
-        host.services.messages.tell(_not_written(error))
+        reason = tr((error.strerror or str(error)).lower())
+        sentence = tr("The computer says: {reason}.", reason=reason)
+        steps = (tr("Is there room on the disk?"), tr("Choose another folder."))
+        title = tr("The Python could not be saved")
+        host.services.messages.tell(Message("error", title, sentence, steps, str(error)))
         return False
     words = tr("Saved “{name}”. At its top it says how to run it.", name=path.name)
     host.services.messages.confirm(words)
@@ -76,16 +79,6 @@ def _file_name(document: Document) -> str:
     """A name that every system and Python itself can take."""
     letters = [letter if letter.isalnum() else "_" for letter in document.title.casefold()]
     return ("".join(letters).strip("_") or "program") + SUFFIX
-
-
-def _not_written(error: OSError) -> Message:
-    return Message(
-        "error",
-        tr("The Python could not be saved"),
-        tr("The computer says: {reason}.", reason=tr((error.strerror or str(error)).lower())),
-        (tr("Is there room on the disk?"), tr("Choose another folder.")),
-        str(error),
-    )
 
 
 # The actions that bring a program out of the studio, in the File menu after the picture.

@@ -11,10 +11,8 @@ from typing import Literal, cast
 
 from PySide6.QtCore import (
     QBuffer,
-    QByteArray,
     QIODevice,
     QMarginsF,
-    QPointF,
     QRectF,
     QSize,
     QSizeF,
@@ -141,15 +139,13 @@ def paint_scene(painter: QPainter, scene: Scene, canvas: CanvasHost, scale: floa
     y = scene.margin
     for part in scene.parts:
         if part.title:
-            title = part.title
-            at = QPointF(scene.margin, y)
             font = QFont(canvas.look.block_font)
             font.setPointSizeF(font.pointSizeF() * 1.3)
             font.setBold(True)
             painter.setFont(font)
             painter.setPen(canvas.look.theme.colour("text"))
-            row = QRectF(at.x(), at.y(), scene.width - 2 * scene.margin, scene.title_height)
-            painter.drawText(row, title)
+            row = QRectF(scene.margin, y, scene.width - 2 * scene.margin, scene.title_height)
+            painter.drawText(row, part.title)
             y += scene.title_height
         left = scene.margin
         if canvas.look.measures.is_mirrored:
@@ -220,13 +216,9 @@ def write_picture(canvas: CanvasHost, path: Path, kind: Format, options: Picture
         with whole_file(path) as file:
             file.write(made)
     except OSError as error:
-        raise EditRefused(
-            tr(
-                "The picture cannot be written: {reason}.",
-                reason=tr((error.strerror or str(error)).lower()),
-            ),
-            checklist=(tr("Choose another folder."),),
-        ) from error
+        reason = tr((error.strerror or str(error)).lower())
+        sentence = tr("The picture cannot be written: {reason}.", reason=reason)
+        raise EditRefused(sentence, checklist=(tr("Choose another folder."),)) from error
 
 
 def copy_picture(canvas: CanvasHost, options: PictureOptions) -> None:
@@ -240,11 +232,9 @@ def png_of(canvas: CanvasHost, options: PictureOptions) -> bytes:
     buffer.open(QIODevice.OpenModeFlag.WriteOnly)
     image_of(canvas, options).save(buffer, "PNG")  # type: ignore[call-overload]  # takes a device
     png = bytes(buffer.data().data())
-    return (
-        picture_files.png_with_program(png, program_of(canvas, options))
-        if options.has_program
-        else png
-    )
+    if not options.has_program:
+        return png
+    return picture_files.png_with_program(png, program_of(canvas, options))
 
 
 def svg_of(canvas: CanvasHost, options: PictureOptions) -> bytes:
@@ -256,8 +246,7 @@ def svg_of(canvas: CanvasHost, options: PictureOptions) -> bytes:
     generator.setOutputDevice(buffer)
     generator.setTitle(canvas.editor.project.name)
     generator.setResolution(96)
-    size = QSize(round(scene.width), round(scene.height))
-    generator.setSize(size)
+    generator.setSize(QSize(round(scene.width), round(scene.height)))
     generator.setViewBox(QRectF(0, 0, scene.width, scene.height))
     with QPainter(generator) as painter:
         _paint(painter, scene, canvas, options, 1.0)
@@ -270,8 +259,7 @@ def svg_of(canvas: CanvasHost, options: PictureOptions) -> bytes:
 def pdf_of(canvas: CanvasHost, options: PictureOptions) -> bytes:
     """A PDF file with one page as large as the blocks, to be printed."""
     scene = _scene(canvas, options)
-    data = QByteArray()
-    buffer = QBuffer(data)
+    buffer = QBuffer()
     buffer.open(QIODevice.OpenModeFlag.WriteOnly)
     writer = QPdfWriter(buffer)
     writer.setTitle(canvas.editor.project.name)
@@ -290,7 +278,7 @@ def pdf_of(canvas: CanvasHost, options: PictureOptions) -> bytes:
         painter.scale(scale, scale)
         _paint(painter, scene, canvas, options, 1.0)
     buffer.close()
-    return bytes(data.data())
+    return bytes(buffer.data().data())
 
 
 def image_of(canvas: CanvasHost, options: PictureOptions) -> QImage:
@@ -332,11 +320,9 @@ def program_of(canvas: CanvasHost, options: PictureOptions) -> bytes:
 def _scene(canvas: CanvasHost, options: PictureOptions) -> Scene:
     scene = scene_of(canvas, options.what, options.margin)
     if not scene.parts:
-        words = (
-            tr("No blocks are selected, so that there is nothing to show.")
-            if options.what == "selection"
-            else tr("There are no blocks yet, so that there is nothing to show.")
-        )
+        words = tr("There are no blocks yet, so that there is nothing to show.")
+        if options.what == "selection":
+            words = tr("No blocks are selected, so that there is nothing to show.")
         raise EditRefused(words, checklist=(tr("Choose something else to show."),))
     return scene
 
@@ -448,5 +434,5 @@ class PictureDialog(QDialog):
             copy_picture(self._canvas, self.options)
         except EditRefused as refusal:
             self.reason.tell(refusal.sentence)
-            return
-        self.accept()
+        else:
+            self.accept()

@@ -207,14 +207,11 @@ def print_program(canvas: CanvasHost, printer: QPrinter, code: str, options: Pri
     scale = printer.resolution() / 72.0
     with QPainter(printer) as painter:
         painter.scale(scale, scale)
-        is_first = True
-        for number, sheet in enumerate(sheets, start=1):
-            if number not in wanted:
-                continue
-            if not is_first:
+        whole = QRectF(0, 0, paper.width(), paper.height())
+        printed = [(number, one) for number, one in enumerate(sheets, 1) if number in wanted]
+        for number, sheet in printed:
+            if number != printed[0][0]:
                 printer.newPage()
-            is_first = False
-            whole = QRectF(0, 0, paper.width(), paper.height())
             _paint(painter, sheet, canvas, whole, (number, len(sheets)))
     return len(sheets)
 
@@ -223,22 +220,23 @@ def _paint(
     painter: QPainter, sheet: Sheet, canvas: CanvasHost, paper: QRectF, place: tuple[int, int]
 ) -> None:
     title = sheet.title or page_title(canvas.editor.project, canvas.page_layout.page)
+    start, end = _side(), _side(is_end=True)
     name = canvas.editor.project.name
     row = QRectF(0, 0, paper.width(), HEAD - 12)
     painter.setPen(INK)
     painter.setFont(on_paper(text_font(13, QFont.Weight.DemiBold), 13))
-    painter.drawText(row, _start() | Qt.AlignmentFlag.AlignVCenter, name)
+    painter.drawText(row, start | Qt.AlignmentFlag.AlignVCenter, name)
     painter.setFont(on_paper(text_font(11), 11))
-    painter.drawText(row, _end() | Qt.AlignmentFlag.AlignVCenter, title)
+    painter.drawText(row, end | Qt.AlignmentFlag.AlignVCenter, title)
     painter.setPen(QPen(PALE, 0.6))
     painter.drawLine(row.bottomLeft(), row.bottomRight())
     row = QRectF(0, paper.height() - FOOT + 8, paper.width(), FOOT - 8)
     date = QLocale().toString(QDate.currentDate(), QLocale.FormatType.LongFormat)
     painter.setPen(PALE)
     painter.setFont(on_paper(text_font(9), 9))
-    painter.drawText(row, _start() | Qt.AlignmentFlag.AlignBottom, f"{date} · NEP Studio")
+    painter.drawText(row, start | Qt.AlignmentFlag.AlignBottom, f"{date} · NEP Studio")
     words = tr("Page {number} of {count}", number=place[0], count=place[1])
-    painter.drawText(row, _end() | Qt.AlignmentFlag.AlignBottom, words)
+    painter.drawText(row, end | Qt.AlignmentFlag.AlignBottom, words)
     painter.save()
     painter.translate(0, HEAD)
     if isinstance(sheet, BlocksSheet):
@@ -287,15 +285,11 @@ def _paint_code(painter: QPainter, sheet: CodeSheet) -> None:
         painter.drawText(text, Qt.AlignmentFlag.AlignLeft | Qt.TextFlag.TextSingleLine, line)
 
 
-def _start() -> Qt.AlignmentFlag:
-    """The side where reading begins; a painter does not turn it by itself everywhere."""
-    start, end = Qt.AlignmentFlag.AlignLeft, Qt.AlignmentFlag.AlignRight
-    return (end if is_right_to_left() else start) | Qt.AlignmentFlag.AlignAbsolute
-
-
-def _end() -> Qt.AlignmentFlag:
-    start, end = Qt.AlignmentFlag.AlignLeft, Qt.AlignmentFlag.AlignRight
-    return (start if is_right_to_left() else end) | Qt.AlignmentFlag.AlignAbsolute
+def _side(*, is_end: bool = False) -> Qt.AlignmentFlag:
+    """Where reading begins, or ends; a painter does not turn it by itself everywhere."""
+    is_right = is_end != is_right_to_left()
+    side = Qt.AlignmentFlag.AlignRight if is_right else Qt.AlignmentFlag.AlignLeft
+    return side | Qt.AlignmentFlag.AlignAbsolute
 
 
 # The dialog that prints a program, with a preview that is always what will come out.
@@ -325,7 +319,7 @@ class ProgramPrintDialog(QDialog):
         self.preview = QPrintPreviewWidget(self.printer, self)
         self.preview.setAccessibleName(tr("What will be printed"))
         self.setup_button = QPushButton(tr("Page setup…"))
-        self.print_button = QPushButton(tr("Print…"))
+        self.print_button = QPushButton(tr("Print…"), default=True)
         self.close_button = QPushButton(tr("Close"))
         self._arrange(canvas.look.theme)
         self._connect()
@@ -359,7 +353,6 @@ class ProgramPrintDialog(QDialog):
             button.clicked.connect(do)
             top.addWidget(button, 0, Qt.AlignmentFlag.AlignBottom)
         buttons = in_row(self.setup_button, 1, self.close_button, self.print_button)
-        self.print_button.setDefault(True)
         in_column(top, (self.preview, 1), buttons, of=self, margins=line, spacing=line // 2)
         self.resize(line * 40, line * 36)
 

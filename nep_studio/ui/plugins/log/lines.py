@@ -6,6 +6,7 @@ from collections import deque
 from collections.abc import Iterable
 from dataclasses import dataclass
 from functools import lru_cache
+from operator import attrgetter
 
 from PySide6.QtCore import (
     QAbstractListModel,
@@ -32,6 +33,7 @@ MOST_LINES = 2000
 
 RUN = "run"
 LINE = Qt.ItemDataRole.UserRole
+SAYING = attrgetter("part", "source", "what")
 Index = QModelIndex | QPersistentModelIndex
 
 
@@ -83,7 +85,7 @@ class LinesModel(QAbstractListModel):
         new: list[Line] = []
         for line in lines:
             last = self._all[-1] if self._all else None
-            if last is not None and _is_same(last, line):
+            if last is not None and SAYING(last) == SAYING(line):
                 last.count += 1
                 last.elapsed_s = line.elapsed_s
                 continue
@@ -153,10 +155,6 @@ class LinesModel(QAbstractListModel):
         self.endResetModel()
 
 
-def _is_same(last: Line, line: Line) -> bool:
-    return (last.part, last.source, last.what) == (line.part, line.source, line.what)
-
-
 # Paints a line of what happens: when, the sign and name of who, and what.
 
 WHO_LETTERS = 16
@@ -170,19 +168,12 @@ class LinePainter(QStyledItemDelegate):
         super().__init__()
         self._look = look
 
-    def sizeHint(
-        self, option: QStyleOptionViewItem, index: QModelIndex | QPersistentModelIndex
-    ) -> QSize:
+    def sizeHint(self, option: QStyleOptionViewItem, index: Index) -> QSize:
         """One line of text, with air."""
         height = option.fontMetrics.height()
         return QSize(height * 10, round(height * 1.5))
 
-    def paint(
-        self,
-        painter: QPainter,
-        option: QStyleOptionViewItem,
-        index: QModelIndex | QPersistentModelIndex,
-    ) -> None:
+    def paint(self, painter: QPainter, option: QStyleOptionViewItem, index: Index) -> None:
         """Draw one line."""
         line: Line = index.data(LINE)
         style = option.widget.style()

@@ -7,14 +7,12 @@ import time
 from collections import deque
 from collections.abc import Callable
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import msgspec
 from PySide6.QtCore import QSize, Qt, qVersion
 from PySide6.QtGui import QGuiApplication, QKeySequence, QShortcut, QShowEvent
 from PySide6.QtWidgets import (
     QAbstractItemView,
-    QHBoxLayout,
     QLabel,
     QLineEdit,
     QListView,
@@ -26,7 +24,6 @@ from PySide6.QtWidgets import (
     QStackedLayout,
     QTabWidget,
     QToolButton,
-    QVBoxLayout,
     QWidget,
 )
 
@@ -42,14 +39,12 @@ from nep_studio.ui.running.runner import Runner
 from nep_studio.ui.theme.icons import icon, icon_pixmap
 from nep_studio.ui.theme.look import Look
 from nep_studio.ui.widgets.choices import Choices
+from nep_studio.ui.widgets.forms import hint
+from nep_studio.ui.widgets.layouts import in_column, in_row
 from nep_studio.ui.widgets.questions import save_text
 from nep_studio.ui.words import tr
 
 from .lines import RUN, Line, LinePainter, LinesModel, part_of
-
-if TYPE_CHECKING:
-    pass
-
 
 # The buttons of a list that can be copied, saved and emptied.
 
@@ -61,11 +56,10 @@ class LogButtons(QWidget):
         super().__init__()
         self._look = look
         self.copy, self.save, self.clear = QToolButton(), QToolButton(), QToolButton()
-        row = QHBoxLayout(self)
-        row.setContentsMargins(0, 0, 0, 0)
-        row.addWidget(explained(self.copy, "Copy"))
-        row.addWidget(explained(self.save, "Save as text…"))
-        row.addWidget(explained(self.clear, "Clear"))
+        explained(self.copy, "Copy")
+        explained(self.save, "Save as text…")
+        explained(self.clear, "Clear")
+        in_row(self.copy, self.save, self.clear, of=self, margins=0)
         look.theme_changed.connect(self._dress)
         self._dress()
 
@@ -96,22 +90,24 @@ class WhatHappens(QWidget):
         """How long after the start what was heard; or words that stand between two runs."""
         self._started_s = time.time()
         self.model = LinesModel(self)
-        self.list = QListView()
-        self.part = Choices(_parts)
-        self.search = QLineEdit()
-        self.hint = QLabel()
+        self.list = labelled(QListView(uniformItemSizes=True), name="What happens")
+        self.part = labelled(Choices(_parts), name="Whose lines are shown")
+        self.search = labelled(
+            QLineEdit(clearButtonEnabled=True),
+            placeholder="Find in these lines",
+            name="Find in these lines",
+        )
+        self.hint = hint("")
+        self.hint.setAlignment(Qt.AlignmentFlag.AlignCenter)
         self.buttons = LogButtons(look)
         self._painter = LinePainter(self._look)
         self.list.setModel(self.model)
         self.list.setItemDelegate(self._painter)
-        self.list.setUniformItemSizes(True)
         self.list.setSelectionMode(QAbstractItemView.SelectionMode.ExtendedSelection)
         self.list.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
-        labelled(self.list, name="What happens")
         copy = QShortcut(QKeySequence(QKeySequence.StandardKey.Copy), self.list)
         copy.setContext(Qt.ShortcutContext.WidgetShortcut)
         copy.activated.connect(self.copy)
-        self._set_up_filters()
         self._lay_out()
         runner.arrived.connect(self._on_arrived)
         runner.state_changed.connect(self._on_state_changed)
@@ -119,31 +115,17 @@ class WhatHappens(QWidget):
         self._dress()
         follow_words(self, self._speak)
 
-    def _set_up_filters(self) -> None:
-        labelled(self.part, name="Whose lines are shown")
+    def _lay_out(self) -> None:
         self.part.currentIndexChanged.connect(lambda: self.model.show_part(self.part.currentData()))
-        labelled(self.search, placeholder="Find in these lines", name="Find in these lines")
-        self.search.setClearButtonEnabled(True)
         self.search.textChanged.connect(self.model.search)
         self.model.modelReset.connect(self._show_hint)
         self.buttons.copy.clicked.connect(self.copy)
         self.buttons.save.clicked.connect(self._on_save_clicked)
         self.buttons.clear.clicked.connect(self.model.clear)
-
-    def _lay_out(self) -> None:
-        row = QHBoxLayout()
-        row.addWidget(self.part)
-        row.addWidget(self.search, 1)
-        row.addWidget(self.buttons)
-        self.hint.setAlignment(Qt.AlignmentFlag.AlignCenter)
-        self.hint.setWordWrap(True)
-        self.hint.setProperty("role", "hint")
         self._stack = QStackedLayout()
         self._stack.addWidget(self.list)
         self._stack.addWidget(self.hint)
-        box = QVBoxLayout(self)
-        box.addLayout(row)
-        box.addLayout(self._stack, 1)
+        in_column(in_row(self.part, (self.search, 1), self.buttons), (self._stack, 1), of=self)
 
     # What a person asks for
 
@@ -266,46 +248,30 @@ class ToldMessages(QWidget):
         super().__init__()
         self._messages, self._look = messages, look
         self._shown = 0
-        self.list = QListWidget()
-        labelled(self.list, name="Messages")
+        self.list = labelled(QListWidget(), name="Messages")
         self.list.setTextElideMode(Qt.TextElideMode.ElideRight)
         self.list.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
-        self.detail = QScrollArea()
-        self.detail.setWidgetResizable(True)
+        self.detail = QScrollArea(widgetResizable=True)
         self.detail.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
         self.copy_button = labelled(QPushButton(), text="Copy all for support")
-        self.hint = labelled(
-            QLabel(), text="What the window tells you is kept here until you close it."
-        )
-        self._lay_out()
+        self.hint = hint("What the window tells you is kept here until you close it.")
+        self.hint.setAlignment(Qt.AlignmentFlag.AlignCenter)
+        both = QSplitter(Qt.Orientation.Horizontal, childrenCollapsible=False)
+        for number, (part, share) in enumerate(((self.list, 2), (self.detail, 3))):
+            both.addWidget(part)
+            both.setStretchFactor(number, share)
+        both.setSizes([2000, 3000])  # parts of what there is
+        full = QWidget()
+        in_column((both, 1), in_row(1, self.copy_button), of=full)
+        self._stack = QStackedLayout(self)
+        self._stack.addWidget(self.hint)
+        self._stack.addWidget(full)
         self.list.currentItemChanged.connect(self._on_chosen)
         self.copy_button.clicked.connect(self._on_copy_clicked)
         messages.told.connect(self._on_told)
         look.theme_changed.connect(self._dress)
         self._dress()
         follow_words(self, self._speak)
-
-    def _lay_out(self) -> None:
-        self.hint.setProperty("role", "hint")
-        self.hint.setAlignment(Qt.AlignmentFlag.AlignCenter)
-        self.hint.setWordWrap(True)
-        both = QSplitter(Qt.Orientation.Horizontal)
-        both.setChildrenCollapsible(False)
-        both.addWidget(self.list)
-        both.addWidget(self.detail)
-        for number, part in enumerate((2, 3)):
-            both.setStretchFactor(number, part)
-        both.setSizes([2000, 3000])  # parts of what there is
-        full = QWidget()
-        box = QVBoxLayout(full)
-        box.addWidget(both, 1)
-        row = QHBoxLayout()
-        row.addStretch(1)
-        row.addWidget(self.copy_button)
-        box.addLayout(row)
-        self._stack = QStackedLayout(self)
-        self._stack.addWidget(self.hint)
-        self._stack.addWidget(full)
 
     def text(self) -> str:
         """All messages as text, with what a supporter asks for first."""
@@ -343,12 +309,13 @@ class ToldMessages(QWidget):
         self.list.setCurrentRow(max(chosen, 0))
 
     def _insert(self, told: LoggedMessage) -> None:
-        item = QListWidgetItem(f"{_clock(told)}  {told.message.title}")
+        clock = time.strftime("%H:%M:%S", time.localtime(told.time_s))
+        item = QListWidgetItem(f"{clock}  {told.message.title}")
         item.setData(TOLD, told)
         item.setToolTip(told.message.title)
         kind = told.message.kind
         item.setIcon(icon(KIND_ICONS[kind], self._look.theme.colour(kind)))
-        spoken = f"{kind_word(kind)}, {_clock(told)}: {told.message.title}"
+        spoken = f"{kind_word(kind)}, {clock}: {told.message.title}"
         item.setData(Qt.ItemDataRole.AccessibleTextRole, spoken)
         self.list.insertItem(0, item)
         if self.list.count() > (self._messages.history.maxlen or self.list.count()):
@@ -364,18 +331,13 @@ class ToldMessages(QWidget):
             self.detail.setWidget(QWidget())
             return
         told: LoggedMessage = item.data(TOLD)
-        page = QWidget()
-        box = QVBoxLayout(page)
-        row = QHBoxLayout()
-        sign, side = QLabel(), round(self.fontMetrics().height() * 1.3)
-        kind = told.message.kind
-        colour, ratio = self._look.theme.colour(kind), self.devicePixelRatioF()
-        sign.setPixmap(icon_pixmap(KIND_ICONS[kind], colour, side, ratio))
+        page, kind = QWidget(), told.message.kind
+        side, ratio = round(self.fontMetrics().height() * 1.3), self.devicePixelRatioF()
+        colour = self._look.theme.colour(kind)
+        sign = QLabel(pixmap=icon_pixmap(KIND_ICONS[kind], colour, side, ratio))
         sign.setAccessibleName(kind_word(kind))
-        row.addWidget(sign, 0, Qt.AlignmentFlag.AlignTop)
-        row.addWidget(MessageText(told.message), 1)
-        box.addLayout(row)
-        box.addStretch(1)
+        row = in_row((sign, 0, Qt.AlignmentFlag.AlignTop), (MessageText(told.message), 1))
+        in_column(row, 1, of=page)
         self.detail.setWidget(page)
 
     def _on_copy_clicked(self) -> None:
@@ -399,10 +361,6 @@ def kind_word(kind: Kind) -> str:
     return words[kind]
 
 
-def _clock(told: LoggedMessage) -> str:
-    return time.strftime("%H:%M:%S", time.localtime(told.time_s))
-
-
 def _as_text(told: LoggedMessage) -> str:
     message = told.message
     when = time.strftime("%Y-%m-%d %H:%M:%S", time.localtime(told.time_s))
@@ -417,10 +375,9 @@ class LogPanel(QTabWidget):
     def __init__(
         self, runner: Runner, messages: Messages, language: Callable[[], Language], look: Look
     ) -> None:
-        super().__init__()
+        super().__init__(documentMode=True)
         self.what_happens = WhatHappens(runner, messages, language, look)
         self.told = ToldMessages(messages, look)
-        self.setDocumentMode(True)
         self.addTab(self.what_happens, "")
         self.addTab(self.told, "")
         labelled_items(self, "What happens", "Messages")

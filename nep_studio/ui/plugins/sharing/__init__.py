@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import astuple, dataclass
 from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QObject, QTimer, Signal
@@ -16,7 +16,7 @@ from nep_studio.ui.labels import follow_words
 from nep_studio.ui.messages import Answer, Message
 from nep_studio.ui.words import count_words, tr
 
-from .refusal_words import refusal_sentence
+from .refusal_words import refusal_message, refusal_sentence
 
 if TYPE_CHECKING:
     from .dialog import SharingDialog
@@ -60,9 +60,7 @@ def joined_words(keys: Keys) -> str:
 def make(host: Host) -> Parts:
     """The action, in the Robots menu; the network panel shows that the network is open."""
     kit = SharingKit(host)
-    kit.told.connect(
-        lambda told: host.ask("network.show_sharing", told.words, told.more, told.icon_name)
-    )
+    kit.told.connect(lambda told: host.ask("network.show_sharing", *astuple(told)))
     kit.tell()
     action = NewAction(
         "open_network",
@@ -110,17 +108,14 @@ class SharingKit(QObject):
             self.dialog.raise_()
             self.dialog.activateWindow()
             return
-        host, sharing = self._host, self.sharing
-        dialog = SharingDialog(
+        host, sharing, after = self._host, self.sharing, self._after_the_run
+        dialog = self.dialog = SharingDialog(
             sharing, self._runner, host.services.settings, host.services.look, host.widget
         )
-        self.dialog = dialog
-        dialog.open_asked.connect(lambda at: self._after_the_run(lambda: sharing.open(at)))
-        dialog.join_asked.connect(
-            lambda at, code: self._after_the_run(lambda: sharing.join(at, code))
-        )
-        dialog.close_asked.connect(lambda: self._after_the_run(sharing.close))
-        dialog.begin_anew_asked.connect(lambda: self._after_the_run(sharing.begin_anew))
+        dialog.open_asked.connect(lambda at: after(lambda: sharing.open(at)))
+        dialog.join_asked.connect(lambda at, code: after(lambda: sharing.join(at, code)))
+        dialog.close_asked.connect(lambda: after(sharing.close))
+        dialog.begin_anew_asked.connect(lambda: after(sharing.begin_anew))
         dialog.finished.connect(self._on_finished)
         host.services.studio.words_changed.connect(dialog.reject)  # it speaks the one before
         dialog.begin()
@@ -161,8 +156,6 @@ class SharingKit(QObject):
         self._is_to_offer_run = False
 
     def _on_refused(self, refusal: Refusal) -> None:
-        from .refusal_words import refusal_message
-
         messages = self._host.services.messages
         if self._refused is not None:
             messages.withdraw(self._refused)
@@ -180,13 +173,8 @@ class SharingKit(QObject):
 
 def new_sharing(host: Host) -> Sharing:
     """What opens and joins networks, as it was when the program ended."""
-    running, runner, settings = (
-        host.services.running,
-        host.services.runner,
-        host.services.settings,
-    )
-
-    sharing = Sharing(runner.local, running)
+    runner, settings = host.services.runner, host.services.settings
+    sharing = Sharing(runner.local, host.services.running)
     sharing.went_down.connect(runner.disconnected)
     runner.closing.connect(sharing.end)
     runner.local.master_options = lambda: ["--original"] if settings.lets_original_join else []

@@ -12,7 +12,6 @@ from PySide6.QtWidgets import (
     QPushButton,
     QScrollArea,
     QStackedWidget,
-    QVBoxLayout,
     QWidget,
 )
 
@@ -23,7 +22,7 @@ from nep_studio.ui.message_cards import MessageText
 from nep_studio.ui.messages import Message, announce
 from nep_studio.ui.running.runner import Runner
 from nep_studio.ui.theme.look import Look
-from nep_studio.ui.widgets.forms import fit_on_screen, room_around
+from nep_studio.ui.widgets.forms import fit_on_screen, room_around, styled
 from nep_studio.ui.widgets.layouts import in_column, in_row, scrolled
 from nep_studio.ui.words import tr
 
@@ -73,11 +72,12 @@ class SharingDialog(QDialog):
             "join": scrolled(self.join_page),
             "joined": scrolled(self.joined_page),
         }
-        self.problem = QFrame()
-        self.problem.setProperty("kind", "error")
-        self.other_button = QPushButton()
-        self.done_button = QPushButton(tr("Done"))
-        self.main_button = QPushButton()
+        for area in self.areas.values():
+            self.pages.addWidget(area)
+        self.problem = styled(QFrame(), kind="error")
+        self.other_button = QPushButton(autoDefault=False)
+        self.done_button = QPushButton(tr("Done"), autoDefault=False)
+        self.main_button = styled(QPushButton(autoDefault=False), kind="primary")
         self._lay_out()
         self._connect()
         self.look_for_places()
@@ -87,14 +87,8 @@ class SharingDialog(QDialog):
 
     def _lay_out(self) -> None:
         line = self.fontMetrics().height()
-        for area in self.areas.values():
-            self.pages.addWidget(area)
-        within = QVBoxLayout(self.problem)
-        within.setContentsMargins(line // 2, line // 2, line // 2, line // 2)
+        self._told = in_column(of=self.problem, margins=line // 2)
         self.problem.hide()
-        self.main_button.setProperty("kind", "primary")
-        for button in (self.other_button, self.done_button, self.main_button):
-            button.setAutoDefault(False)
         foot = in_row(self.other_button, 1, self.done_button, self.main_button)
         in_column(self.problem, (self.pages, 1), foot, of=self, margins=line, spacing=line // 2)
         fit_on_screen(self, LINES_WIDE, LINES_HIGH)
@@ -171,9 +165,7 @@ class SharingDialog(QDialog):
         self._clear_problem()
         steps = tuple(map(tr, error.checklist))
         message = Message("error", tr(error.title), tr(error.sentence), steps, error.details)
-        box = self.problem.layout()
-        assert box is not None
-        box.addWidget(MessageText(message))
+        self._told.addWidget(MessageText(message))
         self.problem.show()
         announce(self, message.spoken)
 

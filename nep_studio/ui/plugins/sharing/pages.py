@@ -34,11 +34,12 @@ from nep_studio.ui.theme.look import Look
 from nep_studio.ui.widgets.forms import (
     CopyLine,
     card_around,
-    column_in,
     hint,
     labelled,
     quiet_button,
+    styled,
 )
+from nep_studio.ui.widgets.layouts import in_column
 from nep_studio.ui.words import count_words, language_code, tr
 
 from . import joined_words
@@ -53,36 +54,26 @@ class ClosedPage(QWidget):
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self.addresses = QComboBox()
-        self.choice = labelled(tr("This computer is"), self.addresses)
+        self.choice = labelled("This computer is", self.addresses)
         self.missing = hint(
-            tr("This computer is in no network. Connect it to that of the other computers.")
+            "This computer is in no network. Connect it to that of the other computers."
         )
-        self.again = quiet_button(tr("Look again"))
+        self.again = quiet_button("Look again")
         self.restart_told = words_label("")
         self.again.clicked.connect(self.look_again_asked)
-        box = column_in(self)
-        box.setSpacing(self.fontMetrics().height() * 2 // 3)
-        box.addWidget(words_label(tr("Only this computer takes part now"), "title"))
-        box.addWidget(
-            words_label(
-                tr(
-                    "When you open the network, other computers can take part: their nodes,"
-                    " robots and watches talk with yours."
-                )
-            )
+        who = tr(
+            "When you open the network, other computers can take part: their nodes,"
+            " robots and watches talk with yours."
         )
-        box.addWidget(
-            words_label(
-                tr(
-                    "Only computers on which somebody types a code from this window come in, and"
-                    " nobody else can read what is sent."
-                )
-            )
+        safely = tr(
+            "Only computers on which somebody types a code from this window come in, and"
+            " nobody else can read what is sent."
         )
-        for widget in (self.choice, self.missing, self.again, self.restart_told):
-            box.addWidget(widget)
-        box.setAlignment(self.again, Qt.AlignmentFlag.AlignLeading)
-        box.addStretch(1)
+        title = words_label(tr("Only this computer takes part now"), "title")
+        said = (title, words_label(who), words_label(safely), self.choice, self.missing)
+        again = (self.again, 0, Qt.AlignmentFlag.AlignLeading)
+        gap = self.fontMetrics().height() * 2 // 3
+        in_column(*said, again, self.restart_told, 1, of=self, margins=0, spacing=gap)
 
     def show_places(self, places: Sequence[Place], preferred: str = "") -> None:
         """Offer these; the first is the most likely one."""
@@ -117,10 +108,7 @@ def restart_words(nodes: int, *, is_program_running: bool) -> str:
 
 def words_label(words: str, role: str = "") -> QLabel:
     """Words over several lines."""
-    label = QLabel(words, wordWrap=True, textFormat=Qt.TextFormat.PlainText)
-    if role:
-        label.setProperty("role", role)
-    return label
+    return styled(QLabel(words, wordWrap=True, textFormat=Qt.TextFormat.PlainText), role=role)
 
 
 # The page of a studio that takes part in the network of another computer.
@@ -132,15 +120,10 @@ class JoinedPage(QWidget):
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self.title = words_label("", "title")
-        box = column_in(self)
-        box.setSpacing(self.fontMetrics().height() * 2 // 3)
-        box.addWidget(self.title)
-        for words in (
-            tr("Nodes that you start here join there, and the robots there can be used here."),
-            tr("Each node needs a name of its own, and one program runs at a time."),
-        ):
-            box.addWidget(words_label(words))
-        box.addStretch(1)
+        used = tr("Nodes that you start here join there, and the robots there can be used here.")
+        alone = tr("Each node needs a name of its own, and one program runs at a time.")
+        said = (self.title, words_label(used), words_label(alone), 1)
+        in_column(*said, of=self, margins=0, spacing=self.fontMetrics().height() * 2 // 3)
 
     def show_network(self, keys: Keys) -> None:
         """Say whose network it is."""
@@ -180,9 +163,10 @@ class JoinPage(QWidget):
         self.search = NetworkSearch(self)
         self.networks = QListWidget()
         self.told = hint("")
-        self.progress = QProgressBar()
+        self.progress = QProgressBar(textVisible=False, minimum=0, maximum=0)
         self.again = QPushButton(tr("Look again"), autoDefault=False)
-        self.address, self.code = QLineEdit(), QLineEdit()
+        self.address = QLineEdit(placeholderText="192.168.1.5")
+        self.code = QLineEdit(placeholderText="123 456")
         self.restart_told = words_label("")
         self._lay_out()
         self.search.found.connect(self._on_found)
@@ -198,30 +182,21 @@ class JoinPage(QWidget):
         self.networks.setAccessibleName(tr("Open networks around here"))
         self.networks.setIconSize(QSize(round(line * 1.4), round(line * 1.4)))
         self.networks.setFixedHeight(round(line * 1.9) * ROWS)
-        self.progress.setRange(0, 0)
-        self.progress.setTextVisible(False)
         self.progress.setAccessibleName(tr("Looking for open networks…"))
-        for field, example in ((self.address, "192.168.1.5"), (self.code, "123 456")):
-            field.setPlaceholderText(example)
+        for field in (self.address, self.code):
             field.setLayoutDirection(Qt.LayoutDirection.LeftToRight)
-        box = column_in(self)
-        box.setSpacing(line // 2)
-        box.addWidget(words_label(tr("Join another computer"), "title"))
-        box.addWidget(
-            words_label(
-                tr(
-                    "On the other computer choose “Open to other computers…” in the menu Robots."
-                    " It shows a code; type that one here."
-                )
-            )
+        about = tr(
+            "On the other computer choose “Open to other computers…” in the menu Robots."
+            " It shows a code; type that one here."
         )
-        for widget in (self.networks, self.progress, self.told, self.again):
-            box.addWidget(widget)
-        box.setAlignment(self.again, Qt.AlignmentFlag.AlignLeading)
-        box.addWidget(labelled(tr("Address of the other computer"), self.address))
-        box.addWidget(labelled(tr("Code"), self.code))
-        box.addWidget(self.restart_told)
-        box.addStretch(1)
+        again = (self.again, 0, Qt.AlignmentFlag.AlignLeading)
+        title = words_label(tr("Join another computer"), "title")
+        search = (title, words_label(about), self.networks, self.progress, self.told, again)
+        address = labelled("Address of the other computer", self.address)
+        code = labelled("Code", self.code)
+        in_column(
+            *search, address, code, self.restart_told, 1, of=self, margins=0, spacing=line // 2
+        )
 
     def begin(self) -> None:
         """Look for networks, unless some have been found."""
@@ -281,8 +256,7 @@ class ComputersList(QWidget):
         super().__init__(parent)
         self.buttons: dict[str, QPushButton] = {}
         self._shown: Sequence[Computer] | None = None
-        self._box = QVBoxLayout(self)
-        self._box.setContentsMargins(0, 0, 0, 0)
+        self._box = in_column(of=self, margins=0)
 
     def show_computers(self, computers: Sequence[Computer]) -> None:
         """Show these."""
@@ -298,9 +272,9 @@ class ComputersList(QWidget):
         grid.setContentsMargins(0, 0, 0, 0)
         grid.setColumnStretch(0, 1)
         for number, computer in enumerate(computers):
-            grid.addWidget(words_label(_computer_words(computer)), number, 0)
-            button = self.buttons[computer.name] = QPushButton(tr("Remove"))
-            button.setAutoDefault(False)
+            words = f"{computer.name}   {computer.address}   {_clock(computer.since)}"
+            grid.addWidget(words_label(words), number, 0)
+            button = self.buttons[computer.name] = QPushButton(tr("Remove"), autoDefault=False)
             button.setAccessibleName(tr("Remove “{name}”", name=computer.name))
             button.clicked.connect(lambda _=False, name=computer.name: self.remove_asked.emit(name))
             grid.addWidget(button, number, 1)
@@ -314,8 +288,7 @@ class RefusedList(QWidget):
         super().__init__(parent)
         self.told: list[str] = []
         self._shown: Sequence[Refusal] | None = None
-        self._box = QVBoxLayout(self)
-        self._box.setContentsMargins(0, 0, 0, 0)
+        self._box = in_column(of=self, margins=0)
         self.hide()
 
     def show_refusals(self, refusals: Sequence[Refusal], keys: Path) -> None:
@@ -334,10 +307,6 @@ class RefusedList(QWidget):
             label.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
             self._box.addWidget(card_around(label, "warning"))
         self.setVisible(bool(refusals))
-
-
-def _computer_words(computer: Computer) -> str:
-    return f"{computer.name}   {computer.address}   {_clock(computer.since)}"
 
 
 def _clock(time_s: float) -> str:
@@ -371,7 +340,6 @@ class CodeView(QFrame):
         super().__init__(parent)
         self._sharing = sharing
         self._shown = ""
-        self.setProperty("kind", "card")
         self.line = CopyLine(look, tr("Copy the code"))
         self.line.text.setAccessibleName(tr("Code"))
         self.left = hint("")
@@ -383,11 +351,9 @@ class CodeView(QFrame):
         high = round(QFontMetrics(font).height() * 1.15)
         self.line.text.setStyleSheet(f"min-height: {high}px")  # else the theme wins
         line = self.fontMetrics().height()
-        box = QVBoxLayout(self)
-        box.setContentsMargins(line, line // 2, line, line // 2)
-        for widget in (self.line, self.left, self.new_button):
-            box.addWidget(widget)
-        box.setAlignment(self.new_button, Qt.AlignmentFlag.AlignLeading)
+        again = (self.new_button, 0, Qt.AlignmentFlag.AlignLeading)
+        margins = (line, line // 2, line, line // 2)
+        in_column(self.line, self.left, again, of=styled(self, kind="card"), margins=margins)
         self._looking = QTimer(self, interval=LOOK_MS)
         self._looking.timeout.connect(self.refresh)
         self.new_button.clicked.connect(sharing.new_code)
@@ -451,38 +417,36 @@ class OpenPage(QWidget):
         self.refresh()
 
     def _lay_out(self) -> None:
-        box = column_in(self)
-        box.setSpacing(self.fontMetrics().height() // 2)
-        box.addWidget(words_label(tr("The network is open"), "title"))
-        box.addWidget(
-            words_label(
-                tr(
-                    "On the other computer open this window too, choose “Join another computer…”"
-                    " there, and type this code:"
-                )
-            )
+        about = tr(
+            "On the other computer open this window too, choose “Join another computer…”"
+            " there, and type this code:"
         )
-        box.addWidget(self.code)
-        box.addWidget(self.found_by)
-        box.addWidget(hint(tr("Where there is no NEP Studio, this does it in a terminal:")))
-        box.addWidget(self.command)
-        box.addWidget(words_label(tr("Computers that are let in"), "heading"))
-        for widget in (self.computers, self.removed, self.anew_button, self.refused, self.keep):
-            box.addWidget(widget)
-        box.setAlignment(self.anew_button, Qt.AlignmentFlag.AlignLeading)
-        box.addStretch(1)
+        parts = (
+            words_label(tr("The network is open"), "title"),
+            words_label(about),
+            self.code,
+            self.found_by,
+            hint("Where there is no NEP Studio, this does it in a terminal:"),
+            self.command,
+            words_label(tr("Computers that are let in"), "heading"),
+            self.computers,
+            self.removed,
+            (self.anew_button, 0, Qt.AlignmentFlag.AlignLeading),
+            self.refused,
+            self.keep,
+            1,
+        )
+        in_column(*parts, of=self, margins=0, spacing=self.fontMetrics().height() // 2)
 
     def refresh(self) -> None:
         """Show how it is now."""
         sharing = self._sharing
         if sharing.opening is None:
-            self.removed.hide()
-            self.anew_button.hide()
+            self.clear_removed()
             return
         code = sharing.code
-        self.found_by.setText(
-            tr("The address of this computer is {address}.", address=sharing.address)
-        )
+        found_by = tr("The address of this computer is {address}.", address=sharing.address)
+        self.found_by.setText(found_by)
         self.command.show_text(f"nep pair {sharing.address} {code.text}" if code else "")
         self.command.setEnabled(code is not None)
         self.computers.show_computers(sharing.computers)
@@ -495,13 +459,12 @@ class OpenPage(QWidget):
 
     def _on_remove(self, name: str) -> None:
         self._sharing.remove(name)
-        self.removed.setText(
-            tr(
-                "“{name}” comes in no more. What it is connected with now ends when everything"
-                " is started anew.",
-                name=name,
-            )
+        told = tr(
+            "“{name}” comes in no more. What it is connected with now ends when everything"
+            " is started anew.",
+            name=name,
         )
+        self.removed.setText(told)
         self.removed.show()
         self.anew_button.show()
         self.anew_button.setFocus()

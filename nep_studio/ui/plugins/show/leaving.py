@@ -24,11 +24,12 @@ from PySide6.QtWidgets import (
 )
 
 from nep_studio.ui.messages import announce
+from nep_studio.ui.widgets.forms import styled
 from nep_studio.ui.widgets.layouts import in_column, in_row
 from nep_studio.ui.words import tr
 
 if TYPE_CHECKING:
-    from PySide6.QtDBus import QDBusMessage, QDBusPendingCallWatcher
+    from PySide6.QtDBus import QDBusPendingCallWatcher
 
 log = logging.getLogger(__name__)
 
@@ -92,10 +93,9 @@ class HoldBar(QFrame):
     def __init__(self, parent: QWidget) -> None:
         super().__init__(parent)
         self._over = parent
-        self.setProperty("kind", "card")
         self.bar = QProgressBar(textVisible=False)
-        self.bar.setRange(0, 100)
-        in_row(QLabel(tr("Keep holding to leave the show")), (self.bar, 1), of=self)
+        words = QLabel(tr("Keep holding to leave the show"))
+        in_row(words, (self.bar, 1), of=styled(self, kind="card"))
         self.hide()
 
     def show_progress(self, progress: float) -> None:
@@ -119,12 +119,10 @@ class PinQuestion(QFrame):
         super().__init__(parent)
         self._over = parent
         self._is_pin = is_pin
-        self.setProperty("kind", "card")
         self.line = QLineEdit(echoMode=QLineEdit.EchoMode.Password)
         self.line.setAccessibleName(tr("PIN"))
         self.words = QLabel(tr("The PIN to leave the show"))
-        self.leave_button = QPushButton(tr("Leave"))
-        self.leave_button.setProperty("kind", "primary")
+        self.leave_button = styled(QPushButton(tr("Leave")), kind="primary")
         self.back_button = QPushButton(tr("Back to the show"))
         self._going = QTimer(self, singleShot=True, interval=PIN_STAYS_MS)
         self._going.timeout.connect(self.hide)
@@ -138,8 +136,8 @@ class PinQuestion(QFrame):
             button.setAccessibleName(tr("Delete") if digit == "⌫" else digit)
             button.clicked.connect(lambda _=False, digit=digit: self._on_digit(digit))
             grid.addWidget(button, number // 3, number % 3)
-        box = in_column(self.words, self.line, digits, of=self)
-        box.addLayout(in_row(self.back_button, self.leave_button))
+        foot = in_row(self.back_button, self.leave_button)
+        in_column(self.words, self.line, digits, foot, of=styled(self, kind="card"))
         self.line.returnPressed.connect(self._on_given)
         self.line.textEdited.connect(lambda: self._going.start())
         self.leave_button.clicked.connect(self._on_given)
@@ -229,7 +227,7 @@ class StayingAwake:
 
         To take it back by its number would need an unsigned one, which Python cannot send.
         """
-        from PySide6.QtDBus import QDBusConnection, QDBusPendingCallWatcher
+        from PySide6.QtDBus import QDBusConnection, QDBusMessage, QDBusPendingCallWatcher
 
         bus = QDBusConnection.connectToBus(QDBusConnection.BusType.SessionBus, _CONNECTION)
         if not bus.isConnected():
@@ -237,7 +235,8 @@ class StayingAwake:
             log.info("The desktop cannot be asked to keep the screen on.")
             return
         self._is_asked = True
-        call = _call("Inhibit", "NEP Studio", "A show is on")
+        call = QDBusMessage.createMethodCall(_SERVICE, _PATH, _SERVICE, "Inhibit")
+        call.setArguments(["NEP Studio", "A show is on"])
         self._watcher = QDBusPendingCallWatcher(bus.asyncCall(call))
         self._watcher.finished.connect(self._on_answered)
 
@@ -247,14 +246,6 @@ class StayingAwake:
         answer = watcher.reply()
         if answer.type() != QDBusMessage.MessageType.ReplyMessage:
             log.info("The desktop does not keep the screen on: %s", answer.errorMessage())
-
-
-def _call(method: str, *arguments: object) -> QDBusMessage:
-    from PySide6.QtDBus import QDBusMessage
-
-    call = QDBusMessage.createMethodCall(_SERVICE, _PATH, _SERVICE, method)
-    call.setArguments(list(arguments))
-    return call
 
 
 def _tell_windows(flags: int) -> None:

@@ -28,7 +28,6 @@ from PySide6.QtWidgets import (
     QScrollArea,
     QSizePolicy,
     QStackedWidget,
-    QVBoxLayout,
     QWidget,
 )
 
@@ -39,8 +38,8 @@ from nep_studio.support import startup
 from nep_studio.support.startup import Place, StartupFile, startup_files
 from nep_studio.ui.messages import announce
 from nep_studio.ui.theme.icons import icon
-from nep_studio.ui.theme.look import Look, code_font
-from nep_studio.ui.widgets.forms import ElidedLabel, screen_around
+from nep_studio.ui.theme.look import code_font
+from nep_studio.ui.widgets.forms import ElidedLabel, screen_around, styled
 from nep_studio.ui.widgets.layouts import InLines, in_column, in_row
 from nep_studio.ui.words import count_words, tr
 
@@ -117,14 +116,11 @@ class StageWords(InLines):
 class AttentionPage(QScrollArea):
     """Large words for who passes, a checklist for who can help."""
 
-    def __init__(self, look: Look, parent: QWidget) -> None:
-        super().__init__(parent)
-        self.setWidgetResizable(True)
+    def __init__(self, parent: QWidget) -> None:
+        super().__init__(parent, widgetResizable=True)
         self.setFrameShape(QScrollArea.Shape.NoFrame)
         self.setFocusPolicy(Qt.FocusPolicy.NoFocus)
         self.setStyleSheet("QScrollArea { background: transparent; }")
-        self._problem: Problem | None = None
-        self._look = look
         self.headline, self.text = _words(), _words()
         inside = QWidget()
         inside.setObjectName("inside")
@@ -140,15 +136,9 @@ class AttentionPage(QScrollArea):
             return
         tried = count_words(times, "It was begun again once.", "It was begun again {n} times.")
         steps = [*map(tr, problem.checklist), tr("Then press Run.")]
-        lines = [
-            "",
-            f"{tr(problem.title)}: {tr(problem.sentence)}"
-            if problem.sentence
-            else tr(problem.title),
-            *([tried] if times else []),
-            "",
-            *(f"\N{WHITE SQUARE} {step}" for step in steps),
-        ]
+        told = ": ".join(tr(words) for words in (problem.title, problem.sentence) if words)
+        boxes = (f"\N{WHITE SQUARE} {step}" for step in steps)
+        lines = ["", told, *([tried] if times else []), "", *boxes]
         self.text.setText("\n".join(lines))
         self.headline.setText(tr("The show is having a rest."))
         pixels = max(14, self.window().height() // 28)
@@ -157,9 +147,8 @@ class AttentionPage(QScrollArea):
 
 
 def _words() -> QLabel:
-    label = QLabel(textFormat=Qt.TextFormat.PlainText, wordWrap=True)
-    label.setAlignment(Qt.AlignmentFlag.AlignCenter)
-    return label
+    middle = Qt.AlignmentFlag.AlignCenter
+    return QLabel(textFormat=Qt.TextFormat.PlainText, wordWrap=True, alignment=middle)
 
 
 BUTTON_PART, TITLE_PART, STATE_PART = 0.055, 0.05, 0.03
@@ -192,7 +181,7 @@ class ShowWindow(QWidget):
         self.title.setTextFormat(Qt.TextFormat.PlainText)
         self.state_sign, self.state_words = QLabel(), QLabel(textFormat=Qt.TextFormat.PlainText)
         self.words = StageWords()
-        self.attention = AttentionPage(host.services.look, self)
+        self.attention = AttentionPage(self)
         self.middle = QStackedWidget()
         self.middle.addWidget(self.words)
         self.middle.addWidget(self.attention)
@@ -205,10 +194,8 @@ class ShowWindow(QWidget):
         self.pin = PinQuestion(host.services.settings.is_pin, self)
         head = in_row(1, self.state_sign, self.state_words, 1)
         buttons = in_row(1, (self.run_button, 2), (self.stop_button, 2), 1)
-        self._box = in_column(self.title, head, (self.middle, 3), of=self)
-        if self.cues is not None:
-            self._box.addWidget(self.cues, 5)
-        self._box.addLayout(buttons)
+        cues = [(self.cues, 5)] if self.cues is not None else []
+        self._box = in_column(self.title, head, (self.middle, 3), *cues, buttons, of=self)
         self._connect()
         self._dress()
         self.refresh()
@@ -299,8 +286,8 @@ class ShowWindow(QWidget):
     def _show_lines(self) -> None:
         show = self.performance
         lines = [f"{who} {what}" for who, what in show.lines]
-        if not lines:
-            lines = [tr("Press Run to begin.")] if show.state == "ready" else []
+        if not lines and show.state == "ready":
+            lines = [tr("Press Run to begin.")]
         self.words.show_lines(lines)
 
     def _on_held(self) -> None:
@@ -350,9 +337,9 @@ def _application() -> QGuiApplication:
 
 
 def _large_button(words: str, kind: str) -> QPushButton:
-    button = QPushButton(f"\N{EN SPACE}{words}")  # Qt leaves too little beside so large an icon
+    # Qt leaves too little beside so large an icon
+    button = styled(QPushButton(f"\N{EN SPACE}{words}"), kind=kind)
     button.setAccessibleName(words)
-    button.setProperty("kind", kind)
     return button
 
 
@@ -421,20 +408,13 @@ class StartupDialog(QDialog):
 
     def _lay_out(self) -> None:
         line = self.fontMetrics().height()
-        about = QLabel(
-            tr(
-                "The show starts when somebody logs in to this computer, and starts again if it "
-                "ends by accident. To end it, leave the show and quit NEP Studio."
-            )
+        about = tr(
+            "The show starts when somebody logs in to this computer, and starts again if it "
+            "ends by accident. To end it, leave the show and quit NEP Studio."
         )
-        about.setWordWrap(True)
+        chosen = (QLabel(about, wordWrap=True), self.runs_at_once, self.has_cues, self.state)
         buttons = in_row(self.remove_button, 1, self.close_button, self.write_button)
-        box = QVBoxLayout(self)
-        box.setContentsMargins(line, line, line, line)
-        for widget in (about, self.runs_at_once, self.has_cues, self.state):
-            box.addWidget(widget)
-        box.addWidget(self.text, 1)
-        box.addLayout(buttons)
+        in_column(*chosen, (self.text, 1), buttons, of=self, margins=line)
         self.resize(line * 42, line * 34)
 
     def _attempt(self, do: Callable[[list[StartupFile]], None]) -> None:

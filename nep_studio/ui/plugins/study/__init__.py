@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, TypeVar
 
 from PySide6.QtCore import QObject
 from PySide6.QtWidgets import QFrame, QLabel, QPushButton, QWidget
 
-from nep_studio.study.records import Reply, Sitting, write_events, write_replies
+from nep_studio.study.records import Reply, write_events, write_replies
 from nep_studio.ui.host import Host, Parts, Plugin
 from nep_studio.ui.labels import follow_words, labelled
 from nep_studio.ui.messages import Answer, Message
@@ -20,7 +21,7 @@ from nep_studio.ui.widgets.layouts import in_row
 from nep_studio.ui.widgets.questions import save_text
 from nep_studio.ui.words import count_words, tr
 
-from .start import StudyRecorder
+from .start import StartDialog, StudyRecorder, what_is_recorded
 
 if TYPE_CHECKING:
     from .form import ResultsDialog
@@ -80,28 +81,28 @@ class StudyKit(QObject):
     def __init__(self, host: Host, recorder: StudyRecorder) -> None:
         super().__init__(host.actions)
         self._host, self._recorder = host, recorder
+        self._messages = host.services.messages
         self._folder = recorder.folder
         self._page = ""
         recorder.changed.connect(self._update_actions)
 
     def add_menu(self) -> None:
         """Make the menu."""
-        add, theme = self._host.actions.add, self._host.services.look.theme
-        help_menu = self._host.menus["help"]
+        theme, help_menu = self._host.services.look.theme, self._host.menus["help"]
         # Note which pages of the help are shown, and what else its menu opens
         self._host.ask("help.follow", self._on_page_shown)
         for action in help_menu.actions():
             if action.iconText() and not action.objectName().startswith(HELP_PAGES):
-                action.triggered.connect(self._note_help(action.iconText()))
+                note = partial(self._recorder.note, "help_opened", action.iconText())
+                action.triggered.connect(lambda _=False, note=note: note())
         menu = labelled(help_menu.addMenu(icon("graduation-cap", theme), ""), title="Study")
-        stop, recorded = self._recorder.stop, self.tell_what
-        menu.addAction(add("study_start", "Start a study…", self.start, icon_name="play"))
-        menu.addAction(add("study_stop", "Stop the study", stop, icon_name="square"))
-        menu.addAction(add("study_recorded", "What is recorded", recorded, icon_name="eye"))
+        add = partial(self._host.actions.add, menu=menu)
+        add("study_start", "Start a study…", self.start, icon_name="play")
+        add("study_stop", "Stop the study", self._recorder.stop, icon_name="square")
+        add("study_recorded", "What is recorded", self.tell_what, icon_name="eye")
         menu.addSeparator()
-        form = add("study_form", "Fill in the questionnaire…", self.fill_in, icon_name="list")
-        menu.addAction(form)
-        menu.addAction(add("study_results", "Results…", self.show_results, icon_name="table"))
+        add("study_form", "Fill in the questionnaire…", self.fill_in, icon_name="list")
+        add("study_results", "Results…", self.show_results, icon_name="table")
         self._update_actions()
 
     def add_sign(self) -> None:
@@ -116,22 +117,18 @@ class StudyKit(QObject):
 
     def start(self) -> None:
         """Ask who takes part, and what is to be recorded."""
-        from .start import StartDialog  # dialogs are loaded when they are opened
-
         dialog = StartDialog(self._folder, self._host.widget)
-        dialog.started.connect(self._on_started)
+        dialog.started.connect(self._recorder.start)
         dialog.open()
 
     def tell_what(self) -> None:
         """Say what a study keeps."""
-        from .start import what_is_recorded
-
         title, *sentences = what_is_recorded(self._folder)
-        self._host.services.messages.tell(Message("info", title, "\n\n".join(sentences)))
+        self._messages.tell(Message("info", title, "\n\n".join(sentences)))
 
     def fill_in(self) -> None:
         """Show the questionnaire."""
-        from .form import QuestionnaireDialog
+        from .form import QuestionnaireDialog  # loaded when it is opened
 
         dialog = QuestionnaireDialog(self._folder, self._host.services.look, self._host.widget)
         dialog.answered.connect(self._on_answered)
@@ -142,13 +139,14 @@ class StudyKit(QObject):
         from .form import ResultsDialog
 
         dialog = ResultsDialog(self._folder, self._host.widget)
-        dialog.answers_asked.connect(lambda: self._save_answers(dialog))
-        dialog.events_asked.connect(lambda: self._save_events(dialog))
+        dialog.answers_asked.connect(
+            lambda: self._save(dialog, "answers.csv", self._folder.replies(), write_replies)
+        )
+        dialog.events_asked.connect(
+            lambda: self._save(dialog, "events.csv", self._folder.events(), write_events)
+        )
         dialog.deletion_asked.connect(lambda: self._ask_to_delete(dialog))
         dialog.open()
-
-    def _on_started(self, sitting: Sitting) -> None:
-        self._recorder.start(sitting)
 
     def _on_answered(self, reply: Reply) -> None:
         try:
@@ -157,21 +155,11 @@ class StudyKit(QObject):
             steps = (tr("Is there room on the disk?"),)
             title = tr("The answers could not be kept")
             again = Answer(tr("Try again"), lambda: self._on_answered(reply))
-            self._host.services.messages.tell(
-                Message("error", title, "", steps, str(error), (again,))
-            )
+            self._messages.tell(Message("error", title, "", steps, str(error), (again,)))
             return
         self._recorder.note("questionnaire_answered", number=round(reply.score, 2))
         title = tr("The answers of {participant} are kept", participant=reply.participant)
-        self._host.services.messages.confirm(
-            title, Answer(tr("Show the results"), self.show_results)
-        )
-
-    def _save_answers(self, dialog: ResultsDialog) -> None:
-        self._save(dialog, "answers.csv", self._folder.replies(), write_replies)
-
-    def _save_events(self, dialog: ResultsDialog) -> None:
-        self._save(dialog, "events.csv", self._folder.events(), write_events)
+        self._messages.confirm(title, Answer(tr("Show the results"), self.show_results))
 
     def _save(
         self,
@@ -183,38 +171,31 @@ class StudyKit(QObject):
         def tell(path: Path) -> None:
             rows = count_words(len(records), "1 row", "{n} rows")
             words = tr("{name} is saved: {rows}", name=path.name, rows=rows)
-            self._host.services.messages.confirm(words)
+            self._messages.confirm(words)
 
-        messages = self._host.services.messages
-        save_text(dialog, messages, name, lambda path: write(path, records), tell)
+        save_text(dialog, self._messages, name, lambda path: write(path, records), tell)
 
     def _ask_to_delete(self, dialog: ResultsDialog) -> None:
         def delete() -> None:
-            self._delete()
+            try:
+                self._recorder.delete_all()
+            except OSError as error:
+                title = tr("Not everything could be deleted")
+                words = tr("Delete the folder {folder} yourself.", folder=self._folder.folder)
+                self._messages.tell(Message("error", title, "", (words,), str(error)))
+            else:
+                self._messages.confirm(tr("All answers and events are deleted"))
             dialog.refresh()
 
         answers = (Answer(tr("Delete all"), delete), Answer(tr("Keep"), lambda: None, "primary"))
         title = tr("Delete all answers and events?")
         words = tr("This cannot be taken back. A study that is on ends. Saved files stay.")
-        self._host.services.messages.ask(Message("warning", title, words, answers=answers))
-
-    def _delete(self) -> None:
-        try:
-            self._recorder.delete_all()
-        except OSError as error:
-            title = tr("Not everything could be deleted")
-            words = tr("Delete the folder {folder} yourself.", folder=self._folder.folder)
-            self._host.services.messages.tell(Message("error", title, "", (words,), str(error)))
-            return
-        self._host.services.messages.confirm(tr("All answers and events are deleted"))
+        self._messages.ask(Message("warning", title, words, answers=answers))
 
     def _on_page_shown(self, panel: QWidget, page: str) -> None:
         if panel.isVisible() and page != self._page:  # the same one is drawn again, as for a theme
             self._page = page
-            self._recorder.note_help(page)
-
-    def _note_help(self, words: str) -> Callable[[], None]:
-        return lambda: self._recorder.note_help(words)
+            self._recorder.note("help_opened", page)
 
     def _update_actions(self) -> None:
         is_on, actions = self._recorder.is_on, self._host.actions

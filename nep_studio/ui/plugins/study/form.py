@@ -23,24 +23,21 @@ from PySide6.QtWidgets import (
     QTableWidget,
     QTableWidgetItem,
     QTabWidget,
-    QVBoxLayout,
     QWidget,
 )
 
 from nep_studio.study.records import (
     BROOKE,
     PAPER,
-    Answers,
     Questionnaire,
     Reply,
-    Spread,
     StudyFolder,
     Summary,
     questionnaire,
     summarize,
 )
 from nep_studio.ui.theme.look import Look
-from nep_studio.ui.widgets.forms import room_around
+from nep_studio.ui.widgets.forms import fit_on_screen, hint, styled
 from nep_studio.ui.widgets.layouts import in_column, in_row
 from nep_studio.ui.words import count_words, tr
 
@@ -61,83 +58,69 @@ class ResultsDialog(QDialog):
         self._folder = folder
         self.setWindowTitle(tr("Results of the study"))
         self.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
-        self.which = QComboBox()
-        self.overall = QLabel()
+        replies = folder.replies()
+        self.which = _questionnaires(replies)
+        self.overall = styled(QLabel(wordWrap=True), role="title")
         self.items = _table([tr("Question"), tr("Mean"), tr("Deviation")])
         self.people = _table(
             [tr("Participant"), tr("Condition"), tr("Score"), tr("Items left open")]
         )
-        self.note = QLabel()
+        self.note = hint("")
         self.answers_button = QPushButton(tr("Save the answers…"))
         self.events_button = QPushButton(tr("Save the events…"))
         self.delete_button = QPushButton(tr("Delete all…"))
-        self.close_button = QPushButton(tr("Close"))
-        for form in (questionnaire(PAPER, tr), questionnaire(BROOKE, tr)):
-            self.which.addItem(form.title, form.id)
-        replies = self._folder.replies()
-        self.which.setCurrentIndex(
-            self.which.findData(replies[-1].questionnaire if replies else PAPER)
-        )
-        self.which.setAccessibleName(tr("Which questionnaire"))
-        self._lay_out()
-        self._connect()
-        self.refresh()
-
-    def _lay_out(self) -> None:
-        line = self.fontMetrics().height()
-        self.overall.setProperty("role", "title")
-        self.overall.setWordWrap(True)
-        self.note.setProperty("role", "hint")
-        self.note.setWordWrap(True)
+        self.close_button = QPushButton(tr("Close"), default=True)
         tabs = QTabWidget(documentMode=True)
         tabs.addTab(self.items, tr("Questions"))
         tabs.addTab(self.people, tr("Participants"))
         foot = in_row(
             self.delete_button, 1, self.answers_button, self.events_button, self.close_button
         )
-        self.close_button.setDefault(True)
         in_column(self.which, self.overall, tabs, self.note, foot, of=self)
-        room = room_around(self).size()
-        self.resize(min(line * 44, room.width()), min(line * 32, room.height()))
-
-    def _connect(self) -> None:
+        fit_on_screen(self, 44, 32)
         self.which.currentIndexChanged.connect(self.refresh)
         self.answers_button.clicked.connect(self.answers_asked)
         self.events_button.clicked.connect(self.events_asked)
         self.delete_button.clicked.connect(self.deletion_asked)
         self.close_button.clicked.connect(self.accept)
+        self.refresh()
 
     def refresh(self) -> None:
         """Read the files again."""
         replies, events = self._folder.replies(), self._folder.events()
         summary = summarize(replies, questionnaire(self.which.currentData(), tr))
         self.overall.setText(_overall_words(summary))
-        _fill(self.items, [_item_row(*row) for row in _numbered(summary)])
-        _fill(self.people, _people_rows(summary))
+        _fill(self.items, _item_rows(summary))
+        people = [
+            [one.participant, one.condition, f"{one.score:.1f}", str(one.open_items or "")]
+            for one in summary.replies
+        ]
+        _fill(self.people, people)
         self.note.setText(_note_words(summary))
         self.answers_button.setEnabled(bool(replies))
         self.events_button.setEnabled(bool(events))
         self.delete_button.setEnabled(self._folder.folder.exists())
 
 
-def _numbered(summary: Summary) -> list[tuple[str, Spread]]:
+def _questionnaires(replies: Sequence[Reply]) -> QComboBox:
+    """A choice of questionnaires; at first it is the one that was answered last."""
+    which = QComboBox()
+    which.setAccessibleName(tr("Which questionnaire"))
+    for form in (questionnaire(PAPER, tr), questionnaire(BROOKE, tr)):
+        which.addItem(form.title, form.id)
+    which.setCurrentIndex(which.findData(replies[-1].questionnaire if replies else PAPER))
+    return which
+
+
+def _item_rows(summary: Summary) -> list[list[str]]:
     items = zip(summary.questionnaire.items, summary.items, strict=True)
     return [
-        (tr("{number}. {item}", number=number, item=words), spread)
+        [
+            tr("{number}. {item}", number=number, item=words),
+            f"{spread.mean:.1f}" if spread.count else "",
+            f"{spread.deviation:.2f}" if spread.count else "",
+        ]
         for number, (words, spread) in enumerate(items, 1)
-    ]
-
-
-def _item_row(words: str, spread: Spread) -> list[str]:
-    if not spread.count:
-        return [words, "", ""]
-    return [words, f"{spread.mean:.1f}", f"{spread.deviation:.2f}"]
-
-
-def _people_rows(summary: Summary) -> list[list[str]]:
-    return [
-        [one.participant, one.condition, f"{one.score:.1f}", str(one.open_items or "")]
-        for one in summary.replies
     ]
 
 
@@ -170,12 +153,11 @@ def _note_words(summary: Summary) -> str:
 
 def _table(titles: Sequence[str]) -> QTableWidget:
     table = QTableWidget(0, len(titles))
-    table.setHorizontalHeaderLabels(list(titles))
+    table.setHorizontalHeaderLabels(titles)
     table.verticalHeader().hide()
     table.setEditTriggers(QAbstractItemView.EditTrigger.NoEditTriggers)
     table.setSelectionBehavior(QAbstractItemView.SelectionBehavior.SelectRows)
     table.setShowGrid(False)
-    table.setWordWrap(True)
     header = table.horizontalHeader()
     header.setSectionResizeMode(QHeaderView.ResizeMode.ResizeToContents)
     header.setSectionResizeMode(0, QHeaderView.ResizeMode.Stretch)
@@ -247,14 +229,14 @@ class OptionButton(QRadioButton):
 
     def _words_rect(self, width: int) -> QRect:
         """Where the words are, as if one reads from the left."""
-        room = self._circle_room()
-        if self._is_beside:
-            endless = QRect(room, 0, max(1, width - room), 10_000)
-            tall = self.fontMetrics().boundingRect(endless, BESIDE, self.text()).height()
-            return QRect(room, 0, endless.width(), max(tall, room))
+        room, is_beside = self._circle_room(), self._is_beside
         endless = QRect(0, room, width, 10_000)
-        tall = self.fontMetrics().boundingRect(endless, BELOW, self.text()).height()
-        return QRect(0, room, width, tall)
+        if is_beside:
+            endless = QRect(room, 0, max(1, width - room), 10_000)
+        flags = BESIDE if is_beside else BELOW
+        tall = self.fontMetrics().boundingRect(endless, flags, self.text()).height()
+        endless.setHeight(max(tall, room) if is_beside else tall)
+        return endless
 
     def paintEvent(self, event: QPaintEvent) -> None:
         """Draw circle and words."""
@@ -299,20 +281,18 @@ class ItemRow(QFrame):
 
     def __init__(self, number: int, form: Questionnaire, look: Look) -> None:
         super().__init__()
-        self.setProperty("kind", "card")
         words = form.items[number]
-        self.label = QLabel(tr("{number}. {item}", number=number + 1, item=words), wordWrap=True)
-        self.label.setProperty("role", "heading")
-        self.clear_button = QPushButton(tr("Leave open"))
-        self.clear_button.setProperty("kind", "quiet")
+        told = tr("{number}. {item}", number=number + 1, item=words)
+        self.label = styled(QLabel(told, wordWrap=True), role="heading")
+        self.clear_button = styled(QPushButton(tr("Leave open")), kind="quiet")
         self.clear_button.setAccessibleDescription(words)
         self.buttons = [OptionButton(option, look) for option in form.options]
         self._group = QButtonGroup(self)
+        self._options = in_row(*((button, 1) for button in self.buttons), spacing=0)
+        count = len(self.buttons)
         for place, button in enumerate(self.buttons, 1):
-            count = len(self.buttons)
-            told = tr(
-                "{option}, {place} of {count}", option=button.text(), place=place, count=count
-            )
+            option = button.text()
+            told = tr("{option}, {place} of {count}", option=option, place=place, count=count)
             button.setAccessibleName(told)
             button.setAccessibleDescription(words)
             self._group.addButton(button, place)
@@ -320,11 +300,7 @@ class ItemRow(QFrame):
         policy = self.clear_button.sizePolicy()
         policy.setRetainSizeWhenHidden(True)
         self.clear_button.setSizePolicy(policy)
-        self._options = QBoxLayout(QBoxLayout.Direction.LeftToRight)
-        self._options.setSpacing(0)
-        for button in self.buttons:
-            self._options.addWidget(button, 1)
-        in_column(head, self._options, of=self)
+        in_column(head, self._options, of=styled(self, kind="card"))
         self._group.idToggled.connect(self._on_toggled)
         self.clear_button.clicked.connect(self.clear)
         self._show_clear()
@@ -394,58 +370,36 @@ class QuestionnaireDialog(QDialog):
         self.setWindowTitle(tr("Questionnaire"))
         self.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
         self.participant_fields = ParticipantFields(folder, may_change_conditions=False)
-        self.which = QComboBox()
+        self.which = _questionnaires(folder.replies())
         self.rows: list[ItemRow] = []
-        self.note = QLabel()
-        self.save_button = QPushButton(tr("Save the answers"))
+        self.note = QLabel(wordWrap=True)
+        self.save_button = styled(QPushButton(tr("Save the answers"), default=True), kind="primary")
         self.cancel_button = QPushButton(tr("Cancel"))
-        self.area = QScrollArea()
-        replies, sitting = folder.replies(), folder.sitting()
-        usual = replies[-1].questionnaire if replies else PAPER
-        for form in (questionnaire(PAPER, tr), questionnaire(BROOKE, tr)):
-            self.which.addItem(form.title, form.id)
-        self.which.setCurrentIndex(self.which.findData(usual))
-        self.which.setAccessibleName(tr("Which questionnaire"))
-        if sitting is not None:
+        self.area = QScrollArea(widgetResizable=True)
+        self.area.setFrameShape(QFrame.Shape.NoFrame)
+        if (sitting := folder.sitting()) is not None:
             self.participant_fields.show_sitting(sitting.participant, sitting.condition)
-        self._lay_out()
+        foot = in_row((self.note, 1), self.cancel_button, self.save_button)
+        in_column((self.area, 1), foot, of=self)
+        fit_on_screen(self, 52, 46)
         self._ask_items()
         self.which.currentIndexChanged.connect(self._ask_items)
         self.participant_fields.changed.connect(self._show_note)
         self.save_button.clicked.connect(self._on_save_clicked)
         self.cancel_button.clicked.connect(self.reject)
 
-    def _lay_out(self) -> None:
-        line = self.fontMetrics().height()
-        self.area.setWidgetResizable(True)
-        self.area.setFrameShape(QFrame.Shape.NoFrame)
-        self.note.setWordWrap(True)
-        self.save_button.setDefault(True)
-        self.save_button.setProperty("kind", "primary")
-        foot = in_row((self.note, 1), self.cancel_button, self.save_button)
-        in_column((self.area, 1), foot, of=self)
-        room = room_around(self).size()
-        self.resize(min(line * 52, room.width()), min(line * 46, room.height()))
-
     def _ask_items(self) -> None:
         """Show the items of the chosen questionnaire, all open."""
         form = questionnaire(self.which.currentData(), tr)
         self.rows = [ItemRow(number, form, self._look) for number in range(len(form.items))]
-        page = QWidget()
-        box = QVBoxLayout(page)
-        self.participant_fields.setParent(page)
-        self.which.setParent(page)
-        box.addWidget(self.which)
-        box.addWidget(self.participant_fields)
+        for row in self.rows:
+            row.changed.connect(self._show_note)
         words = tr(
             "Say how much you agree with each sentence. Answer at once, do not think long. An item"
             " that you cannot answer may stay open. Keys: Tab to the next item, digits to answer."
         )
-        box.addWidget(QLabel(words, wordWrap=True))
-        for row in self.rows:
-            row.changed.connect(self._show_note)
-            box.addWidget(row)
-        box.addStretch(1)
+        page, about = QWidget(), QLabel(words, wordWrap=True)
+        in_column(self.which, self.participant_fields, about, *self.rows, 1, of=page)
         old = self.area.takeWidget()
         self.area.setWidget(page)
         if old is not None:
@@ -468,12 +422,8 @@ class QuestionnaireDialog(QDialog):
         super().showEvent(event)
         self._fit()
 
-    def answers(self) -> Answers:
-        """What is chosen now."""
-        return [row.answer for row in self.rows]
-
     def _show_note(self) -> None:
-        left = sum(answer is None for answer in self.answers())
+        left = sum(row.answer is None for row in self.rows)
         is_empty = left == len(self.rows)
         if not self.participant_fields.participant:
             words = tr("The participant needs a code of letters and digits.")
@@ -491,10 +441,7 @@ class QuestionnaireDialog(QDialog):
         self.save_button.setEnabled(bool(self.participant_fields.participant) and not is_empty)
 
     def _on_save_clicked(self) -> None:
-        participant_fields = self.participant_fields
-        chosen = list(self.answers())
-        form = str(self.which.currentData())
-        self.answered.emit(
-            Reply(participant_fields.participant, participant_fields.chosen_condition, chosen, form)
-        )
+        fields, form = self.participant_fields, str(self.which.currentData())
+        chosen = [row.answer for row in self.rows]
+        self.answered.emit(Reply(fields.participant, fields.chosen_condition, chosen, form))
         self.accept()

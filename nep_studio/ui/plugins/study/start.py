@@ -8,14 +8,7 @@ from contextlib import suppress
 from functools import partial
 from typing import TYPE_CHECKING
 
-from PySide6.QtCore import (
-    QCoreApplication,
-    QMetaObject,
-    QObject,
-    QRegularExpression,
-    Qt,
-    Signal,
-)
+from PySide6.QtCore import QCoreApplication, QMetaObject, QObject, QRegularExpression, Qt, Signal
 from PySide6.QtGui import QRegularExpressionValidator
 from PySide6.QtWidgets import (
     QComboBox,
@@ -25,7 +18,6 @@ from PySide6.QtWidgets import (
     QLabel,
     QLineEdit,
     QPushButton,
-    QVBoxLayout,
     QWidget,
 )
 
@@ -43,7 +35,7 @@ from nep_studio.study.records import (
 )
 from nep_studio.ui.documents import Document
 from nep_studio.ui.messages import LoggedMessage, Message
-from nep_studio.ui.widgets.forms import room_around
+from nep_studio.ui.widgets.forms import hint, room_around
 from nep_studio.ui.widgets.layouts import in_column, in_row, scrolled
 from nep_studio.ui.words import tr
 
@@ -70,17 +62,14 @@ class ParticipantFields(QWidget):
         self.conditions = QLineEdit(", ".join(folder.conditions()))
         self.conditions.setPlaceholderText(tr("Such as: blocks, text"))
         self.condition = QComboBox()
-        self.order = QLabel(wordWrap=True)
+        self.order = hint("")
         self._form = QFormLayout(self)
         self._form.setContentsMargins(0, 0, 0, 0)
         self._form.addRow(tr("Participant"), self.code)
-        label = QLabel(tr("A code, not a name. Its number decides the order."), wordWrap=True)
-        label.setProperty("role", "hint")
-        self._form.addRow("", label)
+        self._form.addRow("", hint("A code, not a name. Its number decides the order."))
         if may_change_conditions:
             self._form.addRow(tr("Conditions"), self.conditions)
         self._form.addRow(tr("Condition now"), self.condition)
-        self.order.setProperty("role", "hint")
         self._form.addRow("", self.order)
         self.code.textChanged.connect(self._on_changed)
         self.conditions.textChanged.connect(self._on_changed)
@@ -146,16 +135,15 @@ class StartDialog(QDialog):
         self.start_button = QPushButton(tr("Start the study"))
         self.cancel_button = QPushButton(tr("Cancel"))
         line = self.fontMetrics().height()
+        flags = Qt.TextInteractionFlag.TextSelectableByMouse
+        told = [
+            QLabel(words, wordWrap=True, textInteractionFlags=flags)
+            for words in what_is_recorded(folder)
+        ]
+        told[0].setProperty("role", "heading")
         card = QFrame()
         card.setProperty("kind", "info")
-        told = QVBoxLayout(card)
-        for number, words in enumerate(what_is_recorded(self._folder)):
-            label = QLabel(words)
-            label.setWordWrap(True)
-            label.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
-            if not number:
-                label.setProperty("role", "heading")
-            told.addWidget(label)
+        in_column(*told, of=card)
         self.start_button.setDefault(True)
         self.start_button.setProperty("kind", "primary")
         foot = in_row(1, self.cancel_button, self.start_button)
@@ -164,19 +152,16 @@ class StartDialog(QDialog):
         in_column((scrolled(page), 1), foot, of=self, margins=line, spacing=line)
         room = room_around(self).size()
         self.resize(min(line * 34, room.width()), min(line * 26, room.height()))
-        self.participant_fields.changed.connect(self._show_whether_it_may_start)
+        fields = self.participant_fields
+        fields.changed.connect(lambda: self.start_button.setEnabled(bool(fields.participant)))
         self.start_button.clicked.connect(self._on_start_clicked)
         self.cancel_button.clicked.connect(self.reject)
 
-    def _show_whether_it_may_start(self) -> None:
-        self.start_button.setEnabled(bool(self.participant_fields.participant))
-
     def _on_start_clicked(self) -> None:
+        fields = self.participant_fields
         with suppress(OSError):  # who begins the study tells that its folder cannot be written
-            self._folder.set_conditions(self.participant_fields.all_conditions())
-        self.started.emit(
-            Sitting(self.participant_fields.participant, self.participant_fields.chosen_condition)
-        )
+            self._folder.set_conditions(fields.all_conditions())
+        self.started.emit(Sitting(fields.participant, fields.chosen_condition))
         self.accept()
 
 
@@ -213,20 +198,23 @@ class StudyRecorder(QObject):
     def __init__(self, host: Host) -> None:
         super().__init__(host.widget)
         self._messages, self._runner = host.services.messages, host.services.runner
+        self._files = host.services.files
         self.folder = StudyFolder(host.services.settings.folder / STUDY_FOLDER)
         self.sitting = self.folder.sitting()
-        self._has_run = self._has_run_before()
-        self._document: Document | None = None
+        self._has_run = any(
+            event.what == "first_run" and event.sitting == self.sitting
+            for event in (self.folder.events() if self.is_on else ())
+        )
         self._history: History | None = None
         self._edits = 0
-        self._run_started_s = 0.0
-        host.services.files.document_changed.connect(self._on_document_changed)
+        self._is_starting, self._run_started_s = False, 0.0
+        self._files.document_changed.connect(self._on_document_changed)
         self._heard: list[QMetaObject.Connection] = []
         app = QCoreApplication.instance()
         if app is not None:
             app.aboutToQuit.connect(self._on_quit)
         self.note("app_opened")
-        self._follow(host.services.document)
+        self._listen()
 
     @property
     def is_on(self) -> bool:
@@ -241,7 +229,8 @@ class StudyRecorder(QObject):
             self._tell_failure(error)
             return
         self.sitting, self._has_run, self._edits = sitting, False, 0
-        self._run_started_s = 0.0  # a run that is under way began before the study
+        # a run that is under way began before the study
+        self._is_starting, self._run_started_s = self._runner.state == "starting", 0.0
         self._listen()
         self.note("study_started")
         self.changed.emit()
@@ -276,25 +265,18 @@ class StudyRecorder(QObject):
         except (OSError, ValueError) as error:
             log.warning("an event of a study is lost: %s", error)
 
-    def note_help(self, words: str) -> None:
-        """Keep that somebody opened the help, and on what."""
-        self.note("help_opened", words)
-
     # What happens
 
     def _on_document_changed(self, document: Document | None) -> None:
         self._note_edits()
-        self._follow(document)
+        self._listen()
         if document is not None:
             self.note("project_opened", number=len(document.project.blocks))
 
-    def _follow(self, document: Document | None) -> None:
-        """Count the changes of this project; the one before may be closed already."""
-        self._document = document
-        self._listen()
-
     def _listen(self) -> None:
-        """Follow runs and messages, and count changes, while a session is recorded; only then."""
+        """Follow runs and messages, and count changes of the project that is open now, while a
+        session is recorded; only then.
+        """
         runner = self._runner
         if self.is_on and not self._heard:
             self._heard = [
@@ -307,7 +289,7 @@ class StudyRecorder(QObject):
             QObject.disconnect(self._heard.pop())
         if self._history is not None:
             self._history.unlisten(self._on_changes)
-        document = self._document if self.is_on else None
+        document = self._files.document if self.is_on else None
         self._history = None if document is None else document.editor.history
         if self._history is not None:
             self._history.listen(self._on_changes)
@@ -325,28 +307,18 @@ class StudyRecorder(QObject):
             self.note("error_told", told.message.title)
 
     def _on_state_changed(self, state: str) -> None:
-        has_begun = state == "running" and not self._run_started_s
-        if has_begun or state == "starting":
-            self._run_started_s = time.time() if has_begun else 0.0
-        if self.sitting is None:
-            return
+        was_starting, self._is_starting = self._is_starting, state == "starting"
         if state == "starting":
             self._note_edits()
-        elif has_begun:
+        elif state == "running" and was_starting:  # else it goes on after a pause
+            self._run_started_s = time.time()
             self.note("run_started")
-            if not self._has_run:  # how long it took until the program ran for the first time
+            # how long it took until the program ran for the first time
+            if self.sitting is not None and not self._has_run:
                 self._has_run = True
                 self.note("first_run", number=round(time.time() - self.sitting.started_s, 3))
         elif state == "stopping":
             self.note("stop_pressed")
-
-    def _has_run_before(self) -> bool:
-        if self.sitting is None:
-            return False
-        return any(
-            event.what == "first_run" and event.sitting == self.sitting
-            for event in self.folder.events()
-        )
 
     def _on_ended(self, ending: Ending) -> None:
         began_s, self._run_started_s = self._run_started_s, 0.0
@@ -358,15 +330,8 @@ class StudyRecorder(QObject):
         self.note("app_closed")
 
     def _tell_failure(self, error: OSError) -> None:
-        self._messages.tell(
-            Message(
-                "error",
-                tr("The study cannot be kept"),
-                tr("The folder of the study cannot be written."),
-                (
-                    tr("Is there room on the disk?"),
-                    tr("May this program write into {folder}?", folder=self.folder.folder),
-                ),
-                str(error),
-            )
-        )
+        title = tr("The study cannot be kept")
+        sentence = tr("The folder of the study cannot be written.")
+        may_write = tr("May this program write into {folder}?", folder=self.folder.folder)
+        steps = (tr("Is there room on the disk?"), may_write)
+        self._messages.tell(Message("error", title, sentence, steps, str(error)))

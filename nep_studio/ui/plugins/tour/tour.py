@@ -15,7 +15,6 @@ from PySide6.QtWidgets import (
     QPlainTextEdit,
     QPushButton,
     QToolButton,
-    QVBoxLayout,
     QWidget,
 )
 
@@ -26,7 +25,8 @@ from nep_studio.blocks.program import Block, Stack
 from nep_studio.ui.labels import follow_words, labelled
 from nep_studio.ui.messages import announce
 from nep_studio.ui.theme.look import Look
-from nep_studio.ui.widgets.layouts import ReadingLabel, in_row
+from nep_studio.ui.widgets.forms import styled
+from nep_studio.ui.widgets.layouts import ReadingLabel, in_column, in_row
 from nep_studio.ui.words import tr
 
 if TYPE_CHECKING:
@@ -44,10 +44,6 @@ PROJECT = "First steps"
 START, SAY = "event.started", "robot.say"
 
 
-def _nothing(_host: Host) -> None:
-    """Nothing has to be prepared, or done."""
-
-
 @dataclass(frozen=True)
 class Step:
     """One step. ``target`` is the place in the window that is shown, empty where there is none.
@@ -59,9 +55,9 @@ class Step:
     title: str
     text: str
     target: Callable[[Host], QRect]
-    prepare: Callable[[Host], object] = _nothing
+    prepare: Callable[[Host], object] = lambda _host: None
     is_done: Callable[[Host], bool] | None = None
-    do: Callable[[Host], object] = _nothing
+    do: Callable[[Host], object] = lambda _host: None
 
 
 def steps() -> list[Step]:
@@ -236,25 +232,18 @@ class Bubble(QFrame):
 
     def __init__(self, look: Look, window: QWidget) -> None:
         super().__init__(window)
-        self.setProperty("kind", "card")
-        self.setAutoFillBackground(True)
-        self._title, self._text = ReadingLabel(), ReadingLabel()
-        self._dots = Dots(look, self)
-        self.next_button, self.back_button = QPushButton(), QPushButton()
-        self.leave_button = QPushButton()
-        line = self.fontMetrics().height()
-        self._title.setProperty("role", "title")
+        styled(self, kind="card").setAutoFillBackground(True)
+        self._title, self._text = styled(ReadingLabel(), role="title"), ReadingLabel()
         for label in (self._title, self._text):
             label.setWordWrap(True)
-        self.next_button.setProperty("kind", "primary")
-        self.leave_button.setProperty("kind", "quiet")
+        self._dots = Dots(look, self)
+        self.next_button = styled(QPushButton(), kind="primary")
+        self.back_button = labelled(QPushButton(), text="Back")
+        self.leave_button = labelled(styled(QPushButton(), kind="quiet"), text="End the tour")
+        line = self.fontMetrics().height()
         row = in_row(self.leave_button, 1, self.back_button, self.next_button, spacing=line // 3)
-        self._box = QVBoxLayout(self)
-        self._box.setSpacing(line // 2)
-        self._box.setContentsMargins(line, line * 3 // 4, line, line * 3 // 4)
-        for widget in (self._title, self._text, self._dots):
-            self._box.addWidget(widget)
-        self._box.addLayout(row)
+        parts, margins = (self._title, self._text, self._dots, row), (line, line * 3 // 4) * 2
+        self._box = in_column(*parts, of=self, margins=margins, spacing=line // 2)
         self.next_button.clicked.connect(self.forth)
         self.back_button.clicked.connect(self.back)
         self.leave_button.clicked.connect(self.left)
@@ -265,8 +254,6 @@ class Bubble(QFrame):
         self._title.setText(step.title)
         self._text.setText(step.text)
         self._dots.show_place(number, count)
-        labelled(self.leave_button, text="End the tour")
-        labelled(self.back_button, text="Back")
         self.back_button.setEnabled(number > 0)
         labelled(self.next_button, text="Done" if number == count - 1 else "Next")
         self.leave_button.setVisible(number < count - 1)
@@ -495,12 +482,9 @@ class Tour(QObject):
 
     def eventFilter(self, watched: QObject, event: QEvent) -> bool:
         """Esc ends the tour from everywhere, unless something else in the window needs it."""
-        is_escape = (
-            event.type() == QEvent.Type.KeyPress
-            and isinstance(event, QKeyEvent)
-            and event.key() == Qt.Key.Key_Escape
-        )
-        if is_escape and self.is_running and not self._is_escape_needed():
+        is_press = event.type() == QEvent.Type.KeyPress
+        is_escape = isinstance(event, QKeyEvent) and event.key() == Qt.Key.Key_Escape
+        if is_press and is_escape and self.is_running and not self._is_escape_needed():
             self.end()
             return True
         if event.type() == QEvent.Type.Resize and self.is_running:
