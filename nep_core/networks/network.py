@@ -17,7 +17,7 @@ from faults import Fault
 from nep_core.closing import Closing
 from nep_core.errors import NetworkError
 from nep_core.wire.io_thread import IoThread
-from nep_core.wire.outbox import Outbox
+from nep_core.wire.outbox import Outbox, network_closed
 
 HANDSHAKE_S = 1.0
 """How long a constructor waits for a peer that it knows of; then it goes on with a warning."""
@@ -104,11 +104,7 @@ class Network(Closing, ABC):
         subscriber = uuid.uuid4().hex
         with self._lock:
             if self.closed:  # an inbox that close() does not know of would keep it waiting
-                raise NetworkError(
-                    "The network of {node} is closed.",
-                    checklist=("Start it again.",),
-                    node=self.node,
-                )
+                raise network_closed(self.node)
             inbox = self._make_inbox(topic, subscriber, policy)
             self._inboxes[subscriber] = inbox
         self.io.tend(inbox.tend)

@@ -96,7 +96,15 @@ class Registry:
         """
         holder = self.holder(told.node)
         if holder is not None and holder.registration.instance != told.instance:
-            raise _name_taken(holder.registration)
+            raise NameTaken(
+                'A node named "{node}" is already running (process {pid}).',
+                checklist=(
+                    "Give the new node another name.",
+                    'Or stop the running "{node}" first.',
+                ),
+                node=told.node,
+                pid=holder.registration.pid,
+            )
         before = self.entries.get(told.instance)
         entry = Entry(told, now_s, address, version)
         self.entries[told.instance] = entry
@@ -180,15 +188,3 @@ def _take_out(index: dict[str, dict[str, V]], topic: str, instance: str) -> None
     del programs[instance]
     if not programs:
         del index[topic]
-
-
-def _name_taken(other: Registration) -> NameTaken:
-    return NameTaken(
-        'A node named "{node}" is already running (process {pid}).',
-        checklist=(
-            "Give the new node another name.",
-            'Or stop the running "{node}" first.',
-        ),
-        node=other.node,
-        pid=other.pid,
-    )
