@@ -60,7 +60,8 @@ class Opening:
         self.master = fixed_endpoint(endpoint_at(self.host, port))
         check_endpoint(endpoint_at(self.host, door_port or "*"))
         self.file = owned_key_file(keys, title)
-        self._door_port = door_port
+        self.door_port = door_port
+        """Where the second computer knocks."""
         self._is_announced = is_announced
         self._on_event = on_event
         self._door: Door | None = None
@@ -69,8 +70,8 @@ class Opening:
     def start(self) -> None:
         """Open the door and announce the network; raises PortTaken."""
         self.file.change(lambda keys: msgspec.structs.replace(keys, master=self.master))
-        self._door = Door(self.file, (self.host, self._door_port), self._on_event)
-        self._door_port = self._door.port
+        self._door = Door(self.file, (self.host, self.door_port), self._on_event)
+        self.door_port = self._door.port
         if self._is_announced:
             keys = self.file.keys
             self._announcement = discovery.announce(
@@ -79,19 +80,14 @@ class Opening:
                     computer=keys.computer,
                     network=keys.network,
                     master=self.master,
-                    door_port=self._door_port,
+                    door_port=self.door_port,
                 )
             )
 
     @property
-    def door_port(self) -> int:
-        """Where the second computer knocks."""
-        return self._door_port
-
-    @property
     def door_place(self) -> str:
         """The door's address and port, as they are typed."""
-        return endpoint_at(self.host, self._door_port).removeprefix("tcp://")
+        return endpoint_at(self.host, self.door_port).removeprefix("tcp://")
 
     @property
     def code(self) -> Code | None:
