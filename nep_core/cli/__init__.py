@@ -65,10 +65,7 @@ class Parser(argparse.ArgumentParser):
 
     def error(self, message: str) -> NoReturn:
         """End with a sentence instead of the whole usage."""
-        print(
-            f"{message[:1].upper()}{message[1:]}.\nHelp: {self.prog} --help",
-            file=sys.stderr,
-        )
+        print(f"{message[:1].upper()}{message[1:]}.\nHelp: {self.prog} --help", file=sys.stderr)
         sys.exit(WRONG_USE)
 
 

@@ -116,10 +116,7 @@ def run(options: argparse.Namespace) -> int:
     try:
         return serve(
             service,
-            lambda: print(
-                f"The {name} serves at {service.endpoint}. Ctrl-C stops it.",
-                flush=True,
-            ),
+            lambda: print(f"The {name} serves at {service.endpoint}. Ctrl-C stops it.", flush=True),
             gateway.close if gateway else lambda: None,
         )
     finally:

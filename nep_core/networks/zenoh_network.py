@@ -336,10 +336,7 @@ class ZenohNetwork(Network):
         told = registrations_of(others, "")[0]
         raise NameTaken(
             'A node named "{node}" is already running (process {pid} on {host}).',
-            checklist=(
-                "Give the new node another name.",
-                'Or stop the running "{node}" first.',
-            ),
+            checklist=("Give the new node another name.", 'Or stop the running "{node}" first.'),
             node=self.node,
             pid=told.pid,
             host=told.host,

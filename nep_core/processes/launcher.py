@@ -212,7 +212,10 @@ class Launcher(Closing):
         if manifest.command:
             folder = Path(manifest.path).parent
             command = [part.replace("{folder}", str(folder)) for part in manifest.command]
-            command = _guarded([*command, "--name", name, *settings])
+            command += ["--name", name, *settings]
+            if shutil.which(command[0]):  # one that cannot be found fails at once
+                # It knows of no life line: the guard lets it end with us
+                command = program_command(GUARD, *command)
         else:
             command = program_command("node", manifest.path, f"--name={name}", *settings)
         return self._launch(LaunchedNode(name, manifest, command, restart or manifest.restart))
@@ -323,7 +326,7 @@ class Launcher(Closing):
                 node=launched.name,
                 type=launched.manifest.type if launched.manifest else "cognitive",
                 event="stopped" if outcome.asked else "crashed",
-                pid=launched.process.pid if launched.process else 0,
+                pid=launched.pid,
                 host=socket.gethostname(),
                 **described(outcome.fault(again=again)),
             )
@@ -344,8 +347,3 @@ class Launcher(Closing):
             launched.ready.set()
         elif state.event == "stopped" and launched.owns(state.pid):
             launched.said_end.set()
-
-
-def _guarded(command: list[str]) -> list[str]:
-    """Let a node that knows of no life line end with us; one that cannot be found fails at once."""
-    return program_command(GUARD, *command) if shutil.which(command[0]) else command

@@ -297,7 +297,7 @@ class ChildProcess:
         if self._popen.stdin is not None:
             self._popen.stdin.close()
         # The last line that says something, one without an indent if there is any
-        said = [line for line in self._last_lines if line.strip()] or [""]
+        said = [line for line in self.last_lines if line.strip()] or [""]
         words = ([line for line in said if not line[:1].isspace()] or said)[-1].strip()
         refusal = handover.take(self._refusal)
         self._on_end(Outcome(self.name, code, self._asked, words, refusal))
@@ -337,11 +337,7 @@ def _job_of(popen: subprocess.Popen[bytes]) -> Job | None:
 
 def _can_send_signals() -> bool:
     """A Windows program without a console, as the frozen one with its window, cannot."""
-    if sys.platform != "win32":
-        return True
-    import ctypes
-
-    return bool(ctypes.windll.kernel32.GetConsoleCP())
+    return sys.platform != "win32" or bool(ctypes.windll.kernel32.GetConsoleCP())
 
 
 def program_command(*words: str) -> list[str]:
@@ -425,15 +421,10 @@ def _windows() -> Any:
     if sys.platform != "win32":
         raise OSError("Jobs are there on Windows only.")
     system = ctypes.WinDLL("kernel32")
-    handle, flag = wintypes.HANDLE, wintypes.BOOL
-    system.CreateJobObjectW.argtypes = (ctypes.c_void_p, wintypes.LPCWSTR)
+    handle, flag, pointer = wintypes.HANDLE, wintypes.BOOL, ctypes.c_void_p
+    system.CreateJobObjectW.argtypes = (pointer, wintypes.LPCWSTR)
     system.CreateJobObjectW.restype = handle
-    system.SetInformationJobObject.argtypes = (
-        handle,
-        ctypes.c_int,
-        ctypes.c_void_p,
-        wintypes.DWORD,
-    )
+    system.SetInformationJobObject.argtypes = (handle, ctypes.c_int, pointer, wintypes.DWORD)
     system.SetInformationJobObject.restype = flag
     system.AssignProcessToJobObject.argtypes = (handle, handle)
     system.AssignProcessToJobObject.restype = flag

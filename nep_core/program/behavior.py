@@ -78,11 +78,7 @@ class Behavior:
         "queue" another run.
         """
 
-        def add(action: Action) -> Action:
-            self._rules.append(Rule(state, action, again, source))
-            return action
-
-        return add
+        return _decorator(lambda action: self._rules.append(Rule(state, action, again, source)))
 
     def when_heard(self, word: str, *, again: Again = "ignore") -> Decorator:
         """Run the decorated function each time that a word or sentence is heard."""
@@ -103,21 +99,18 @@ class Behavior:
     def when_true(self, condition: Condition, *, again: Again = "ignore") -> Decorator:
         """Run the decorated function each time that ``condition()`` becomes true."""
 
-        def add(action: Action) -> Action:
-            self._rules.append(Rule("condition", action, again, condition=condition))
-            return action
-
-        return add
+        return _decorator(
+            lambda action: self._rules.append(Rule("condition", action, again, condition=condition))
+        )
 
     def when_idle(self, seconds: float) -> Decorator:
         """Run the decorated function each time that for so long no state came and no rule ran."""
 
-        def add(action: Action) -> Action:
-            rule = Rule("idle", action, condition=lambda: self._idle_s() >= seconds)
-            self._rules.append(rule)
-            return action
-
-        return add
+        return _decorator(
+            lambda action: self._rules.append(
+                Rule("idle", action, condition=lambda: self._idle_s() >= seconds)
+            )
+        )
 
     def goal(
         self,
@@ -136,11 +129,9 @@ class Behavior:
         ``name`` is told to people; ``interrupted`` is "again" or "drop".
         """
 
-        def add(action: Action) -> Action:
-            self._goals.add(Goal(name, when, action, priority, stop, interrupted))
-            return action
-
-        return add
+        return _decorator(
+            lambda action: self._goals.add(Goal(name, when, action, priority, stop, interrupted))
+        )
 
     def when_goal(self, name: str, event: GoalEvent) -> Decorator:
         """Run the decorated function when a goal has "finished", or was "stopped" or "interrupted".
@@ -148,11 +139,7 @@ class Behavior:
         Or, before it begins again, when it "returns".
         """
 
-        def add(action: Action) -> Action:
-            self._goals.hook(name, event, action)
-            return action
-
-        return add
+        return _decorator(lambda action: self._goals.hook(name, event, action))
 
     def when_started(self, action: Action) -> Action:
         """Run the decorated function when the program starts."""
@@ -273,6 +260,16 @@ class Behavior:
         name = threading.current_thread().name
         state = ProgramState(program=self.name, event=event, rule=rule, thread=name, line=line)
         self._states.send(state)
+
+
+def _decorator(note: Callable[[Action], None]) -> Decorator:
+    """What gives a function to ``note``, and leaves it as it is."""
+
+    def decorate(action: Action) -> Action:
+        note(action)
+        return action
+
+    return decorate
 
 
 def _line_of(action: Action) -> int:

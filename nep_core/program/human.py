@@ -9,7 +9,6 @@ from collections import deque
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
-from typing import cast
 
 from nep_core.networks.network import Network
 from nep_core.networks.transports import default_network
@@ -89,7 +88,8 @@ class HumanListener:
 
     def __init__(self, network: Network) -> None:
         self._state = ""
-        self._heard_s = 0.0
+        self.heard_s = 0.0
+        """When anything was last heard, time.monotonic(); 0 when nothing was."""
         self._seen: dict[str, Seen] = {}
         self._told_s: dict[str, float] = {}
         self._remembered_until_s: dict[str, float] = {}
@@ -114,12 +114,7 @@ class HumanListener:
 
     def state(self) -> str:
         """The last state, "" when nothing was seen for 3 s."""
-        return self._state if time.monotonic() - self._heard_s <= REMEMBER_S else ""
-
-    @property
-    def heard_s(self) -> float:
-        """When anything was last heard, time.monotonic(); 0 when nothing was."""
-        return self._heard_s
+        return self._state if time.monotonic() - self.heard_s <= REMEMBER_S else ""
 
     def told_s(self, source: str) -> float:
         """When a robot or node told of the person last, on its own clock, in s; 0 is never."""
@@ -159,17 +154,14 @@ class HumanListener:
         finally:
             self.unlisten(note)
 
-    def _note(self, state: str) -> None:
-        seen = self._seen.pop(state, Seen())  # the newest last
-        self._seen[state] = Seen(time.monotonic(), seen.times + 1)
-        if len(self._seen) > MOST_STATES:
-            del self._seen[next(iter(self._seen))]
-
     def _on_behavior(self, behavior: HumanBehavior) -> None:
         with self._lock:
-            self._state, self._heard_s = behavior.human_state, time.monotonic()
+            self._state, self.heard_s = behavior.human_state, time.monotonic()
             self._told_s[behavior.source] = behavior.time
-            self._note(behavior.human_state)
+            seen = self._seen.pop(self._state, Seen())  # the newest last
+            self._seen[self._state] = Seen(self.heard_s, seen.times + 1)
+            if len(self._seen) > MOST_STATES:
+                del self._seen[next(iter(self._seen))]
             if not self._listeners:
                 self._kept.append(behavior)
             for listener in list(self._listeners):
@@ -178,8 +170,7 @@ class HumanListener:
 
 def human_listener(network: Network | None = None) -> HumanListener:
     """The listener of this program's network."""
-    place = network or default_network()
-    return cast(HumanListener, place.shared("human", lambda: HumanListener(place)))
+    return (network or default_network()).shared(HumanListener)
 
 
 def human_state() -> str:

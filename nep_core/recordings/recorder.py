@@ -140,7 +140,8 @@ class Recorder(Closing):
     @property
     def lost(self) -> int:
         """How many messages were sent but did not arrive."""
-        return sum(subscriber.lost for subscriber in self._subscribers.values())
+        there = list(self._subscribers.values())  # topics may come meanwhile, in another thread
+        return sum(subscriber.lost for subscriber in there)
 
     @property
     def file_bytes(self) -> int:
@@ -203,13 +204,8 @@ class Recorder(Closing):
         number = self._channels.get(channel)
         if number is None:
             number = self._channels[channel] = self._open_channel(channel)
-        self._writer.add_message(
-            number,
-            message.arrived_ns,
-            data,
-            max(0, message.sent_ns),
-            message.sequence % SEQUENCES,
-        )
+        sent_ns, sequence = max(0, message.sent_ns), message.sequence % SEQUENCES
+        self._writer.add_message(number, message.arrived_ns, data, sent_ns, sequence)
         self.totals.messages += 1
         self.totals.payload_bytes += len(message.payload)
         self.totals.topics[message.topic] = self.totals.topics.get(message.topic, 0) + 1
@@ -269,10 +265,7 @@ def _cannot_write(path: Path, error: OSError, kept: int) -> RecordingError:
     return RecordingError(
         "The recording ended because {path} cannot grow: {reason}. What was recorded before is "
         "kept: {kept} bytes.",
-        checklist=(
-            "Make room on the disk, or record to another one.",
-            "Record fewer topics.",
-        ),
+        checklist=("Make room on the disk, or record to another one.", "Record fewer topics."),
         details=str(error),
         path=path,
         reason=reason_of(error),
@@ -373,15 +366,13 @@ class Player(Closing):
                 continue
             due_s = begin_s + (message.arrived_ns - self._start_ns) / 1e9 / self._speed
             left_s = due_s - time.monotonic()
-            if self.is_stopping or (left_s > 0 and self._waits(left_s)):
+            if left_s > 0:
+                select.select([self._stopped], [], [], left_s)
+            if self.is_stopping:
                 break
             self._send(message)
             last_s = max(last_s, due_s)
         return last_s
-
-    def _waits(self, wait_s: float) -> bool:
-        """Wait so long; True when it was stopped meanwhile."""
-        return bool(select.select([self._stopped], [], [], wait_s)[0])
 
     def _send(self, message: RawMessage) -> None:
         try:

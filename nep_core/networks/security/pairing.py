@@ -238,10 +238,7 @@ class Lines:
 def _broken() -> PairingError:
     return PairingError(
         "The talk with the other computer ended too early.",
-        checklist=(
-            "Is that the address of the computer that opened the network?",
-            "Try again.",
-        ),
+        checklist=("Is that the address of the computer that opened the network?", "Try again."),
     )
 
 
