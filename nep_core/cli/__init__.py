@@ -52,7 +52,7 @@ GROUPS = {
     "Messages": ("echo", "hz", "send"),
     "Recordings": ("record", "play"),
 }
-"""How the list of commands is ordered; one that is nowhere here comes last."""
+"""How the list of commands is ordered."""
 
 ASK_NO_MASTER = ("master", "broker", "open", "pair", "find", "computers")
 """Commands that take --master, as all do, but have no use for it."""
@@ -125,11 +125,8 @@ def overview() -> str:
     """All commands in their groups, a line each, and how to begin."""
     lines = ["Look at a NEP network and take part in it.", "", "nep COMMAND [OPTIONS]", ""]
     width = max(map(len, COMMANDS))
-    grouped = {name for names in GROUPS.values() for name in names}
-    others = tuple(name for name in COMMANDS if name not in grouped)
-    for title, names in (*GROUPS.items(), ("More", others)):
-        there = [f"  {name:{width}} {COMMANDS[name][1]}" for name in names if name in COMMANDS]
-        lines += [title, *there, ""] if there else []
+    for title, names in GROUPS.items():
+        lines += [title, *(f"  {name:{width}} {COMMANDS[name][1]}" for name in names), ""]
     return "\n".join([*lines, FIRST_STEPS])
 
 

@@ -16,11 +16,11 @@ import sys
 import tempfile
 import time
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
 from importlib import metadata
 from pathlib import Path
 from typing import Literal
 
+import msgspec
 import psutil
 import zmq
 
@@ -54,8 +54,7 @@ State = Literal["ok", "look", "unknown", "note"]
 """``look``: something is wrong. ``unknown``: it could not be found out. ``note``: good to know."""
 
 
-@dataclass(frozen=True)
-class Finding:
+class Finding(msgspec.Struct, frozen=True, rename={"sentence": "told"}):
     """A thing, how it is, in an English sentence, and the steps to do when it is wrong."""
 
     about: str
@@ -80,22 +79,19 @@ def add_arguments(_name: str, parser: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> int:
     """Print the report; 1 when there is something to look at."""
-    findings = examine(options.master, options.robot)
+    groups = examined(options.master, options.robot).values()
+    findings = [found for group in groups for found in group]
+    looks = sum(found.state == "look" for found in findings)
     if options.json:
         say_json(findings)
     else:
-        say("\n".join(report_lines(findings)))
-    return 1 if any(found.state == "look" for found in findings) else 0
-
-
-def examine(master: str | None = None, robot: str | None = None) -> list[Finding]:
-    """All that was found out about this computer."""
-    return [found for group in examined(master, robot).values() for found in group]
+        order = f"Look at {looks} of these, the first one first."
+        say("\n".join([*finding_lines(findings), "", order if looks else "Nothing is wrong."]))
+    return 1 if looks else 0
 
 
 def examined(master: str | None = None, robot: str | None = None) -> dict[str, list[Finding]]:
-    """The same by what it is about: computer, network, folders, nodes."""
-
+    """What was found out by what it is about: computer, network, folders, nodes."""
     return {
         "computer": [
             *_found("versions", versions),
@@ -129,15 +125,8 @@ def _found(about: str, look: Callable[[], Finding | list[Finding]]) -> list[Find
     return found if isinstance(found, list) else [found]
 
 
-def report_lines(findings: list[Finding]) -> list[str]:
-    """The report for people: what was found, and a sentence at the end."""
-    looks = sum(found.state == "look" for found in findings)
-    end = "Nothing is wrong." if not looks else f"Look at {looks} of these, the first one first."
-    return [*finding_lines(findings), "", end]
-
-
 def finding_lines(findings: Sequence[Finding]) -> list[str]:
-    """A line for each, steps below what needs a look."""
+    """The report for people: a line for each, steps below what needs a look."""
     width = max((len(found.about) for found in findings), default=0)
     lines = []
     for found in findings:
@@ -154,7 +143,6 @@ ANSWER_S = 0.5
 CONNECT_S = 1.0
 HEARTBEATS_S = 1.2
 MOST_DIFFERENCE_S = 0.5
-NETWORKS = ("p2p", "broker", "zenoh")
 VARIABLES = {
     MASTER_VARIABLE: "where the master is",
     BROKER_VARIABLE: "where the broker is",
@@ -163,7 +151,7 @@ VARIABLES = {
     "NEP_KEYS": "the key file of an opened network",
     "NEP_HOST": "the address of this computer in an opened network",
     "NEP_ORIGINAL": "whether programs of the original NEP may join (0 or 1)",
-    "NEP_NETWORK": f"which network: {', '.join(NETWORKS)}",
+    "NEP_NETWORK": f"which network: {', '.join(transports.TRANSPORTS)}",
     "NEP_ZENOH": "where the routers of a zenoh network are",
     "NEP_ZENOH_KEYS": "the certificates of a zenoh network",
     "NEP_ROBOT_USER": "the user's name at the real robot",
@@ -205,8 +193,9 @@ def _variable(name: str, value: str) -> Finding:
         if missing:
             steps = ("Correct the variable, or make the folder.",)
             return Finding(name, "look", f"there is no folder {', '.join(missing)}", steps)
-    if name == "NEP_NETWORK" and value not in NETWORKS:
-        return Finding(name, "look", f"there is no network {value}", (f"Use {NETWORKS}.",))
+    if name == "NEP_NETWORK" and value not in transports.TRANSPORTS:
+        steps = (f"Use {transports.TRANSPORTS}.",)
+        return Finding(name, "look", f"there is no network {value}", steps)
     return Finding(name, "ok", told)
 
 

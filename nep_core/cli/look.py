@@ -12,7 +12,7 @@ import psutil
 
 from nep_core.networks.network import Network
 from nep_core.networks.registry import Registration
-from nep_core.networks.transports import TopicEnds, topics_of
+from nep_core.networks.transports import topics_of
 from nep_core.recordings.raw import RawSubscriber
 from nep_core.wire.messages import BY_TOPIC, NODE_STATE, NodeState
 from nep_core.wire.pubsub import Subscriber
@@ -45,10 +45,8 @@ def add_rates(parser: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> int:
     """Print what was asked for."""
-    if options.command == "topics":
-        _show_topics(options)
-    else:
-        _show_nodes(options)
+    show = _show_topics if options.command == "topics" else _show_nodes
+    show(options)
     return 0
 
 
@@ -59,7 +57,18 @@ def _show_topics(options: argparse.Namespace) -> None:
         with join(options) as network:
             rates = rates_of(network, [ends.topic for ends in topics], options.rates)
     if options.json:
-        say_json([_topic_data(ends, rates) for ends in topics])
+        say_json(
+            [
+                {
+                    "topic": ends.topic,
+                    "message": struct_of(ends.topic),
+                    "publishers": ends.publishers,
+                    "subscribers": ends.subscribers,
+                    **({"rate_hz": rates[ends.topic]} if rates else {}),
+                }
+                for ends in topics
+            ]
+        )
         return
     head = ("TOPIC", "MESSAGE", *(("HZ",) if rates else ()), "FROM", "TO")
     rows = [
@@ -73,17 +82,6 @@ def _show_topics(options: argparse.Namespace) -> None:
         for ends in topics
     ]
     say(table(head, rows) if rows else "No topics yet.")
-
-
-def _topic_data(ends: TopicEnds, rates: dict[str, float]) -> dict[str, object]:
-    heard = {"rate_hz": rates[ends.topic]} if ends.topic in rates else {}
-    return {
-        "topic": ends.topic,
-        "message": struct_of(ends.topic),
-        "publishers": ends.publishers,
-        "subscribers": ends.subscribers,
-        **heard,
-    }
 
 
 def struct_of(topic: str) -> str:

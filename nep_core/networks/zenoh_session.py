@@ -86,20 +86,6 @@ def open_client(routers: list[str]) -> zenoh.Session:
     return _open("client", routers, [], settings, failure)
 
 
-def open_router(listen: list[str], connect: list[str]) -> zenoh.Session:
-    """A router's session, which goes on looking for the other routers; raises PortTaken."""
-    failure = PortTaken(
-        "{listen} cannot be used.",
-        checklist=(
-            "Is a router running there already? Use that one, or stop it.",
-            "Choose another port: --listen tcp/127.0.0.1:7448",
-            "Is that an address of this computer?",
-        ),
-        listen=" or ".join(listen),
-    )
-    return _open("router", connect, listen, {DROP_US: ROUTER_WAITS_US}, failure)
-
-
 def check_private(endpoint: str) -> None:
     """Raise NetworkError when anybody on a network could reach and read ``endpoint``."""
     match = _ENDPOINT.fullmatch(check_zenoh_endpoint(endpoint))
@@ -257,7 +243,17 @@ class ZenohRouter:
         if not is_private:
             for place in places:
                 check_private(place)
-        self._session = open_router(places, [check_zenoh_endpoint(one) for one in connect])
+        failure = PortTaken(
+            "{listen} cannot be used.",
+            checklist=(
+                "Is a router running there already? Use that one, or stop it.",
+                "Choose another port: --listen tcp/127.0.0.1:7448",
+                "Is that an address of this computer?",
+            ),
+            listen=" or ".join(places),
+        )
+        others = [check_zenoh_endpoint(one) for one in connect]
+        self._session = _open("router", others, places, {DROP_US: ROUTER_WAITS_US}, failure)
         self._told_sites = 0
         self.endpoint = " and ".join(places)
         atexit.register(self.close)  # zenoh's threads must end before the interpreter does

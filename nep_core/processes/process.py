@@ -324,15 +324,12 @@ def _start(
             command=command[0],
             reason=reason_of(error) if isinstance(error, OSError) else error,
         ) from error
-    return popen, _job_of(popen) if ON_WINDOWS else None
-
-
-def _job_of(popen: subprocess.Popen[bytes]) -> Job | None:
-    try:
-        return Job(int(popen._handle))  # type: ignore[attr-defined]  # there is no other way
-    except OSError as error:  # its life line and its mark are still there
-        log.warning("A process is in no job: %s", error)
-        return None
+    if ON_WINDOWS:
+        try:  # there is no other way to its handle
+            return popen, Job(int(popen._handle))  # type: ignore[attr-defined]
+        except OSError as error:  # its life line and its mark are still there
+            log.warning("A process is in no job: %s", error)
+    return popen, None
 
 
 def _can_send_signals() -> bool:

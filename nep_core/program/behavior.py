@@ -393,7 +393,11 @@ class Goals:
                 if goal.state == state and goal not in (self._running, *self._waiting):
                     goal.returns = False
                     self._waiting.append(goal)
-            self._interrupt()
+            running = self._running
+            if running is not None and self._cut == "finished":
+                order = ORDER[running.priority]
+                if any(ORDER[goal.priority] > order for goal in self._waiting):
+                    self._cut_running("interrupted")
             self._news.notify_all()
 
     def run(self) -> None:
@@ -453,13 +457,6 @@ class Goals:
         goal.action()
         with self._news:
             self._has_ended = True
-
-    def _interrupt(self) -> None:
-        running = self._running
-        if running is None or self._cut != "finished":
-            return
-        if any(ORDER[goal.priority] > ORDER[running.priority] for goal in self._waiting):
-            self._cut_running("interrupted")
 
     def _cut_running(self, end: End) -> None:
         """End the running goal; being stopped outdoes being interrupted."""

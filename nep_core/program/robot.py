@@ -414,7 +414,8 @@ class Robot:
         """The newest state, told after all that the robot was seen to do, or told of the person."""
         robot = self.robots[0]
         done = self._client.last_done.get(robot, 0.0)
-        told = human_listener(self._network).told_s(robot)  # a rule may have fired just now
+        # A rule may have fired just now
+        told = human_listener(self._network).told_s.get(robot, 0.0)
         state = robot_listener(self._network).newest(robot, max(done, told))
         if state is None:
             raise not_answering(robot)

@@ -375,11 +375,15 @@ class Player(Closing):
         return last_s
 
     def _send(self, message: RawMessage) -> None:
-        try:
-            again = _as_it_was(message)
-        except UnicodeDecodeError:
-            log.warning("%s: a text that is not UTF-8 is not played", message.topic)
-            return
+        again: Sendable = message.payload
+        if message.encoding == "text":
+            try:
+                again = message.payload.decode()
+            except UnicodeDecodeError:
+                log.warning("%s: a text that is not UTF-8 is not played", message.topic)
+                return
+        elif message.encoding != "bytes":
+            again = msgspec.Raw(message.payload)  # goes out as it is
         self._publishers[message.topic, message.encoding == "msgpack"].send(again)
         self.sent += 1
 
@@ -416,12 +420,3 @@ def _chosen(told: Overview, topics: Collection[str] | None, node_states: bool) -
             sorted=", ".join(sorted(there)) or "no messages",
         )
     return set(topics)
-
-
-def _as_it_was(message: RawMessage) -> Sendable:
-    """What to send so that the same bytes go out; raises UnicodeDecodeError."""
-    if message.encoding == "text":
-        return message.payload.decode()
-    if message.encoding == "bytes":
-        return message.payload
-    return msgspec.Raw(message.payload)  # goes out as it is

@@ -143,7 +143,10 @@ class KeyFile:
         return known[0]
 
     def forget(self, name: str) -> bool:
-        """Let a computer in no more; whether it was known."""
+        """Let a computer in no more; whether it was known.
+
+        Connections that exist stay until the programs at one of their ends are started again.
+        """
         before = self.keys.computers
 
         def drop(keys: Keys) -> Keys:

@@ -23,7 +23,7 @@ from nep_core.wire.pubsub import Publisher
 
 from .addresses import endpoint_at, lan_address
 from .curve import Security
-from .keys import Computer, KeyFile, new_keys
+from .keys import KeyFile, new_keys
 from .pairing import CODE_S, Code, Door, DoorEvent
 
 log = logging.getLogger(__name__)
@@ -99,18 +99,6 @@ class Opening:
         if self._door is None:
             raise RuntimeError("start() comes first")
         return self._door.new_code(seconds)
-
-    @property
-    def peers(self) -> tuple[Computer, ...]:
-        """The computers that were let in."""
-        return self.file.keys.computers
-
-    def forget(self, peer: str) -> bool:
-        """Let a computer in no more; whether it was known.
-
-        Connections that exist stay until the programs at one of their ends are started again.
-        """
-        return self.file.forget(peer)
 
     def close(self) -> None:
         """Shut the door and announce no more; programs go on as they are."""
