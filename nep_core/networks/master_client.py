@@ -71,8 +71,7 @@ class MasterClient:
         self._socket.setsockopt(zmq.IMMEDIATE, 1)  # nothing piles up while the master is away
         self._socket.reconnect_ivl = RECONNECT_MS
         self._socket.reconnect_ivl_max = LONGEST_RECONNECT_MS
-        security.trust_master(self._socket)
-        self._socket.connect(master)
+        security.connect_to_master(self._socket, master)
         self._changed = threading.Condition()
         self._version = 0
         self._asked: set[str] = set()
@@ -304,14 +303,12 @@ class MasterFeed(Feed):
         self._socket = self._context.socket(zmq.DEALER)
         self._socket.linger = 0
         self._socket.setsockopt(zmq.IMMEDIATE, 1)
-        self._socket.setsockopt(zmq.IPV6, int("[" in master))
         self._socket.reconnect_ivl_max = 500
         try:
-            security.trust_master(self._socket)
+            security.connect_to_master(self._socket, master)
         except BaseException:
             self._context.destroy(linger=0)
             raise
-        self._socket.connect(master)
         self._thread.start()
 
     def close(self) -> None:

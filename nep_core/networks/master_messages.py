@@ -227,13 +227,11 @@ class MasterProbe:
         fixed_endpoint(endpoint)
         self._context: zmq.Context[zmq.Socket[bytes]] = zmq.Context()
         self._socket = self._context.socket(zmq.DEALER)
-        self._socket.setsockopt(zmq.IPV6, int("[" in endpoint))
         try:
-            security.trust_master(self._socket)
+            security.connect_to_master(self._socket, endpoint)
         except BaseException:
             self.close()
             raise
-        self._socket.connect(endpoint)
 
     def ask(self, request: Request, kind: type[A], timeout_s: float = 2.0) -> A | None:
         """The answer; None when no NEP master gives one of this kind."""

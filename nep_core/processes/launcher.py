@@ -9,7 +9,7 @@ import shutil
 import socket
 import threading
 import time
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
 from functools import partial
 from pathlib import Path
@@ -127,9 +127,6 @@ class LaunchedNode:
                 )
 
 
-__all__ = ["LaunchedNode", "Launcher", "Report"]
-
-
 SETTINGS = {"PYTHONUNBUFFERED": "1", "PYTHONUTF8": "1"}
 """What every node finds in its environment, beside the master's endpoint."""
 
@@ -224,34 +221,23 @@ class Launcher(Closing):
         """Start and supervise a program that has no manifest, such as the master."""
         return self._launch(LaunchedNode(name, None, command))
 
-    def stop(self, name: str) -> None:
-        """Stop one node and all the processes that it started."""
+    def stop(self, *names: str) -> None:
+        """Stop nodes, all at once, and all the processes that they started."""
         with self._lock:  # a restart may be starting another process at this moment
-            launched = self.nodes.get(name)
-            if launched is None:
-                return
-            launched.stopping = True
-            launched.ended.set()
-            process = launched.process
-        if process is not None:
-            process.stop()
-
-    def stop_all(self, names: Iterable[str]) -> None:
-        """Stop several nodes, all at once."""
-        with self._lock:
             stopped = [self.nodes[name] for name in names if name in self.nodes]
             for launched in stopped:
                 launched.stopping = True
-            processes = [launched.process for launched in stopped]
+                launched.ended.set()
+            processes = [launched.process for launched in stopped if launched.process is not None]
         for process in processes:
-            if process is not None and process.poll() is None:
+            if process.poll() is None:
                 process.ask_to_stop()
-        for launched in stopped:
-            self.stop(launched.name)
+        for process in processes:
+            process.stop()
 
     def close(self) -> None:
         """Stop every node, all at once."""
-        self.stop_all(list(self.nodes))
+        self.stop(*self.nodes)
         for launched in list(self.nodes.values()):
             launched.end_reported.wait(TOLD_S)
         self.leave()

@@ -66,22 +66,14 @@ class Channel:
         return {"nep.node": self.node, "nep.encoding": self.encoding}
 
     @property
-    def schema_name(self) -> str:
-        """The name of the schema; "" when there is none."""
-        if self.is_text:
-            return "nep.Text"
-        if self.encoding != "json":
-            return ""
-        kind = BY_TOPIC.get(self.topic)
-        return f"nep.{kind.__name__}" if kind else "nep.Any"
-
-    @property
-    def schema(self) -> bytes:
-        """The JSON schema, simple enough for Foxglove."""
-        if self.is_text:
-            return plain_schema(Text)
-        kind = BY_TOPIC.get(self.topic)
-        return plain_schema(kind) if kind else b'{"type":"object","properties":{}}'
+    def schema(self) -> tuple[str, bytes]:
+        """The name of its JSON schema, which is simple enough for Foxglove; "" for none."""
+        if self.encoding != "json" and not self.is_text:
+            return "", b""
+        kind = Text if self.is_text else BY_TOPIC.get(self.topic)
+        if kind is None:
+            return "nep.Any", b'{"type":"object","properties":{}}'
+        return f"nep.{kind.__name__}", plain_schema(kind)
 
 
 def channel_of(message: RawMessage) -> tuple[Channel, bytes]:

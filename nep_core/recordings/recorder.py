@@ -26,14 +26,13 @@ from nep_core.networks.network import Network
 from nep_core.networks.registry import Registration
 from nep_core.networks.transports import topics_of
 from nep_core.networks.zmq_networks import PeerNetwork
-from nep_core.recordings.file import Overview, Recording, overview, read_recording
-from nep_core.recordings.raw import RawMessage, RawSubscriber, SteadyClock
 from nep_core.wire.frames import Sendable
 from nep_core.wire.io_thread import Wake
 from nep_core.wire.messages import LATCHED, NODE_STATE
 from nep_core.wire.pubsub import Publisher
 
-from .file import Channel, channel_of
+from .file import Channel, Overview, Recording, channel_of, overview
+from .raw import RawMessage, RawSubscriber, SteadyClock
 
 log = logging.getLogger(__name__)
 
@@ -211,12 +210,11 @@ class Recorder(Closing):
         self.totals.topics[message.topic] = self.totals.topics.get(message.topic, 0) + 1
 
     def _open_channel(self, channel: Channel) -> int:
-        schema = self._schemas.get(channel.schema_name)
-        if schema is None:
-            schema = self._writer.register_schema(channel.schema_name, "jsonschema", channel.schema)
-            self._schemas[channel.schema_name] = schema
+        name, schema = channel.schema
+        if name not in self._schemas:
+            self._schemas[name] = self._writer.register_schema(name, "jsonschema", schema)
         return self._writer.register_channel(
-            channel.topic, channel.message_encoding, schema, channel.metadata
+            channel.topic, channel.message_encoding, self._schemas[name], channel.metadata
         )
 
     def _keep_on_disk(self) -> None:
@@ -274,8 +272,6 @@ def _cannot_write(path: Path, error: OSError, kept: int) -> RecordingError:
 
 
 # Playing a recording: its messages go out again on their topics, in their true timing.
-
-__all__ = ["Overview", "Player", "Recording", "overview", "read_recording"]
 
 Join = Callable[[str], Network]
 

@@ -16,6 +16,7 @@ from zmq.backend import Socket as BackendSocket
 
 from faults import reason_of
 from nep_core.errors import NetworkError, PortTaken
+from nep_core.networks.security import connect
 from nep_core.networks.security.addresses import require_loopback
 
 from . import frames
@@ -413,7 +414,7 @@ class ZmqOutbox(Outbox):
         with self._lock:
             if self._security is not None:
                 self._security.trust(self._socket, self._security.key_at(endpoint))
-            self._socket.connect(endpoint)
+            connect(self._socket, endpoint)
 
     def tend(self) -> None:
         """Read who subscribed and who left, welcome the newcomers, send what waits."""
