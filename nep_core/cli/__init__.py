@@ -36,7 +36,7 @@ COMMANDS = {
     "kill": ("kill", "ask a node to stop, and wait until it is gone"),
     "topics": ("look", "which topics there are, and who publishes and hears them"),
     "nodes": ("look", "which nodes there are, and how they are doing"),
-    "graph": ("graph", "who is connected with whom, as text or for Graphviz"),
+    "graph": ("look", "who is connected with whom, as text or for Graphviz"),
     "echo": ("listen", "print the messages of a topic"),
     "hz": ("listen", "how often, how evenly and how much comes on a topic"),
     "send": ("talk", "send messages on a topic"),
