@@ -189,8 +189,9 @@ class FaultError(Exception):
         for step in self.fault.checklist:
             self._note(step)
 
-    def __init_subclass__(cls) -> None:
+    def __init_subclass__(cls, title: str = "") -> None:
         super().__init_subclass__()
+        cls.title = title or cls.title
         if "code" not in vars(cls):
             cls.code = re.sub(r"(?<=[a-z])(?=[A-Z])", "_", cls.__name__).lower()
 

@@ -48,8 +48,6 @@ from nep_core.wire.pubsub import Subscriber
 
 from .console import add_json, amount, many, near, say, say_json
 
-# What the doctor found out about one thing.
-
 State = Literal["ok", "look", "unknown", "note"]
 """``look``: something is wrong. ``unknown``: it could not be found out. ``note``: good to know."""
 
@@ -196,8 +194,8 @@ def _variable(name: str, value: str) -> Finding:
     if name == NODES_VARIABLE:
         missing = [part for part in value.split(os.pathsep) if part and not Path(part).is_dir()]
         if missing:
-            there_is_none = f"there is no folder {', '.join(missing)}"
-            return look(name, there_is_none, "Correct the variable, or make the folder.")
+            sentence = f"there is no folder {', '.join(missing)}"
+            return look(name, sentence, "Correct the variable, or make the folder.")
     if name == "NEP_NETWORK" and value not in transports.TRANSPORTS:
         return look(name, f"there is no network {value}", f"Use {transports.TRANSPORTS}.")
     return Finding(name, "ok", told)
@@ -413,7 +411,9 @@ def firewalls(
     if sys.platform == "darwin":
         tool = "/usr/libexec/ApplicationFirewall/socketfilterfw"
         return [_asked(about, [tool, "--getglobalstate"])]
-    running = _running() if programs is None else programs
+    running = programs
+    if running is None:
+        running = frozenset(one.info["name"] or "" for one in psutil.process_iter(["name"]))
     findings = []
     if ufw.exists():
         try:
@@ -432,10 +432,6 @@ def firewalls(
 
 
 _PLACES = os.pathsep.join((os.environ.get("PATH", ""), "/usr/sbin", "/sbin"))
-
-
-def _running() -> frozenset[str]:
-    return frozenset(process.info["name"] or "" for process in psutil.process_iter(["name"]))
 
 
 def _asked(about: str, command: list[str]) -> Finding:

@@ -111,9 +111,6 @@ class News:
         self._watchers = {who: s for who, s in self._watchers.items() if self._send(who, news)}
 
 
-# Which programs of this computer have ended.
-
-
 class Processes:
     """Sees the processes of programs that are on this computer, as far as it can be known.
 

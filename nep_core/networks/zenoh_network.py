@@ -156,9 +156,6 @@ class ZenohInbox:
                 self._wakes.put(None)
 
 
-# The sending side of a zenoh network: its streams, and who hears them.
-
-
 class ZenohOutbox(Outbox):
     """Sends in the caller's thread; the I/O thread, which ``wake`` calls, welcomes who comes.
 
@@ -368,9 +365,6 @@ def zenoh_stop(node: str, connect: Iterable[str] = ()) -> bool:
         for registration in told:
             session.put(stop_key(registration.instance), b"")
     return bool(told)
-
-
-# Following who is in a zenoh network, for tools that show it.
 
 
 class ZenohFeed(Feed):

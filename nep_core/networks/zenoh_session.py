@@ -225,11 +225,8 @@ def _part(text: str) -> str:
     return quote(text, safe="")
 
 
-# A zenoh router in this process: programs of one site connect to it, and it to other sites.
-
-
 class ZenohRouter:
-    """Passes messages on between its programs and to the routers that it knows of.
+    """Passes messages on, in this process: between its programs, and to routers that it knows of.
 
     ``listen``: its endpoints (default: NEP_ZENOH); ``connect``: routers of other sites, which it
     looks for as long as it lives. Endpoints that anybody could read must be allowed by

@@ -145,11 +145,8 @@ class DirectNetwork(ZmqNetwork):
         return set()
 
 
-# The default network: publishers bind a free port, and the master tells subscribers where.
-
-
 class PeerNetwork(ZmqNetwork):
-    """One program's place in a p2p network.
+    """One program's place in a p2p network: the master tells subscribers where publishers are.
 
     Joining raises MasterNotFound when no master answers, NameTaken when a node of this name is
     already running.
@@ -266,9 +263,6 @@ class PeerNetwork(ZmqNetwork):
         self._client.close()
 
 
-# The central service of the broker network: a proxy for its messages, a master for its names.
-
-
 class Broker:
     """Passes messages from every publisher to every subscriber; raises PortTaken.
 
@@ -323,9 +317,6 @@ class Broker:
             zmq.proxy(self._publishers, self._subscribers)
         self._publishers.close()
         self._subscribers.close()
-
-
-# The network with a central service: names go through its registry, messages through itself.
 
 
 class BrokerNetwork(PeerNetwork):

@@ -34,8 +34,6 @@ from .process import ASKED, ChildProcess, Outcome, program_command
 log = logging.getLogger(__name__)
 
 
-# A node that the launcher keeps running, and whether it deserves another life.
-
 MOST_RESTARTS = 5
 HEALTHY_S = 10.0
 LAST_WORD_S = 0.2

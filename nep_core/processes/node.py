@@ -28,8 +28,6 @@ from nep_core.wire.pubsub import Publisher, Subscriber
 log = logging.getLogger(__name__)
 
 
-# What a node may be called.
-
 LONGEST_NAME = 100
 
 
@@ -38,22 +36,16 @@ def check_node_name(name: str) -> str:
     if not name.strip():
         raise _wrong("A node has no name.")
     if len(name) > LONGEST_NAME:
-        raise _wrong(
-            text_of(
-                "The name {name}... is longer than {longest_name} letters.",
-                name=repr(name[:20]),
-                longest_name=LONGEST_NAME,
-            )
-        )
+        words = "The name {name}... is longer than {longest_name} letters."
+        raise _wrong(words, name=repr(name[:20]), longest_name=LONGEST_NAME)
     if any(unicodedata.category(letter) in ("Cc", "Cs") for letter in name):
-        raise _wrong(
-            text_of("The name {name} has a letter in it that cannot be written.", name=repr(name))
-        )
+        raise _wrong("The name {name} has a letter in it that cannot be written.", name=repr(name))
     return name
 
 
-def _wrong(sentence: Words) -> ParameterError:
-    return ParameterError(sentence, checklist=("Give the node a short name, such as watch.",))
+def _wrong(words: str, **values: Any) -> ParameterError:
+    steps = ("Give the node a short name, such as watch.",)
+    return ParameterError(words, checklist=steps, **values)
 
 
 T = TypeVar("T")

@@ -68,8 +68,6 @@ def kill(processes: Iterable[psutil.Process]) -> None:
             process.kill()
 
 
-# How a process ended, as data that can say it in a sentence.
-
 ASKED = 71
 """The exit code of a launched node that somebody in the network asked to stop."""
 

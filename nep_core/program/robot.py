@@ -60,8 +60,6 @@ def robot_listener(network: Network | None = None) -> RobotListener:
     return (network or default_network()).shared(RobotListener)
 
 
-# A robot, or several: what it can be asked to do, and what it measures.
-
 CLOSE_M, MIDDLE_M = 1.0, 2.0
 TOUCHES = {
     "head": ("head_front", "head_middle", "head_rear"),
@@ -362,16 +360,16 @@ class Robot:
         "fallen": it lies because it lost its balance.
         """
         state = self._state()
-        if what in ("awake", "breathing"):
-            return bool(state.settings.get(what))
-        if what == "aware":
-            return bool(state.settings.get("awareness"))
-        return {
-            "speaking": bool(state.saying),
+        doing = {
+            "speaking": state.saying,
             "moving": state.moving,
-            "listening": bool(state.listening),
+            "listening": state.listening,
+            "awake": state.settings.get("awake"),
+            "breathing": state.settings.get("breathing"),
+            "aware": state.settings.get("awareness"),
             "fallen": state.fallen,
-        }.get(what, False)
+        }
+        return bool(doing.get(what))
 
     def is_in(self, posture: str) -> bool:
         """Whether it is in a posture, such as "posture_sit"."""

@@ -271,8 +271,6 @@ def _cannot_write(path: Path, error: OSError, kept: int) -> RecordingError:
     )
 
 
-# Playing a recording: its messages go out again on their topics, in their true timing.
-
 Join = Callable[[str], Network]
 
 LOOK_S = 0.1

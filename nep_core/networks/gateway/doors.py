@@ -237,11 +237,9 @@ def _role(socket: str) -> Role:
 
 log = logging.getLogger(__name__)
 
-# Waits on many sockets and calls what belongs to the one that has something.
-
 
 class Watch:
-    """Belongs to one thread."""
+    """Waits on many sockets and calls what belongs to the one that has something; one thread."""
 
     def __init__(self) -> None:
         self._poller = zmq.Poller()
@@ -401,13 +399,11 @@ class WayOut(Door):
             self._on_change()
 
 
-# Warns at most once a second, so that a flood of faults is no flood of words.
-
 WARN_S = 1.0
 
 
 class Warner:
-    """Any thread."""
+    """Warns at most once a second, so that a flood of faults is no flood of words; any thread."""
 
     def __init__(self) -> None:
         self._next_s = 0.0

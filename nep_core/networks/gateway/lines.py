@@ -271,14 +271,10 @@ class Lines:
             self._add_way_out(line).bind(self._endpoint(line.port + 1))
         elif role == "unknown":
             line.decides_s = time.monotonic() + DECIDES_S
-        elif (role, mode) == ("publisher", "one2many"):
-            self._add_way_in(line).connect(self._endpoint(line.port))
-        elif role == "publisher":
-            self._add_way_in(line).bind(self._endpoint(line.port))
-        elif mode == "one2many":
-            self._add_way_out(line).bind(self._endpoint(line.port))
         else:
-            self._add_way_out(line).connect(self._endpoint(line.port))
+            door = self._add_way_in(line) if role == "publisher" else self._add_way_out(line)
+            program_binds = (role, mode) in (("publisher", "one2many"), ("subscriber", "many2one"))
+            (door.connect if program_binds else door.bind)(self._endpoint(line.port))
 
     def _add_way_in(self, line: Line) -> WayIn:
         topic, shape = line.request.topic, line.request.shape

@@ -128,11 +128,11 @@ def owned_key_file(path: Path, title: str) -> KeyFile:
     return file
 
 
-# The master of an opened network tells every program which computers are let in.
-
-
 class Admission:
-    """Belongs to the master's thread; ``send`` gives an encoded answer to an address."""
+    """Lets the master of an opened network tell all programs which computers are let in.
+
+    It belongs to the master's thread; ``send`` gives an encoded answer to an address.
+    """
 
     def __init__(
         self, security: Security, registry: Registry, send: Callable[[bytes, bytes], bool]
@@ -169,11 +169,11 @@ class Admission:
         return says.encode(says.Computers(keys=sorted(self._announced)))
 
 
-# What a service of an opened network says on ``/node_state``: it is no node, but has news.
-
-
 class ServiceVoice:
-    """Speaks as ``name``; joins its network when there is something to say."""
+    """Tells the news of a service, which is no node, on ``/node_state`` as ``name``.
+
+    It joins its network when there is something to say.
+    """
 
     def __init__(self, name: str, join: Callable[[], Network]) -> None:
         self._name = name

@@ -188,11 +188,8 @@ def _check(told: str, right: str) -> None:
         raise wrong_code()
 
 
-# One JSON message a line over a TCP connection, with a limit to bytes and time.
-
-
 class Lines:
-    """A talk that ends after ``seconds``, however slowly the other side sends."""
+    """A talk over TCP, one JSON message a line, that ends after ``seconds``, however slow."""
 
     def __init__(self, connection: socket.socket, seconds: float) -> None:
         self._connection = connection
@@ -444,8 +441,6 @@ def _no(fault: Fault) -> No:
         fault=msgspec.to_builtins(fault),
     )
 
-
-# The second computer: pair with the one that opened a network, and write the key file.
 
 T = TypeVar("T")
 
