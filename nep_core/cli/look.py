@@ -53,7 +53,7 @@ def run(options: argparse.Namespace) -> int:
 
 def _show_topics(options: argparse.Namespace) -> None:
     topics = topics_of(registrations(options))
-    rates = _rates_asked_for(options, topics)
+    rates = _rates(options, topics)
     if options.json:
         say_json(
             [
@@ -88,24 +88,20 @@ def struct_of(topic: str) -> str:
     return kind.__name__ if kind else ""
 
 
-def _rates_asked_for(options: argparse.Namespace, topics: list[TopicEnds]) -> dict[str, float]:
+def _rates(options: argparse.Namespace, topics: list[TopicEnds]) -> dict[str, float]:
+    """Messages a second of each topic, heard for as long as was asked for."""
     if options.rates is None:
         return {}
+    counts = {ends.topic: 0 for ends in topics}
     with join(options) as network:
-        return rates_of(network, [ends.topic for ends in topics], options.rates)
-
-
-def rates_of(network: Network, topics: list[str], listen_s: float) -> dict[str, float]:
-    """Messages a second of each topic, heard for so long."""
-    heard = {topic: RawSubscriber(topic, network=network) for topic in topics}
-    begin_s, begin_ns = time.monotonic(), time.time_ns()
-    counts = dict.fromkeys(topics, 0)
-    while (passed_s := time.monotonic() - begin_s) < listen_s:
-        time.sleep(min(0.05, listen_s - passed_s))
-        for topic, subscriber in heard.items():
-            while (message := subscriber.receive(0)) is not None:
-                counts[topic] += message.arrived_ns >= begin_ns
-    passed_s = max(time.monotonic() - begin_s, 1e-9)
+        heard = {topic: RawSubscriber(topic, network=network) for topic in counts}
+        begin_s, begin_ns = time.monotonic(), time.time_ns()
+        while (passed_s := time.monotonic() - begin_s) < options.rates:
+            time.sleep(min(0.05, options.rates - passed_s))
+            for topic, subscriber in heard.items():
+                while (message := subscriber.receive(0)) is not None:
+                    counts[topic] += message.arrived_ns >= begin_ns
+        passed_s = max(time.monotonic() - begin_s, 1e-9)
     return {topic: round(count / passed_s, 2) for topic, count in counts.items()}
 
 
@@ -201,7 +197,7 @@ def _show_graph(options: argparse.Namespace) -> None:
     told = registrations(options)
     topics = [ends for ends in topics_of(told) if options.all or ends.topic != NODE_STATE]
     nodes = sorted({one.node for one in told})
-    rates = _rates_asked_for(options, topics)
+    rates = _rates(options, topics)
     if options.json:
         say_json({"nodes": nodes, "topics": topics, "rates_hz": rates})
     elif options.dot:

@@ -73,12 +73,6 @@ class LaunchedNode:
             return self.process.pid in [parent.pid for parent in psutil.Process(pid).parents()]
         return False
 
-    def has_said_end(self, outcome: Outcome) -> bool:
-        """Whether the node itself told that it stopped; waits a moment for its last message."""
-        if outcome.code != 0 or not self.ready.is_set():
-            return False
-        return self.said_end.wait(LAST_WORD_S)
-
     def deserves_another(self, outcome: Outcome) -> bool:
         """Whether it is to be started again; 10 s of health start the count anew."""
         if time.monotonic() - self.started_s > HEALTHY_S:
@@ -304,8 +298,12 @@ class Launcher(Closing):
         launched.outcome = outcome
         if not again:
             launched.ended.set()
-        is_well = outcome.code in (0, ASKED) and not outcome.asked
-        if not is_well and not (outcome.asked and launched.has_said_end(outcome)):
+        if outcome.asked:  # the node may have told that itself; its last message may be on its way
+            could_tell = outcome.code == 0 and launched.ready.is_set()
+            is_told = could_tell and launched.said_end.wait(LAST_WORD_S)
+        else:
+            is_told = outcome.was_successful
+        if not is_told:
             state = NodeState(
                 node=launched.name,
                 type=launched.manifest.type if launched.manifest else "cognitive",

@@ -151,7 +151,10 @@ class Behavior:
         network = self._network or default_network()
         self._states = Publisher(PROGRAM_STATE, network=network)
         words = Publisher(EXPECTED_WORDS, network=network)
-        words.send(ExpectedWords(words=self._expected_words()))
+        # What rules and goals wait for: real robots must know it before
+        states = [*(rule.state for rule in self._rules), *self._goals.states]
+        expected = dict.fromkeys(filter(None, map(word_of_state, states)))
+        words.send(ExpectedWords(words=list(expected)))
         listener = human_listener(network)
         self._busy_s = time.monotonic()
         listener.listen(self._on_behavior)
@@ -173,11 +176,6 @@ class Behavior:
             PROGRAM.end_undone()
             self._states.close()
             words.close()
-
-    def _expected_words(self) -> list[str]:
-        """The words that rules and goals wait for: real robots must know them before."""
-        states = [*(rule.state for rule in self._rules), *self._goals.states]
-        return list(dict.fromkeys(filter(None, map(word_of_state, states))))
 
     def _watch(self, rule: Rule) -> None:
         """Fire a rule each time that its condition becomes true."""

@@ -200,22 +200,19 @@ class Recorder(Closing):
 
     def _keep(self, message: RawMessage) -> None:
         channel, data = channel_of(message)
-        number = self._channels.get(channel)
-        if number is None:
-            number = self._channels[channel] = self._open_channel(channel)
+        if channel not in self._channels:
+            name, schema = channel.schema
+            if name not in self._schemas:
+                self._schemas[name] = self._writer.register_schema(name, "jsonschema", schema)
+            self._channels[channel] = self._writer.register_channel(
+                channel.topic, channel.message_encoding, self._schemas[name], channel.metadata
+            )
+        number = self._channels[channel]
         sent_ns, sequence = max(0, message.sent_ns), message.sequence % SEQUENCES
         self._writer.add_message(number, message.arrived_ns, data, sent_ns, sequence)
         self.totals.messages += 1
         self.totals.payload_bytes += len(message.payload)
         self.totals.topics[message.topic] = self.totals.topics.get(message.topic, 0) + 1
-
-    def _open_channel(self, channel: Channel) -> int:
-        name, schema = channel.schema
-        if name not in self._schemas:
-            self._schemas[name] = self._writer.register_schema(name, "jsonschema", schema)
-        return self._writer.register_channel(
-            channel.topic, channel.message_encoding, self._schemas[name], channel.metadata
-        )
 
     def _keep_on_disk(self) -> None:
         kept = 0

@@ -309,6 +309,8 @@ class Security:
         self.file = file
         self._allowed_by_master: frozenset[str] = frozenset()
         self._refusals = Refusals(str(file.path))
+        self.take_warning = self._refusals.take
+        """Who was refused since the last time, and what to do; None when nobody was."""
         self._doorkeeper = Doorkeeper(context, self.allows, self._refusals)
         self._trusting: WeakSet[zmq.Socket[bytes]] = WeakSet()
 
@@ -365,10 +367,6 @@ class Security:
     def allow(self, keys: Iterable[str]) -> None:
         """Let in these keys from now on: the master tells which computers there are."""
         self._allowed_by_master = frozenset(keys)
-
-    def take_warning(self) -> Fault | None:
-        """Who was refused since the last time, and what to do; None when nobody was."""
-        return self._refusals.take()
 
 
 def show_keys(socket: zmq.Socket[bytes], keys: Keys) -> None:

@@ -94,8 +94,6 @@ class KeyFile:
 
     def __init__(self, path: Path) -> None:
         self.path = path
-        self.version = 0
-        """Counts the changes that were seen."""
         self._lock = threading.RLock()
         self._stamp, self._keys = self._read()
 
@@ -112,7 +110,6 @@ class KeyFile:
             try:
                 if self._stamp != _stamp_of(os.stat(self.path)):
                     self._stamp, self._keys = self._read()
-                    self.version += 1
             except (OSError, KeyFileError):
                 pass  # it is being repaired, or gone: who was let in stays so
             return self._keys

@@ -88,7 +88,7 @@ def test_a_network_that_is_announced_is_found() -> None:
     found = find(10.0, is_enough=lambda seen: told in seen, interfaces=[HOST])
     announcement.close()
 
-    assert announcement.is_out
+    assert announcement.zeroconf is not None
     assert told in found
 
 
@@ -98,7 +98,7 @@ def test_announcing_and_finding_fail_quietly_where_they_cannot_work(
     announcement = announce(Found("x", "x", "x", "tcp://198.51.100.1:7100", 7101))
     announcement.close()
 
-    assert not announcement.is_out
+    assert announcement.zeroconf is None
     assert find(0.1, interfaces=["198.51.100.1"]) == []
 
 
