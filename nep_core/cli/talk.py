@@ -167,7 +167,8 @@ def _launch(options: argparse.Namespace) -> int:
         name = options.name or manifest.name
         tell = partial(_tell_state, name)
         Subscriber(NODE_STATE, NodeState, network=network, callback=tell)
-        launched = launcher.launch(manifest.id, name, settings(options.settings))
+        node = f"{options.type}/{options.node}"
+        launched = launcher.launch(node, name, settings(options.settings))
         try:
             launched.wait_ready()
         except NodeStartError as error:
