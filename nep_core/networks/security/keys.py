@@ -97,12 +97,6 @@ class KeyFile:
         self._lock = threading.RLock()
         self._stamp, self._keys = self._read()
 
-    @classmethod
-    def make(cls, path: Path, keys: Keys) -> KeyFile:
-        """Write a new key file, which only its owner can read."""
-        write_keys(path, keys)
-        return cls(path)
-
     @property
     def keys(self) -> Keys:
         """What the file says now; what it said last while it cannot be used."""

@@ -23,7 +23,7 @@ from nep_core.wire.pubsub import Publisher
 
 from .addresses import endpoint_at, lan_address
 from .curve import Security
-from .keys import KeyFile, new_keys
+from .keys import KeyFile, new_keys, write_keys
 from .pairing import CODE_S, Code, Door, DoorEvent
 
 log = logging.getLogger(__name__)
@@ -113,7 +113,7 @@ class Opening:
 def owned_key_file(path: Path, title: str) -> KeyFile:
     """The key file of a network that this computer opened, made when there is none."""
     if not path.exists():
-        return KeyFile.make(path, new_keys(title))
+        write_keys(path, new_keys(title))
     file = KeyFile(path)
     if not file.keys.is_owner:
         raise KeyFileError(
