@@ -262,7 +262,8 @@ class ChildProcess:
     def stop(self, grace_s: float = 2.0) -> None:
         """Ask it to stop, and end the whole process tree after ``grace_s``."""
         if self.poll() is None:  # when it has ended, another process may have its number
-            self.ask_to_stop()
+            if not self._asked:  # a second signal could end it while it is leaving in good order
+                self.ask_to_stop()
             if self.wait(grace_s) is None:
                 log.warning("%s did not stop within %.0f s and was ended", self.name, grace_s)
                 with contextlib.suppress(OSError):
