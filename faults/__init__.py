@@ -183,18 +183,15 @@ class FaultError(Exception):
         code: str = "",
         **values: object,
     ) -> None:
-        self.fault = Fault(
-            code or self.code,
-            text_of(sentence, **values),
-            tuple(_step(step, values) for step in checklist),
-            details,
-        )
-        super().__init__(str(self.fault))
+        fault = fault_of(sentence, code=code or self.code, checklist=checklist, **values)
+        self.fault = msgspec.structs.replace(fault, details=details)
+        super().__init__(str(fault))
         for step in self.fault.checklist:
             self._note(step)
 
-    def __init_subclass__(cls) -> None:
+    def __init_subclass__(cls, title: str = "") -> None:
         super().__init_subclass__()
+        cls.title = title or cls.title
         if "code" not in vars(cls):
             cls.code = re.sub(r"(?<=[a-z])(?=[A-Z])", "_", cls.__name__).lower()
 
@@ -232,12 +229,9 @@ class FaultError(Exception):
 
 def _step(step: Words, values: dict[str, object]) -> Text:
     """Give a step of a checklist those values of the sentence that it names."""
-    named = (
-        {}
-        if isinstance(step, Text)
-        else {name: values[name] for name in values.keys() & _PLACE.findall(step)}
-    )
-    return text_of(step, **named)
+    if isinstance(step, Text):
+        return step
+    return text_of(step, **{name: values[name] for name in values.keys() & _PLACE.findall(step)})
 
 
 def _value(value: object) -> Value:
@@ -278,21 +272,14 @@ def heard(told: object, deepest: int = DEEPEST) -> Text:
 
 def heard_fault(told: object) -> Fault | None:
     """Return what came as the object of a fault; None when it says nothing."""
-    if not isinstance(told, dict):
+    if not isinstance(told, dict) or not (sentence := heard(told.get("sentence", ""))):
         return None
-    sentence, steps = heard(told.get("sentence", "")), told.get("checklist")
+    steps = told.get("checklist")
     checklist = tuple(map(heard, steps[:MOST_STEPS])) if isinstance(steps, list) else ()
-    code, details = told.get("code"), told.get("details")
-    return (
-        Fault(
-            code if isinstance(code, str) else "",
-            sentence,
-            checklist,
-            details if isinstance(details, str) else "",
-        )
-        if sentence
-        else None
+    code, details = (
+        word if isinstance(word, str) else "" for word in (told.get("code"), told.get("details"))
     )
+    return Fault(code, sentence, checklist, details)
 
 
 def _heard(value: object, deepest: int) -> Value:

@@ -50,35 +50,11 @@ _HOMES = {
     for name in names.split()
 }
 
-__all__ = [
-    "Behavior",
-    "Broker",
-    "BrokerNetwork",
-    "DirectNetwork",
-    "Launcher",
-    "Master",
-    "NepError",
-    "Node",
-    "PeerNetwork",
-    "Publisher",
-    "Robot",
-    "Subscriber",
-    "colour_from",
-    "heard_word",
-    "human_state",
-    "in_turn",
-    "is_remembered",
-    "mix_colours",
-    "one_of",
-    "remember",
-    "stop_program",
-    "times_seen",
-    "together",
-    "until_state",
-    "wait",
-    "wait_until",
-    "was_seen",
-]
+__all__ = ["Behavior", "Broker", "BrokerNetwork", "DirectNetwork", "Launcher", "Master"]
+__all__ += ["NepError", "Node", "PeerNetwork", "Publisher", "Robot", "Subscriber", "colour_from"]
+__all__ += ["heard_word", "human_state", "in_turn", "is_remembered", "mix_colours", "one_of"]
+__all__ += ["remember", "stop_program", "times_seen", "together", "until_state", "wait"]
+__all__ += ["wait_until", "was_seen"]
 
 
 def __getattr__(name: str) -> Any:

@@ -32,121 +32,81 @@ class NepError(FaultError):
     """An error of programs that talk to each other, or of what they are made of."""
 
 
-class NetworkError(NepError):
+class NetworkError(NepError, title="The programs cannot talk to each other"):
     """Two programs could not talk."""
 
-    title = "The programs cannot talk to each other"
 
-
-class MasterNotFound(NetworkError):
+class MasterNotFound(NetworkError, title="The NEP master does not answer"):
     """No NEP master answers at its endpoint."""
 
-    title = "The NEP master does not answer"
 
-
-class NotLetIn(MasterNotFound):
+class NotLetIn(MasterNotFound, title="The network is closed to this program"):
     """A NEP master is there, but its keys and ours do not fit."""
 
-    title = "The network is closed to this program"
 
-
-class BrokerNotFound(MasterNotFound):
+class BrokerNotFound(MasterNotFound, title="The NEP broker does not answer"):
     """No NEP broker answers at its endpoint."""
 
-    title = "The NEP broker does not answer"
 
-
-class RouterNotFound(MasterNotFound):
+class RouterNotFound(MasterNotFound, title="The zenoh router does not answer"):
     """No zenoh router answers at its endpoint."""
 
-    title = "The zenoh router does not answer"
 
-
-class PortTaken(NetworkError):
+class PortTaken(NetworkError, title="A port is already in use"):
     """An endpoint is used by another program."""
 
-    title = "A port is already in use"
 
-
-class NameTaken(NetworkError):
+class NameTaken(NetworkError, title="Two nodes have the same name"):
     """A node of this name is already running."""
 
-    title = "Two nodes have the same name"
 
-
-class KeyFileError(NetworkError):
+class KeyFileError(NetworkError, title="The key file cannot be used"):
     """The key file of an opened network cannot be used."""
 
-    title = "The key file cannot be used"
 
-
-class PairingError(NetworkError):
+class PairingError(NetworkError, title="The computers were not paired"):
     """A second computer could not be paired."""
 
-    title = "The computers were not paired"
 
-
-class BadMessage(NetworkError):
+class BadMessage(NetworkError, title="A message could not be read"):
     """A message lacks a key, or has one of the wrong type."""
 
-    title = "A message could not be read"
 
-
-class NodeError(NepError):
+class NodeError(NepError, title="A node cannot run"):
     """A node could not be described, found or started."""
 
-    title = "A node cannot run"
 
-
-class ManifestError(NodeError):
+class ManifestError(NodeError, title="A node's description is wrong"):
     """A node's description file is wrong."""
 
-    title = "A node's description is wrong"
 
-
-class NodeNotFound(NodeError):
+class NodeNotFound(NodeError, title="There is no such node"):
     """There is no node of this type and name."""
 
-    title = "There is no such node"
 
-
-class ParameterError(NodeError):
+class ParameterError(NodeError, title="A node was started with a wrong setting"):
     """A parameter that the node does not take, or a value that it cannot have."""
 
-    title = "A node was started with a wrong setting"
 
-
-class NodeStartError(NodeError):
+class NodeStartError(NodeError, title="A node did not start"):
     """A node did not become ready."""
 
-    title = "A node did not start"
 
-
-class NodeStopError(NodeError):
+class NodeStopError(NodeError, title="A node does not stop"):
     """A node did not stop when it was asked."""
 
-    title = "A node does not stop"
 
-
-class RobotError(NepError):
+class RobotError(NepError, title="The robot has a problem"):
     """A robot did not do what it was asked."""
 
-    title = "The robot has a problem"
 
-
-class RobotNotAnswering(RobotError):
+class RobotNotAnswering(RobotError, title="The robot does not answer"):
     """No action node plays this robot."""
 
-    title = "The robot does not answer"
 
-
-class ActionFailed(RobotError):
+class ActionFailed(RobotError, title="The robot could not do it"):
     """The robot could not do what it was asked."""
 
-    title = "The robot could not do it"
 
-
-class RecordingError(NepError):
+class RecordingError(NepError, title="A file cannot be used"):
     """A recording or a model file cannot be used."""
-
-    title = "A file cannot be used"

@@ -88,10 +88,8 @@ def whole_file(path: Path, *, is_private: bool = False) -> Iterator[BinaryIO]:
     Whoever reads finds the old one or the new one, also after a crash; one that ``is_private``
     is this user's alone at every moment.
     """
-    new, mode = (
-        path.with_name(f".{path.name}.{secrets.token_hex(4)}"),
-        0o600 if is_private else 0o666,
-    )
+    new = path.with_name(f".{path.name}.{secrets.token_hex(4)}")
+    mode = 0o600 if is_private else 0o666
     try:
         with open(new, "xb", opener=lambda name, flags: os.open(name, flags, mode)) as file:
             yield file

@@ -161,7 +161,7 @@ class Sharing(QObject):
     @property
     def computers(self) -> tuple[Computer, ...]:
         """The computers that are let in."""
-        return self.opening.peers if self.opening is not None else ()
+        return self.opening.file.keys.computers if self.opening is not None else ()
 
     @property
     def address(self) -> str:
@@ -204,7 +204,7 @@ class Sharing(QObject):
         """Let a computer come in no more; connections that exist stay until ``begin_anew``."""
         if self.opening is not None:
             try:
-                self.opening.forget(computer)
+                self.opening.file.forget(computer)
             except NepError as error:
                 self.failed.emit(error)
             self.changed.emit()

@@ -39,7 +39,7 @@ a second: of a recording that ended by a power cut everything but the last chunk
 From Python:
 
 ```python
-from nep_core.recordings.recorder import read_recording
+from nep_core.recordings.file import read_recording
 
 for message in read_recording("walk.mcap"):
     print(message.topic, message.arrived_ns, message.node, message.encoding, message.payload)

@@ -36,7 +36,7 @@ COMMANDS = {
     "kill": ("kill", "ask a node to stop, and wait until it is gone"),
     "topics": ("look", "which topics there are, and who publishes and hears them"),
     "nodes": ("look", "which nodes there are, and how they are doing"),
-    "graph": ("graph", "who is connected with whom, as text or for Graphviz"),
+    "graph": ("look", "who is connected with whom, as text or for Graphviz"),
     "echo": ("listen", "print the messages of a topic"),
     "hz": ("listen", "how often, how evenly and how much comes on a topic"),
     "send": ("talk", "send messages on a topic"),
@@ -52,7 +52,7 @@ GROUPS = {
     "Messages": ("echo", "hz", "send"),
     "Recordings": ("record", "play"),
 }
-"""How the list of commands is ordered; one that is nowhere here comes last."""
+"""How the list of commands is ordered."""
 
 ASK_NO_MASTER = ("master", "broker", "open", "pair", "find", "computers")
 """Commands that take --master, as all do, but have no use for it."""
@@ -65,10 +65,7 @@ class Parser(argparse.ArgumentParser):
 
     def error(self, message: str) -> NoReturn:
         """End with a sentence instead of the whole usage."""
-        print(
-            f"{message[:1].upper()}{message[1:]}.\nHelp: {self.prog} --help",
-            file=sys.stderr,
-        )
+        print(f"{message[:1].upper()}{message[1:]}.\nHelp: {self.prog} --help", file=sys.stderr)
         sys.exit(WRONG_USE)
 
 
@@ -128,11 +125,8 @@ def overview() -> str:
     """All commands in their groups, a line each, and how to begin."""
     lines = ["Look at a NEP network and take part in it.", "", "nep COMMAND [OPTIONS]", ""]
     width = max(map(len, COMMANDS))
-    grouped = {name for names in GROUPS.values() for name in names}
-    others = tuple(name for name in COMMANDS if name not in grouped)
-    for title, names in (*GROUPS.items(), ("More", others)):
-        there = [f"  {name:{width}} {COMMANDS[name][1]}" for name in names if name in COMMANDS]
-        lines += [title, *there, ""] if there else []
+    for title, names in GROUPS.items():
+        lines += [title, *(f"  {name:{width}} {COMMANDS[name][1]}" for name in names), ""]
     return "\n".join([*lines, FIRST_STEPS])
 
 

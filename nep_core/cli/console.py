@@ -90,16 +90,6 @@ def seconds(text: str) -> float:
     return number(text, 0.0, MOST_SECONDS)
 
 
-def factor(text: str) -> float:
-    """A speed for argparse, 0.001 to 1000; raises ArgumentTypeError."""
-    return number(text, 0.001, 1000.0)
-
-
-def rate(text: str) -> float:
-    """A rate for argparse, 0.001 to 10,000 Hz; raises ArgumentTypeError."""
-    return number(text, 0.001, 10_000.0)
-
-
 def count(text: str) -> int:
     """A number of messages for argparse, 1 or more; raises ArgumentTypeError."""
     if not text.isascii() or not text.isdigit() or int(text) < 1:

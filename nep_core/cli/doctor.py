@@ -16,11 +16,11 @@ import sys
 import tempfile
 import time
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
 from importlib import metadata
 from pathlib import Path
 from typing import Literal
 
+import msgspec
 import psutil
 import zmq
 
@@ -48,14 +48,11 @@ from nep_core.wire.pubsub import Subscriber
 
 from .console import add_json, amount, many, near, say, say_json
 
-# What the doctor found out about one thing.
-
 State = Literal["ok", "look", "unknown", "note"]
 """``look``: something is wrong. ``unknown``: it could not be found out. ``note``: good to know."""
 
 
-@dataclass(frozen=True)
-class Finding:
+class Finding(msgspec.Struct, frozen=True, rename={"sentence": "told"}):
     """A thing, how it is, in an English sentence, and the steps to do when it is wrong."""
 
     about: str
@@ -66,7 +63,12 @@ class Finding:
     @classmethod
     def of(cls, about: str, error: FaultError) -> Finding:
         """Return what an error tells of a thing, as words: reports are for programs too."""
-        return cls(about, "look", str(error), tuple(map(str, error.checklist)))
+        return look(about, str(error), *map(str, error.checklist))
+
+
+def look(about: str, sentence: str, *steps: str) -> Finding:
+    """What is wrong with a thing, and the steps to do."""
+    return Finding(about, "look", sentence, steps)
 
 
 MARKS = {"ok": "ok       ", "look": "LOOK     ", "unknown": "unknown  ", "note": "-        "}
@@ -80,22 +82,19 @@ def add_arguments(_name: str, parser: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> int:
     """Print the report; 1 when there is something to look at."""
-    findings = examine(options.master, options.robot)
+    groups = examined(options.master, options.robot).values()
+    findings = [found for group in groups for found in group]
+    looks = sum(found.state == "look" for found in findings)
     if options.json:
         say_json(findings)
     else:
-        say("\n".join(report_lines(findings)))
-    return 1 if any(found.state == "look" for found in findings) else 0
-
-
-def examine(master: str | None = None, robot: str | None = None) -> list[Finding]:
-    """All that was found out about this computer."""
-    return [found for group in examined(master, robot).values() for found in group]
+        order = f"Look at {looks} of these, the first one first."
+        say("\n".join([*finding_lines(findings), "", order if looks else "Nothing is wrong."]))
+    return 1 if looks else 0
 
 
 def examined(master: str | None = None, robot: str | None = None) -> dict[str, list[Finding]]:
-    """The same by what it is about: computer, network, folders, nodes."""
-
+    """What was found out by what it is about: computer, network, folders, nodes."""
     return {
         "computer": [
             *_found("versions", versions),
@@ -120,24 +119,17 @@ def examined(master: str | None = None, robot: str | None = None) -> dict[str, l
     }
 
 
-def _found(about: str, look: Callable[[], Finding | list[Finding]]) -> list[Finding]:
+def _found(about: str, check: Callable[[], Finding | list[Finding]]) -> list[Finding]:
     """What a check finds out; one that fails on this computer does not hide the others."""
     try:
-        found = look()
+        found = check()
     except (OSError, RuntimeError, ValueError, psutil.Error, NepError) as error:
         return [Finding(about, "unknown", f"could not be found out: {error}")]
     return found if isinstance(found, list) else [found]
 
 
-def report_lines(findings: list[Finding]) -> list[str]:
-    """The report for people: what was found, and a sentence at the end."""
-    looks = sum(found.state == "look" for found in findings)
-    end = "Nothing is wrong." if not looks else f"Look at {looks} of these, the first one first."
-    return [*finding_lines(findings), "", end]
-
-
 def finding_lines(findings: Sequence[Finding]) -> list[str]:
-    """A line for each, steps below what needs a look."""
+    """The report for people: a line for each, steps below what needs a look."""
     width = max((len(found.about) for found in findings), default=0)
     lines = []
     for found in findings:
@@ -154,7 +146,6 @@ ANSWER_S = 0.5
 CONNECT_S = 1.0
 HEARTBEATS_S = 1.2
 MOST_DIFFERENCE_S = 0.5
-NETWORKS = ("p2p", "broker", "zenoh")
 VARIABLES = {
     MASTER_VARIABLE: "where the master is",
     BROKER_VARIABLE: "where the broker is",
@@ -163,7 +154,7 @@ VARIABLES = {
     "NEP_KEYS": "the key file of an opened network",
     "NEP_HOST": "the address of this computer in an opened network",
     "NEP_ORIGINAL": "whether programs of the original NEP may join (0 or 1)",
-    "NEP_NETWORK": f"which network: {', '.join(NETWORKS)}",
+    "NEP_NETWORK": f"which network: {', '.join(transports.TRANSPORTS)}",
     "NEP_ZENOH": "where the routers of a zenoh network are",
     "NEP_ZENOH_KEYS": "the certificates of a zenoh network",
     "NEP_ROBOT_USER": "the user's name at the real robot",
@@ -192,8 +183,8 @@ def variables() -> list[Finding]:
 def _variable(name: str, value: str) -> Finding:
     if name not in VARIABLES:
         meant = near(name, VARIABLES)
-        steps = (f"Did you mean {meant[0]}?",) if meant else ("Remove it.",)
-        return Finding(name, "look", "NEP knows no such variable", steps)
+        step = f"Did you mean {meant[0]}?" if meant else "Remove it."
+        return look(name, "NEP knows no such variable", step)
     told = f"{'it is set' if name in SECRET else value} ({VARIABLES[name]})"
     try:
         if name in (MASTER_VARIABLE, BROKER_VARIABLE):
@@ -203,10 +194,10 @@ def _variable(name: str, value: str) -> Finding:
     if name == NODES_VARIABLE:
         missing = [part for part in value.split(os.pathsep) if part and not Path(part).is_dir()]
         if missing:
-            steps = ("Correct the variable, or make the folder.",)
-            return Finding(name, "look", f"there is no folder {', '.join(missing)}", steps)
-    if name == "NEP_NETWORK" and value not in NETWORKS:
-        return Finding(name, "look", f"there is no network {value}", (f"Use {NETWORKS}.",))
+            sentence = f"there is no folder {', '.join(missing)}"
+            return look(name, sentence, "Correct the variable, or make the folder.")
+    if name == "NEP_NETWORK" and value not in transports.TRANSPORTS:
+        return look(name, f"there is no network {value}", f"Use {transports.TRANSPORTS}.")
     return Finding(name, "ok", told)
 
 
@@ -235,28 +226,26 @@ def master(endpoint: str | None = None) -> Finding:
     host, _, port = place.removeprefix("tcp://").rpartition(":")
     if not _answers(host.strip("[]"), int(port)):
         return Finding("master", "note", f"none answers at {place}; start one with: nep master")
-    return Finding(
+    return look(
         "master",
-        "look",
         f"{place} is used by {_who_listens(int(port))}, which is no NEP master",
-        (
-            "End that program, or let the master serve elsewhere:",
-            "set NEP_MASTER to another port, such as tcp://127.0.0.1:7200, for all programs.",
-        ),
+        "End that program, or let the master serve elsewhere:",
+        "set NEP_MASTER to another port, such as tcp://127.0.0.1:7200, for all programs.",
     )
 
 
 def original_ports(ports: tuple[int, ...] = ORIGINAL_PORTS) -> list[Finding]:
     """Whether programs of the original NEP could join: their fixed ports."""
-    return [_port(f"port {port}", port, "the original NEP's programs") for port in ports]
+    return [_port(port, "the original NEP's programs") for port in ports]
 
 
 def naoqi_port(port: int = NAOQI_PORT) -> Finding:
     """Whether a robot on the screen could be served as a NAO."""
-    return _port(f"port {port}", port, "robots on the screen that are served as a NAO")
+    return _port(port, "robots on the screen that are served as a NAO")
 
 
-def _port(about: str, port: int, for_whom: str) -> Finding:
+def _port(port: int, for_whom: str) -> Finding:
+    about = f"port {port}"
     if not _answers("127.0.0.1", port):
         return Finding(about, "ok", f"free, for {for_whom}")
     if _is_of_our_master(port):
@@ -268,15 +257,12 @@ def check_robot(address: str, port: int = NAOQI_PORT) -> Finding:
     """Whether a NAO answers at an address."""
     if _answers(address, port):
         return Finding("robot", "ok", f"something answers at {address}, port {port}")
-    return Finding(
+    return look(
         "robot",
-        "look",
         f"nothing answers at {address}, port {port}",
-        (
-            "Is the robot switched on? Its chest button should glow.",
-            "Is this computer in the same network?",
-            "Press its chest button once: it says its address.",
-        ),
+        "Is the robot switched on? Its chest button should glow.",
+        "Is this computer in the same network?",
+        "Press its chest button once: it says its address.",
     )
 
 
@@ -298,8 +284,7 @@ def difference(host: str, ages_s: list[float]) -> Finding:
     told = f"{abs(late_s):.2f} s {'behind' if late_s > 0 else 'ahead of'} this computer's"
     if abs(late_s) <= MOST_DIFFERENCE_S:
         return Finding(f"clock of {host}", "ok", told)
-    steps = ("Let both computers set their clocks by a time server.",)
-    return Finding(f"clock of {host}", "look", told, steps)
+    return look(f"clock of {host}", told, "Let both computers set their clocks by a time server.")
 
 
 def _ages(master: str | None, here: str) -> dict[str, list[float]]:
@@ -366,8 +351,7 @@ COMMAND_S = 2.0
 
 def versions() -> list[Finding]:
     """Python and the libraries."""
-    python = platform.python_version()
-    told = f"{python} on {platform.platform()}"
+    told = f"{platform.python_version()} on {platform.platform()}"
     is_usable = PYTHONS[0] <= sys.version_info[:2] < PYTHONS[1]
     steps = () if is_usable else ("Install Python 3.11, 3.12 or 3.13.",)
     return [
@@ -400,11 +384,10 @@ def _zeromq() -> Finding:
     told = f"{zmq.zmq_version()} (pyzmq {zmq.__version__})"
     if zmq.has("curve"):
         return Finding("ZeroMQ", "ok", f"{told}, with CURVE")
-    return Finding(
+    return look(
         "ZeroMQ",
-        "look",
         f"{told}, without CURVE: the network cannot be opened safely",
-        ("Install pyzmq from a wheel: pip install --force-reinstall --only-binary :all: pyzmq",),
+        "Install pyzmq from a wheel: pip install --force-reinstall --only-binary :all: pyzmq",
     )
 
 
@@ -414,7 +397,7 @@ def _library(name: str, only_for: str = "") -> Finding:
     except metadata.PackageNotFoundError:
         if only_for:
             return Finding(name, "note", f"not installed; {only_for}")
-        return Finding(name, "look", "not installed", (f"Install it: pip install {name}",))
+        return look(name, "not installed", f"Install it: pip install {name}")
 
 
 def firewalls(
@@ -428,7 +411,9 @@ def firewalls(
     if sys.platform == "darwin":
         tool = "/usr/libexec/ApplicationFirewall/socketfilterfw"
         return [_asked(about, [tool, "--getglobalstate"])]
-    running = _running() if programs is None else programs
+    running = programs
+    if running is None:
+        running = frozenset(one.info["name"] or "" for one in psutil.process_iter(["name"]))
     findings = []
     if ufw.exists():
         try:
@@ -447,10 +432,6 @@ def firewalls(
 
 
 _PLACES = os.pathsep.join((os.environ.get("PATH", ""), "/usr/sbin", "/sbin"))
-
-
-def _running() -> frozenset[str]:
-    return frozenset(process.info["name"] or "" for process in psutil.process_iter(["name"]))
 
 
 def _asked(about: str, command: list[str]) -> Finding:
@@ -474,12 +455,8 @@ def clock(now_s: float | None = None) -> Finding:
     told_s = time.time() if now_s is None else now_s
     told = time.strftime("%Y-%m-%d %H:%M:%S", time.localtime(told_s))
     if told_s < OLDEST_TIME_S:
-        return Finding(
-            "clock",
-            "look",
-            f"it says {told}, which is long ago",
-            ("Set the clock, or connect to the internet and switch automatic time on.",),
-        )
+        step = "Set the clock, or connect to the internet and switch automatic time on."
+        return look("clock", f"it says {told}, which is long ago", step)
     synchronized = _is_synchronized()
     if synchronized is None:
         return Finding("clock", "unknown", f"{told}; whether it is kept right was not found out")
@@ -519,12 +496,9 @@ def folder(about: str, path: Path) -> Finding:
         with tempfile.TemporaryFile(dir=place):
             pass
     except OSError as error:
-        return Finding(
-            about,
-            "look",
-            f"{path} cannot be written: {(error.strerror or 'unknown reason').lower()}",
-            (f"Let your user write into {place}.", "Is the disk full or read-only?"),
-        )
+        reason = (error.strerror or "unknown reason").lower()
+        steps = f"Let your user write into {place}.", "Is the disk full or read-only?"
+        return look(about, f"{path} cannot be written: {reason}", *steps)
     return Finding(about, "ok", str(path))
 
 
@@ -540,11 +514,11 @@ def key_file(path: str | None = None) -> Finding:
             opened.read(1)
     except OSError as error:
         reason = (error.strerror or "unknown reason").lower()
-        steps = ("Make one: nep open", "Or close the network: remove the variable NEP_KEYS.")
-        return Finding("key file", "look", f"{file} cannot be read: {reason}", steps)
+        steps = "Make one: nep open", "Or close the network: remove the variable NEP_KEYS."
+        return look("key file", f"{file} cannot be read: {reason}", *steps)
     if os.name == "posix" and status.st_mode & (stat.S_IRWXG | stat.S_IRWXO):
-        told = f"others may read or change {file}"
-        return Finding("key file", "look", told, (f"Keep it to yourself: chmod 600 {file}",))
+        step = f"Keep it to yourself: chmod 600 {file}"
+        return look("key file", f"others may read or change {file}", step)
     return Finding("key file", "ok", str(file))
 
 
@@ -571,5 +545,5 @@ def manifests() -> Finding:
             problems.append(str(error))
             steps.append(str(error.checklist[0]))
     if problems:
-        return Finding("nodes", "look", " ".join(problems), tuple(steps))
+        return look("nodes", " ".join(problems), *steps)
     return Finding("nodes", "ok", f"{len(paths)} can be started")

@@ -43,7 +43,7 @@ def run(options: argparse.Namespace) -> int:
     told = _find(options)
     process = process_of(told)
     ask_to_stop(told.node, options.master)
-    if _wait(options, told, process, options.seconds):
+    if _wait(options, told, process):
         say(f"{told.node} has stopped.")
         return 0
     if not options.force:
@@ -98,17 +98,12 @@ def _find(options: argparse.Namespace) -> Registration:
     return there[options.node]
 
 
-def _wait(
-    options: argparse.Namespace,
-    told: Registration,
-    process: psutil.Process | None,
-    timeout_s: float,
-) -> bool:
+def _wait(options: argparse.Namespace, told: Registration, process: psutil.Process | None) -> bool:
     """Wait until its name is gone at the master, and it no longer listens where we see that.
 
     The master drops a frozen node too, which is not gone at all.
     """
-    end_s = time.monotonic() + timeout_s
+    end_s = time.monotonic() + options.seconds
     while True:
         there = {one.instance for one in registrations(options)}
         if told.instance not in there and not (process and _listens(process, told)):

@@ -83,10 +83,7 @@ LESSONS = {
         "List the nodes: how each is doing, its type, its process and computer, for how many "
         "seconds it\nhas run, and how long ago it last told its state. A program that is no node "
         "has no state.",
-        (
-            ("nep nodes", "all nodes"),
-            ("nep nodes --json", "for another program"),
-        ),
+        (("nep nodes", "all nodes"), ("nep nodes --json", "for another program")),
         "see how they are connected: nep graph",
     ),
     "graph": Lesson(

@@ -8,9 +8,8 @@ import statistics
 import time
 from collections import deque
 from collections.abc import Iterator
-from dataclasses import dataclass, field
+from dataclasses import asdict
 from datetime import datetime
-from typing import Any
 
 import msgspec
 
@@ -59,9 +58,8 @@ def run(options: argparse.Namespace) -> int:
         remark(told)
     with join(options) as network:
         subscriber = RawSubscriber(options.topic, network=network)
-        heard = (
-            _echo(subscriber, options) if options.command == "echo" else _hz(subscriber, options)
-        )
+        listen = _echo if options.command == "echo" else _hz
+        heard = listen(subscriber, options)
     if not heard:
         remark(f"Nothing came on {options.topic}.")
     return 0 if heard else 1
@@ -118,7 +116,8 @@ def _line(message: RawMessage, options: argparse.Namespace) -> str:
     if options.field:
         value = field_of(value, options.field)
     if options.json:
-        return msgspec.json.encode(_with_header(message, value)).decode()
+        told = {name: one for name, one in asdict(message).items() if name != "payload"}
+        return msgspec.json.encode({**told, "message": value}).decode()
     head = ""
     if options.times:
         sent = datetime.fromtimestamp(message.sent_ns / 1e9)
@@ -126,25 +125,11 @@ def _line(message: RawMessage, options: argparse.Namespace) -> str:
     return head + value_text(value, pretty=options.pretty)
 
 
-def _with_header(message: RawMessage, value: Any) -> dict[str, Any]:
-    return {
-        "topic": message.topic,
-        "node": message.node,
-        "sequence": message.sequence,
-        "sent_ns": message.sent_ns,
-        "arrived_ns": message.arrived_ns,
-        "encoding": message.encoding,
-        "message": value,
-    }
-
-
-@dataclass
 class Pace:
     """The messages of the last 10 s: when they came and how large they were."""
 
-    arrivals: deque[tuple[float, int]] = field(
-        default_factory=lambda: deque(maxlen=WINDOW_MESSAGES)
-    )
+    def __init__(self) -> None:
+        self.arrivals: deque[tuple[float, int]] = deque(maxlen=WINDOW_MESSAGES)
 
     def add(self, message: RawMessage) -> None:
         """Count one in."""
@@ -160,15 +145,14 @@ class Pace:
             return counts
         gaps = [later - earlier for earlier, later in itertools.pairwise(times)]
         span_s = max(times[-1] - times[0], 1e-9)
+        sizes = [size for _, size in self.arrivals][1:]
         return {
             **counts,
             "rate_hz": round(len(gaps) / span_s, 3),
             "shortest_ms": round(min(gaps) * 1000, 3),
             "longest_ms": round(max(gaps) * 1000, 3),
             "jitter_ms": round(statistics.pstdev(gaps) * 1000, 3),
-            "bytes_s": round(
-                sum(size for _, size in itertools.islice(self.arrivals, 1, None)) / span_s
-            ),
+            "bytes_s": round(sum(sizes) / span_s),
         }
 
 

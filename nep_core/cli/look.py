@@ -1,4 +1,4 @@
-"""``nep topics`` and ``nep nodes``: what there is in a network."""
+"""``nep topics``, ``nep nodes`` and ``nep graph``: what there is in a network."""
 
 from __future__ import annotations
 
@@ -6,6 +6,7 @@ import argparse
 import contextlib
 import socket
 import time
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 import psutil
@@ -26,40 +27,46 @@ STATES_S = 0.3
 
 def add_arguments(name: str, parser: argparse.ArgumentParser) -> None:
     """Say which options the command has."""
+    if name == "graph":
+        parser.add_argument(
+            "--dot", action="store_true", help="for Graphviz, such as the program dot"
+        )
+        parser.add_argument("--all", action="store_true", help=f"also {NODE_STATE}")
+    if name != "nodes":
+        parser.add_argument(
+            "--rates",
+            nargs="?",
+            type=seconds,
+            const=RATES_S,
+            metavar="S",
+            help="listen for S seconds (default 1) and tell messages a second",
+        )
     add_json(parser)
-    if name == "topics":
-        add_rates(parser)
-
-
-def add_rates(parser: argparse.ArgumentParser) -> None:
-    """Let the command listen."""
-    parser.add_argument(
-        "--rates",
-        nargs="?",
-        type=seconds,
-        const=RATES_S,
-        metavar="S",
-        help="listen for S seconds (default 1) and tell messages a second",
-    )
 
 
 def run(options: argparse.Namespace) -> int:
     """Print what was asked for."""
-    if options.command == "topics":
-        _show_topics(options)
-    else:
-        _show_nodes(options)
+    shows = {"topics": _show_topics, "nodes": _show_nodes, "graph": _show_graph}
+    shows[options.command](options)
     return 0
 
 
 def _show_topics(options: argparse.Namespace) -> None:
     topics = topics_of(registrations(options))
-    rates: dict[str, float] = {}
-    if options.rates is not None:
-        with join(options) as network:
-            rates = rates_of(network, [ends.topic for ends in topics], options.rates)
+    rates = _rates(options, topics)
     if options.json:
-        say_json([_topic_data(ends, rates) for ends in topics])
+        say_json(
+            [
+                {
+                    "topic": ends.topic,
+                    "message": struct_of(ends.topic),
+                    "publishers": ends.publishers,
+                    "subscribers": ends.subscribers,
+                    **({"rate_hz": rates[ends.topic]} if rates else {}),
+                }
+                for ends in topics
+            ]
+        )
         return
     head = ("TOPIC", "MESSAGE", *(("HZ",) if rates else ()), "FROM", "TO")
     rows = [
@@ -75,34 +82,26 @@ def _show_topics(options: argparse.Namespace) -> None:
     say(table(head, rows) if rows else "No topics yet.")
 
 
-def _topic_data(ends: TopicEnds, rates: dict[str, float]) -> dict[str, object]:
-    heard = {"rate_hz": rates[ends.topic]} if ends.topic in rates else {}
-    return {
-        "topic": ends.topic,
-        "message": struct_of(ends.topic),
-        "publishers": ends.publishers,
-        "subscribers": ends.subscribers,
-        **heard,
-    }
-
-
 def struct_of(topic: str) -> str:
     """The name of the struct of a topic's messages; "" when NEP does not know it."""
     kind = BY_TOPIC.get(topic)
     return kind.__name__ if kind else ""
 
 
-def rates_of(network: Network, topics: list[str], listen_s: float) -> dict[str, float]:
-    """Messages a second of each topic, heard for so long."""
-    heard = {topic: RawSubscriber(topic, network=network) for topic in topics}
-    begin_s, begin_ns = time.monotonic(), time.time_ns()
-    counts = dict.fromkeys(topics, 0)
-    while (passed_s := time.monotonic() - begin_s) < listen_s:
-        time.sleep(min(0.05, listen_s - passed_s))
-        for topic, subscriber in heard.items():
-            while (message := subscriber.receive(0)) is not None:
-                counts[topic] += message.arrived_ns >= begin_ns
-    passed_s = max(time.monotonic() - begin_s, 1e-9)
+def _rates(options: argparse.Namespace, topics: list[TopicEnds]) -> dict[str, float]:
+    """Messages a second of each topic, heard for as long as was asked for."""
+    if options.rates is None:
+        return {}
+    counts = {ends.topic: 0 for ends in topics}
+    with join(options) as network:
+        heard = {topic: RawSubscriber(topic, network=network) for topic in counts}
+        begin_s, begin_ns = time.monotonic(), time.time_ns()
+        while (passed_s := time.monotonic() - begin_s) < options.rates:
+            time.sleep(min(0.05, options.rates - passed_s))
+            for topic, subscriber in heard.items():
+                while (message := subscriber.receive(0)) is not None:
+                    counts[topic] += message.arrived_ns >= begin_ns
+        passed_s = max(time.monotonic() - begin_s, 1e-9)
     return {topic: round(count / passed_s, 2) for topic, count in counts.items()}
 
 
@@ -189,3 +188,58 @@ def _uptime_s(told: Registration) -> float | None:
 
 def _age(age_s: float | None) -> str:
     return "-" if age_s is None else f"{age_s:.0f} s"
+
+
+# Who is connected with whom, as text, for Graphviz, or for machines.
+
+
+def _show_graph(options: argparse.Namespace) -> None:
+    told = registrations(options)
+    topics = [ends for ends in topics_of(told) if options.all or ends.topic != NODE_STATE]
+    nodes = sorted({one.node for one in told})
+    rates = _rates(options, topics)
+    if options.json:
+        say_json({"nodes": nodes, "topics": topics, "rates_hz": rates})
+    elif options.dot:
+        say("\n".join(dot_lines(nodes, topics, rates)))
+    else:
+        say("\n".join(text_lines(nodes, topics, rates)) or "No nodes yet.")
+
+
+def text_lines(nodes: list[str], topics: list[TopicEnds], rates: Mapping[str, float]) -> list[str]:
+    """Each node with what it publishes and who hears that; then who only hears or is alone."""
+    lines: list[str] = []
+    for node in nodes:
+        said = [ends for ends in topics if node in ends.publishers]
+        heard = [ends for ends in topics if node in ends.subscribers]
+        lines.append(node if said or heard else f"{node}   alone")
+        for ends in said:
+            hears = ", ".join(ends.subscribers) or "nobody"
+            lines.append(f"  says   {ends.topic}{_rate(ends.topic, rates)} -> {hears}")
+        lines += [
+            f"  hears  {ends.topic}{'' if ends.publishers else ' (nobody publishes it)'}"
+            for ends in heard
+        ]
+    return lines
+
+
+def dot_lines(nodes: list[str], topics: list[TopicEnds], rates: Mapping[str, float]) -> list[str]:
+    """The graph in the language of Graphviz: nodes are round, topics are boxes."""
+    lines = ["digraph nep {", "  rankdir=LR;"]
+    lines += [f"  {quoted('node ' + node)} [label={quoted(node)}];" for node in nodes]
+    for ends in topics:
+        topic, label = quoted("topic " + ends.topic), quoted(ends.topic + _rate(ends.topic, rates))
+        lines.append(f"  {topic} [shape=box, label={label}];")
+        lines += [f"  {quoted('node ' + node)} -> {topic};" for node in ends.publishers]
+        lines += [f"  {topic} -> {quoted('node ' + node)};" for node in ends.subscribers]
+    return [*lines, "}"]
+
+
+def quoted(text: str) -> str:
+    """A name as Graphviz reads it, whatever letters are in it."""
+    plain = text.replace("\\", "\\\\").replace('"', '\\"').replace("\n", "\\n")
+    return f'"{plain}"'
+
+
+def _rate(topic: str, rates: Mapping[str, float]) -> str:
+    return f" {rates[topic]:.1f} Hz" if topic in rates else ""

@@ -91,7 +91,10 @@ def main(arguments: list[str]) -> int:
     options = parser.parse_intermixed_args(arguments)
     logging.basicConfig(level=logging.WARNING, format="%(levelname)s %(name)s: %(message)s")
     try:
-        manifest = _manifest(options.node)
+        if options.node.endswith(".toml"):
+            manifest = read_manifest(Path(options.node))
+        else:
+            manifest = NodeCatalog(node_folders()).find(options.node)
         name = check_node_name(options.name or manifest.name)
         return run_node(manifest, name, settings(options.settings))
     except NepError as error:
@@ -111,9 +114,3 @@ def settings(words: list[str]) -> dict[str, str]:
                 name=name,
             )
     return {name: value for name, _, value in pairs}
-
-
-def _manifest(node: str) -> Manifest:
-    if node.endswith(".toml"):
-        return read_manifest(Path(node))
-    return NodeCatalog(node_folders()).find(node)

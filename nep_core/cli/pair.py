@@ -57,15 +57,8 @@ def add_arguments(name: str, parser: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> int:
     """Do what was asked for."""
-    match options.command:
-        case "open":
-            return _open(options)
-        case "pair":
-            return _pair(options)
-        case "find":
-            return _find()
-        case _:
-            return _computers(options)
+    commands = {"open": _open, "pair": _pair, "find": _find, "computers": _computers}
+    return commands[options.command](options)
 
 
 def _path(options: argparse.Namespace) -> Path:
@@ -193,7 +186,7 @@ def _found_door() -> tuple[str, int]:
     )
 
 
-def _find() -> int:
+def _find(_options: argparse.Namespace) -> int:
     found = discovery.find()
     for one in found:
         print(f"{one.title}   on {one.computer}   {one.master}   pair at {one.host}")

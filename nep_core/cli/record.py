@@ -9,6 +9,7 @@ import sys
 import time
 from collections.abc import Callable, Iterator
 from contextlib import ExitStack, contextmanager, suppress
+from functools import partial
 
 from nep_core.errors import RecordingError
 from nep_core.processes.node import STOP_SIGNALS
@@ -21,9 +22,9 @@ from .console import (
     about_nobody,
     add_json,
     amount,
-    factor,
     join,
     many,
+    number,
     registrations,
     remark,
     say,
@@ -48,6 +49,7 @@ def add_arguments(name: str, parser: argparse.ArgumentParser) -> None:
         add("--force", action="store_true", help="replace the file if it is there")
         return
     add("--topics", nargs="+", metavar="TOPIC", help="only these (default: all)")
+    factor = partial(number, least=0.001, most=1000.0)
     add("--speed", type=factor, default=1.0, metavar="X", help="2 is twice as fast (default 1)")
     add("--from", dest="from_s", type=seconds, default=0.0, metavar="S", help="begin at S seconds")
     add("--to", dest="to_s", type=seconds, metavar="S", help="end at S seconds of the recording")
@@ -118,17 +120,12 @@ def _wait(recorder: Recorder, most_s: float | None, stop: Wake) -> None:
         if left_s <= 0 or select.select([stop], [], [], left_s)[0]:
             break
         if is_shown and time.monotonic() - told_s >= TOLD_S:
-            told_s = time.monotonic()
-            line = f"\r{told_s - begin_s:.0f} s   {_progress(recorder)} "
+            told_s, totals = time.monotonic(), recorder.totals
+            heard = f"{many(totals.messages, 'message')}   {amount(totals.payload_bytes)}"
+            line = f"\r{told_s - begin_s:.0f} s   {heard}   {recorder.lost} lost "
             print(line, end="", file=sys.stderr, flush=True)
     if is_shown:
         print(file=sys.stderr)
-
-
-def _progress(recorder: Recorder) -> str:
-    totals = recorder.totals
-    size = amount(totals.payload_bytes)
-    return f"{many(totals.messages, 'message')}   {size}   {recorder.lost} lost"
 
 
 def _show(options: argparse.Namespace) -> int:

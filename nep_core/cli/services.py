@@ -18,6 +18,7 @@ from nep_core.networks.security.opening import ServiceVoice
 from nep_core.networks.transports import transport
 from nep_core.networks.zenoh_session import ZenohRouter
 from nep_core.networks.zmq_networks import Broker, BrokerNetwork, PeerNetwork
+from nep_core.places import cache_folder
 from nep_core.processes import lifeline
 from nep_core.processes.node import STOP_SIGNALS
 from nep_core.wire.io_thread import Wake
@@ -116,10 +117,7 @@ def run(options: argparse.Namespace) -> int:
     try:
         return serve(
             service,
-            lambda: print(
-                f"The {name} serves at {service.endpoint}. Ctrl-C stops it.",
-                flush=True,
-            ),
+            lambda: print(f"The {name} serves at {service.endpoint}. Ctrl-C stops it.", flush=True),
             gateway.close if gateway else lambda: None,
         )
     finally:
@@ -155,7 +153,11 @@ def serve(
     for number in STOP_SIGNALS:
         signal.signal(number, lambda *_: stop())
     lifeline.on_parent_end(stop)
-    voice = _voice_of(service)
+    place = service.endpoint
+    if isinstance(service, Master):
+        voice = ServiceVoice("master", lambda: PeerNetwork("master", master=place))
+    else:
+        voice = ServiceVoice("broker", lambda: BrokerNetwork(place, node="broker"))
     begin()
     while not select.select([stop], [], [], SIGNAL_S)[0]:
         if warning := service.take_warning():
@@ -163,13 +165,6 @@ def serve(
     end()
     voice.close()
     return 0
-
-
-def _voice_of(service: Master | Broker | ZenohRouter) -> ServiceVoice:
-    place = service.endpoint
-    if isinstance(service, Master):
-        return ServiceVoice("master", lambda: PeerNetwork("master", master=place))
-    return ServiceVoice("broker", lambda: BrokerNetwork(place, node="broker"))
 
 
 def run_master(arguments: list[str]) -> int:
@@ -183,7 +178,6 @@ def run_master(arguments: list[str]) -> int:
 def _gateway(master: str) -> Gateway | None:
     """What lets programs of the original NEP join; the master goes on without it too."""
     from nep_core.networks.gateway.gateway import Gateway
-    from nep_core.places import cache_folder
 
     try:
         gateway = Gateway(master, memory=cache_folder() / "original-nep.json")

@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import argparse
 import contextlib
+import itertools
 import sys
 import time
 from collections.abc import Iterable, Iterator
+from functools import partial
 from queue import SimpleQueue
 from typing import Any
 
@@ -22,7 +24,7 @@ from nep_core.processes.process import Outcome
 from nep_core.wire.messages import BY_TOPIC, NODE_STATE, NodeState
 from nep_core.wire.pubsub import Publisher, Subscriber
 
-from .console import count, end_undisturbed, join, many, rate, remark, say, seconds
+from .console import count, end_undisturbed, join, many, number, remark, say, seconds
 
 FIRST_SUBSCRIBER_S = 0.5
 FROM_INPUT = "-"
@@ -38,6 +40,7 @@ def add_arguments(name: str, parser: argparse.ArgumentParser) -> None:
         add("message", metavar="MESSAGE", help="""JSON; "-": each line of the standard input""")
         add("--text", action="store_true", help="send it as plain text, not as JSON")
         add("--unchecked", action="store_true", help="send it whatever NEP knows of the topic")
+        rate = partial(number, least=0.001, most=10_000.0)
         add("--rate", type=rate, metavar="HZ", help="send it again and again, so often a second")
         add("--count", type=count, default=0, metavar="N", help="end after N messages")
         add(
@@ -74,49 +77,26 @@ def _send(options: argparse.Namespace) -> int:
     with join(options) as network:
         publisher = Publisher(options.topic, network=network)
         publisher.wait_for_subscribers(1, options.wait)
-        sent = _send_all(publisher, first, messages, options)
+        begin_s, sent = time.monotonic(), 0
+        with contextlib.suppress(KeyboardInterrupt):
+            for message in itertools.chain([first], messages):
+                if options.rate:
+                    time.sleep(max(0.0, begin_s + sent / options.rate - time.monotonic()))
+                publisher.send(message)
+                sent += 1
         say(f"Sent {many(sent, 'message')} to {many(publisher.subscribers(), 'subscriber')}.")
     return 0
 
 
-def _send_all(
-    publisher: Publisher, first: Any, others: Iterator[Any], options: argparse.Namespace
-) -> int:
-    begin_s, sent = time.monotonic(), 0
-    with contextlib.suppress(KeyboardInterrupt):
-        for message in _with_first(first, others):
-            if options.rate:
-                time.sleep(max(0.0, begin_s + sent / options.rate - time.monotonic()))
-            publisher.send(message)
-            sent += 1
-    return sent
-
-
-def _with_first(first: Any, others: Iterable[Any]) -> Iterator[Any]:
-    yield first
-    yield from others
-
-
 def _messages(options: argparse.Namespace) -> Iterator[Any]:
     """The messages to send, as many as were asked for."""
+    ready: Iterable[Any]
     if options.message == FROM_INPUT:
-        lines: Iterable[str] = (line.rstrip("\r\n") for line in sys.stdin)
-        ready = (_read(line, options) for line in lines if line.strip())
+        ready = (_read(line.rstrip("\r\n"), options) for line in sys.stdin if line.strip())
     else:
         message = _read(options.message, options)
-        times = options.count or (None if options.rate else 1)
-        ready = (message for _ in _count_to(times))
-    for number, message in enumerate(ready, 1):
-        yield message
-        if number == options.count:
-            return
-
-
-def _count_to(times: int | None) -> Iterator[int]:
-    number = 0
-    while times is None or number < times:
-        yield number
-        number += 1
+        ready = itertools.repeat(message) if options.rate or options.count else [message]
+    return itertools.islice(ready, options.count or None)
 
 
 def _read(text: str, options: argparse.Namespace) -> Any:
@@ -185,10 +165,10 @@ def _launch(options: argparse.Namespace) -> int:
         launcher.hear(network)
         manifest = _found(launcher, options)
         name = options.name or manifest.name
-        Subscriber(NODE_STATE, NodeState, network=network, callback=_Story(name).tell)
-        launched = launcher.launch(
-            f"{options.type}/{options.node}", name, settings(options.settings)
-        )
+        tell = partial(_tell_state, name)
+        Subscriber(NODE_STATE, NodeState, network=network, callback=tell)
+        node = f"{options.type}/{options.node}"
+        launched = launcher.launch(node, name, settings(options.settings))
         try:
             launched.wait_ready()
         except NodeStartError as error:
@@ -212,14 +192,9 @@ def _found(launcher: Launcher, options: argparse.Namespace) -> Manifest:
         raise
 
 
-class _Story:
-    """Shows the states of a node as they come."""
-
-    def __init__(self, name: str) -> None:
-        self._name = name
-
-    def tell(self, state: NodeState) -> None:
-        if state.node == self._name and state.event not in TOLD_OTHERWISE:
-            told = str(state.fault)
-            about = f": {told}" if told else ""
-            say(f"{state.node} is {state.event.replace('_', ' ')}{about}")
+def _tell_state(name: str, state: NodeState) -> None:
+    """Show a state of the node ``name``."""
+    if state.node == name and state.event not in TOLD_OTHERWISE:
+        told = str(state.fault)
+        about = f": {told}" if told else ""
+        say(f"{state.node} is {state.event.replace('_', ' ')}{about}")

@@ -43,23 +43,18 @@ class Found:
         return host_of(self.master)
 
 
+@dataclass(frozen=True)
 class Announcement:
-    """Announces until it is closed."""
+    """Announces until it is closed; without ``zeroconf`` others cannot find the network by it."""
 
-    def __init__(self, zeroconf: Zeroconf | None) -> None:
-        self._zeroconf = zeroconf
-
-    @property
-    def is_out(self) -> bool:
-        """Whether others can find the network by it."""
-        return self._zeroconf is not None
+    zeroconf: Zeroconf | None
 
     def close(self) -> None:
         """Take it back."""
-        if self._zeroconf is not None:
+        if self.zeroconf is not None:
             with contextlib.suppress(Exception):
-                self._zeroconf.unregister_all_services()
-            self._zeroconf.close()
+                self.zeroconf.unregister_all_services()
+            self.zeroconf.close()
 
 
 def announce(found: Found) -> Announcement:

@@ -88,20 +88,15 @@ class News:
         topics, self._topics = self._topics, set()
         instances, self._instances = self._instances, set()
         for topic in topics:
-            self._tell_listeners(topic)
+            if listeners := self._registry.listeners(topic):
+                publishers = self._registry.publishers(topic)
+                news = says.encode(says.Publishers(topic=topic, publishers=publishers))
+                for entry in listeners:
+                    if not self._send(entry.address, news):
+                        entry.has_missed = True  # its next heartbeat makes it register again
         self._tell_watchers(instances, now_s)
         took_s = time.perf_counter() - began_s
         self._rest_until_s = now_s + min(REST * took_s, LONGEST_REST_S)
-
-    def _tell_listeners(self, topic: str) -> None:
-        listeners = self._registry.listeners(topic)
-        if not listeners:
-            return
-        publishers = self._registry.publishers(topic)
-        news = says.encode(says.Publishers(topic=topic, publishers=publishers))
-        for entry in listeners:
-            if not self._send(entry.address, news):
-                entry.has_missed = True  # its next heartbeat makes it register again
 
     def _tell_watchers(self, instances: set[str], now_s: float) -> None:
         self.number += 1
@@ -109,19 +104,11 @@ class News:
         if not self._watchers:
             return
         entries = self._registry.entries
-        changed = says.Changed(
-            epoch=self._epoch,
-            number=self.number,
-            came=[entries[i].registration for i in instances if i in entries],
-            gone=[i for i in instances if i not in entries],
-        )
+        came = [entries[i].registration for i in instances if i in entries]
+        gone = [i for i in instances if i not in entries]
+        changed = says.Changed(epoch=self._epoch, number=self.number, came=came, gone=gone)
         news = says.encode(changed)
-        self._watchers = {
-            who: until for who, until in self._watchers.items() if self._send(who, news)
-        }
-
-
-# Which programs of this computer have ended.
+        self._watchers = {who: s for who, s in self._watchers.items() if self._send(who, news)}
 
 
 class Processes:
@@ -147,7 +134,16 @@ class Processes:
     def has_ended(self, told: Registration) -> bool:
         """Whether the program's process has ended; False when that cannot be seen."""
         is_here = (told.host, told.key) == self._here and told.instance not in self._elsewhere
-        return is_here and self._is_over(told.pid)
+        if not is_here or told.pid == os.getpid():
+            return False
+        try:
+            if told.pid not in self._known:
+                self._known[told.pid] = psutil.Process(told.pid)
+            return bool(self._known[told.pid].status() == psutil.STATUS_ZOMBIE)
+        except psutil.NoSuchProcess:
+            return True
+        except psutil.Error:
+            return False
 
     def keep_only(self, programs: Iterable[Registration]) -> None:
         """Forget all others."""
@@ -155,18 +151,6 @@ class Processes:
         pids = {told.pid for told in kept}
         self._known = {pid: process for pid, process in self._known.items() if pid in pids}
         self._elsewhere &= {told.instance for told in kept}
-
-    def _is_over(self, pid: int) -> bool:
-        if pid == os.getpid():
-            return False
-        try:
-            if pid not in self._known:
-                self._known[pid] = psutil.Process(pid)
-            return bool(self._known[pid].status() == psutil.STATUS_ZOMBIE)
-        except psutil.NoSuchProcess:
-            return True
-        except psutil.Error:
-            return False
 
 
 CHECK_S = 0.25
@@ -286,11 +270,9 @@ class Master:
         if is_quiet and now_s >= self._next_check_s:  # not while heartbeats wait unread
             self._registry.lengthen_leases(max(0.0, now_s - self._next_check_s - CHECK_S))
             self._next_check_s = now_s + CHECK_S
-            entries = self._registry.entries
-            gone = set(self._registry.expired(now_s))
-            ended = self._processes.has_ended
-            gone |= {i for i, entry in entries.items() if ended(entry.registration)}
-            for instance in gone:
+            entries, ended = self._registry.entries, self._processes.has_ended
+            gone = {i for i, entry in entries.items() if ended(entry.registration)}
+            for instance in gone.union(self._registry.expired(now_s)):
                 self._drop(entries[instance].registration)
             self._processes.keep_only(entry.registration for entry in entries.values())
 
@@ -338,12 +320,9 @@ class Master:
             case says.List():
                 return self._listing()
             case says.Find(topic=topic):
-                here = self._registry
-                return says.Found(
-                    topic=topic,
-                    publishers=here.publishers(topic),
-                    subscribers=here.subscribers(topic),
-                )
+                publishers = self._registry.publishers(topic)
+                subscribers = self._registry.subscribers(topic)
+                return says.Found(topic=topic, publishers=publishers, subscribers=subscribers)
             case says.Watch():
                 self._news.watch(address, now_s)
                 if (request.epoch, request.number) != (self.epoch, self._news.number):

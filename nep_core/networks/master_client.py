@@ -7,15 +7,15 @@ import logging
 import threading
 import time
 from collections.abc import Callable
-from typing import NamedTuple
 
 import msgspec
 import zmq
 
 from faults import heard_fault, verbatim
 from nep_core.closing import Closing
-from nep_core.errors import NameTaken, NetworkError
+from nep_core.errors import NameTaken
 from nep_core.wire.io_thread import IoThread, Wake
+from nep_core.wire.outbox import network_closed
 
 from . import master_messages as says
 from . import security
@@ -37,13 +37,6 @@ RECONNECT_MS, LONGEST_RECONNECT_MS = 50, 200
 OnPublishers = Callable[[str, list[Publishing]], None]
 
 
-class Ends(NamedTuple):
-    """Who is at a topic, as the master told last: publishers, and the ids of subscribers."""
-
-    publishers: list[Publishing]
-    subscribers: list[str]
-
-
 class MasterClient:
     """Keeps this program's registration true; its DEALER socket belongs to the I/O thread.
 
@@ -52,7 +45,7 @@ class MasterClient:
     in the I/O thread.
 
     ``context`` makes its socket, ``io`` is the I/O thread, ``master`` an endpoint, ``told``
-    what is registered first.
+    what is registered first; ``broker`` is where a broker serves, if the master is its registry.
     """
 
     def __init__(
@@ -64,8 +57,10 @@ class MasterClient:
         on_publishers: OnPublishers,
         on_stop_asked: Callable[[], None] = lambda: None,
         on_computers: Callable[[list[str]], None] = lambda keys: None,
+        broker: str = "",
     ) -> None:
         self.master = master
+        self._broker = broker
         self._on_computers = on_computers
         self._registration = told
         self._on_publishers = on_publishers
@@ -76,8 +71,7 @@ class MasterClient:
         self._socket.setsockopt(zmq.IMMEDIATE, 1)  # nothing piles up while the master is away
         self._socket.reconnect_ivl = RECONNECT_MS
         self._socket.reconnect_ivl_max = LONGEST_RECONNECT_MS
-        security.trust_master(self._socket)
-        self._socket.connect(master)
+        security.connect_to_master(self._socket, master)
         self._changed = threading.Condition()
         self._version = 0
         self._asked: set[str] = set()
@@ -94,10 +88,12 @@ class MasterClient:
         io.watch(self._socket)
         io.tend(self.tend)
 
-    def change(self, edit: Callable[[Registration], None], topic: str = "") -> Ends:
+    def change(
+        self, edit: Callable[[Registration], None], topic: str = ""
+    ) -> tuple[list[Publishing], list[str]]:
         """Change what is told and wait for the master's answer: who is at ``topic``.
 
-        Raises MasterNotFound or NameTaken.
+        These are its publishers, and the ids of its subscribers. Raises MasterNotFound, NameTaken.
         """
         with self._changed:
             version = self._edit(edit, topic)
@@ -106,15 +102,11 @@ class MasterClient:
                 lambda: self._closed or (self._answer and self._answer.version >= version), ANSWER_S
             )
             answer = self._answer
-            ends = Ends(self._publishers.get(topic, []), self._subscribers.get(topic, []))
+            ends = self._publishers.get(topic, []), self._subscribers.get(topic, [])
         if self._closed:
-            raise NetworkError(
-                "The network of {node} is closed.",
-                checklist=("Start it again.",),
-                node=self._registration.node,
-            )
+            raise network_closed(self._registration.node)
         if answer is None or answer.version < version:
-            raise no_master(self.master)
+            raise no_master(self.master, self._broker)
         if isinstance(answer, says.Refused):
             if (fault := heard_fault(answer.fault)) is not None:
                 raise NameTaken.of(fault)
@@ -129,19 +121,14 @@ class MasterClient:
 
     def tend(self) -> None:
         """Read what the master says, and say what it should know (the I/O thread)."""
-        answers = []
-        with contextlib.suppress(zmq.Again):
-            while True:
-                frame = self._socket.recv(zmq.NOBLOCK)
-                try:
-                    answers.append(says.decode_answer(frame))
-                except msgspec.MsgspecError as error:
-                    log.warning("the master says what cannot be read: %s", error)
-        for answer in answers:
+        for answer in says.arrived(self._socket):
             self._hear(answer)
         now_s = time.monotonic()
         if self._before_restart and now_s >= self._settled_s:
-            self._settle()
+            # Hear from now on exactly those that the master knows
+            topics, self._before_restart = list(self._before_restart), {}
+            for topic in topics:
+                self._on_publishers(topic, self._publishers.get(topic, []))
         if now_s >= self._next_beat_s and self._answer is None:
             self._sent, self._sent_version = None, 0  # the master may have ended before it answered
         if self._sent_version < self._version:
@@ -213,12 +200,6 @@ class MasterClient:
         for topic, publishers in self._publishers.items():
             old = self._before_restart.get(topic, [])
             self._before_restart[topic] = [*old, *(one for one in publishers if one not in old)]
-
-    def _settle(self) -> None:
-        """Hear from now on exactly those that the master knows."""
-        topics, self._before_restart = list(self._before_restart), {}
-        for topic in topics:
-            self._on_publishers(topic, self._publishers.get(topic, []))
 
     def _tell(self) -> None:
         """Say what has changed, or all when the master knows nothing of us."""
@@ -322,14 +303,12 @@ class MasterFeed(Feed):
         self._socket = self._context.socket(zmq.DEALER)
         self._socket.linger = 0
         self._socket.setsockopt(zmq.IMMEDIATE, 1)
-        self._socket.setsockopt(zmq.IPV6, int("[" in master))
         self._socket.reconnect_ivl_max = 500
         try:
-            security.trust_master(self._socket)
+            security.connect_to_master(self._socket, master)
         except BaseException:
             self._context.destroy(linger=0)
             raise
-        self._socket.connect(master)
         self._thread.start()
 
     def close(self) -> None:
@@ -346,7 +325,8 @@ class MasterFeed(Feed):
             before = self._by_instance, self.is_answered
             self._ask()
             poller.poll(LOOK_MS)
-            self._hear()
+            for answer in says.arrived(self._socket):
+                self._hear(answer)
             if not self._is_closed and (self._by_instance, self.is_answered) != before:
                 self.registrations = list(self._by_instance.values())
                 self._tell()
@@ -363,19 +343,7 @@ class MasterFeed(Feed):
             self._socket.send(says.encode(request), zmq.NOBLOCK)
             self._asked_s = now_s
 
-    def _hear(self) -> None:
-        """Take in what has come."""
-        with contextlib.suppress(zmq.Again):
-            while True:
-                frame = self._socket.recv(zmq.NOBLOCK)
-                try:
-                    answer = says.decode_answer(frame)
-                except msgspec.MsgspecError as error:
-                    log.warning("the master says what cannot be read: %s", error)
-                    continue
-                self._take_in(answer)
-
-    def _take_in(self, answer: says.Answer) -> None:
+    def _hear(self, answer: says.Answer) -> None:
         self.is_answered, self._heard_s = True, time.monotonic()
         match answer:
             case says.Listing():
@@ -386,9 +354,5 @@ class MasterFeed(Feed):
                     self._asked_s = 0.0  # one was missed: ask at once
                     return
                 self._number = max(answer.number, self._number)
-                came = {told.instance: told for told in answer.came}
-                self._by_instance = {
-                    i: told
-                    for i, told in {**self._by_instance, **came}.items()
-                    if i not in answer.gone
-                }
+                there = self._by_instance | {told.instance: told for told in answer.came}
+                self._by_instance = {i: it for i, it in there.items() if i not in answer.gone}

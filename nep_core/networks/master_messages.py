@@ -3,16 +3,19 @@
 from __future__ import annotations
 
 import contextlib
+import logging
 from typing import Any, TypeVar
 
 import msgspec
 import zmq
 
-from nep_core.errors import MasterNotFound
+from nep_core.errors import BrokerNotFound, MasterNotFound
 
 from . import security
 from .endpoints import fixed_endpoint
 from .registry import Publishing, Registration
+
+log = logging.getLogger(__name__)
 
 
 class Register(msgspec.Struct, tag="register", tag_field="do", kw_only=True):
@@ -199,6 +202,19 @@ decode_answer = msgspec.json.Decoder(Answer).decode
 encode = msgspec.json.Encoder().encode
 
 
+def arrived(socket: zmq.Socket[bytes]) -> list[Answer]:
+    """What a master has said by now; what cannot be read is passed over."""
+    answers = []
+    with contextlib.suppress(zmq.Again):
+        while True:
+            frame = socket.recv(zmq.NOBLOCK)
+            try:
+                answers.append(decode_answer(frame))
+            except msgspec.MsgspecError as error:
+                log.warning("the master says what cannot be read: %s", error)
+    return answers
+
+
 # Asking a master from a tool that does not join the network itself.
 
 A = TypeVar("A", bound=Answer)
@@ -211,23 +227,21 @@ class MasterProbe:
         fixed_endpoint(endpoint)
         self._context: zmq.Context[zmq.Socket[bytes]] = zmq.Context()
         self._socket = self._context.socket(zmq.DEALER)
-        self._socket.setsockopt(zmq.IPV6, int("[" in endpoint))
         try:
-            security.trust_master(self._socket)
+            security.connect_to_master(self._socket, endpoint)
         except BaseException:
             self.close()
             raise
-        self._socket.connect(endpoint)
 
     def ask(self, request: Request, kind: type[A], timeout_s: float = 2.0) -> A | None:
         """The answer; None when no NEP master gives one of this kind."""
         self._socket.send(encode(request))
         if not self._socket.poll(int(timeout_s * 1000)):
             return None
-        answer = None
         with contextlib.suppress(msgspec.MsgspecError):  # something else answers there
             answer = decode_answer(self._socket.recv())
-        return answer if isinstance(answer, kind) else None
+            return answer if isinstance(answer, kind) else None
+        return None
 
     def close(self) -> None:
         """Ask no more."""
@@ -250,11 +264,25 @@ def ask_to_stop(endpoint: str, node: str, timeout_s: float = 2.0) -> bool | None
     return None if answer is None else answer.known
 
 
-def no_master(endpoint: str) -> MasterNotFound:
-    """The error to raise when nobody answers at ``endpoint``: it may be one that wants keys."""
+def no_master(endpoint: str, broker: str = "") -> MasterNotFound:
+    """The error to raise when nobody answers at ``endpoint``: it may be one that wants keys.
+
+    ``broker`` is where a broker serves, if this is its registry.
+    """
     from .security.curve import not_let_in
 
-    return not_let_in(endpoint) or MasterNotFound(
+    if (closed := not_let_in(endpoint)) is not None:
+        return closed
+    if broker:
+        return BrokerNotFound(
+            "No NEP broker answers at {endpoint}.",
+            checklist=(
+                "Start one in another terminal: nep broker",
+                "Is it at another place? Set NEP_BROKER to its endpoint.",
+            ),
+            endpoint=broker,
+        )
+    return MasterNotFound(
         "No NEP master answers at {endpoint}.",
         checklist=(
             "Start one in another terminal: nep master",

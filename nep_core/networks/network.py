@@ -10,14 +10,16 @@ import threading
 import uuid
 from abc import ABC, abstractmethod
 from collections.abc import Callable
-from typing import Any, Literal, Protocol
+from typing import Any, Literal, Protocol, TypeVar
 from weakref import WeakSet
 
 from faults import Fault
 from nep_core.closing import Closing
 from nep_core.errors import NetworkError
 from nep_core.wire.io_thread import IoThread
-from nep_core.wire.outbox import Outbox
+from nep_core.wire.outbox import Outbox, network_closed
+
+T = TypeVar("T")
 
 HANDSHAKE_S = 1.0
 """How long a constructor waits for a peer that it knows of; then it goes on with a warning."""
@@ -72,7 +74,7 @@ class Network(Closing, ABC):
         self._lock = threading.RLock()
         self._shared_lock = threading.RLock()
         self._inboxes: dict[str, Any] = {}
-        self._shared: dict[str, Any] = {}
+        self._shared: dict[Callable[[Network], Any], Any] = {}
         _networks.add(self)
 
     @abstractmethod
@@ -104,22 +106,19 @@ class Network(Closing, ABC):
         subscriber = uuid.uuid4().hex
         with self._lock:
             if self.closed:  # an inbox that close() does not know of would keep it waiting
-                raise NetworkError(
-                    "The network of {node} is closed.",
-                    checklist=("Start it again.",),
-                    node=self.node,
-                )
+                raise network_closed(self.node)
             inbox = self._make_inbox(topic, subscriber, policy)
             self._inboxes[subscriber] = inbox
         self.io.tend(inbox.tend)
         return subscriber, inbox
 
-    def shared(self, key: str, make: Callable[[], Any]) -> Any:
-        """The one object of this network under ``key``, made at first use."""
+    def shared(self, make: Callable[[Network], T]) -> T:
+        """The one object that ``make`` has made of this network, at its first use."""
         with self._shared_lock:  # not _lock: making it may wait for the I/O thread
-            if key not in self._shared:
-                self._shared[key] = make()
-            return self._shared[key]
+            if make not in self._shared:
+                self._shared[make] = make(self)
+            made: T = self._shared[make]
+            return made
 
     def take_warning(self) -> Fault | None:
         """What a person should know about the network since the last time; None for nothing."""

@@ -96,16 +96,22 @@ class Registry:
         """
         holder = self.holder(told.node)
         if holder is not None and holder.registration.instance != told.instance:
-            raise _name_taken(holder.registration)
+            raise NameTaken(
+                'A node named "{node}" is already running (process {pid}).',
+                checklist=(
+                    "Give the new node another name.",
+                    'Or stop the running "{node}" first.',
+                ),
+                node=told.node,
+                pid=holder.registration.pid,
+            )
         before = self.entries.get(told.instance)
         entry = Entry(told, now_s, address, version)
         self.entries[told.instance] = entry
         if before is not None and before.registration.node != told.node:
             del self._by_node[before.registration.node]
         self._by_node[told.node] = entry
-        old = before.registration if before else None
-        self._index_subscribers(old, told)
-        return self._index_publishers(old, told)
+        return self._index(before.registration if before else _without_topics(told), told)
 
     def confirm(self, instance: str, address: bytes, now_s: float) -> bool:
         """Note a heartbeat; False when the program should register (again)."""
@@ -120,10 +126,8 @@ class Registry:
         entry = self.entries.pop(instance, None)
         if entry is None:
             return set()
-        old = entry.registration
-        del self._by_node[old.node]
-        self._index_subscribers(old, None)
-        return self._index_publishers(old, None)
+        del self._by_node[entry.registration.node]
+        return self._index(entry.registration, _without_topics(entry.registration))
 
     def expired(self, now_s: float) -> list[str]:
         """The instances whose lease has run out."""
@@ -146,32 +150,27 @@ class Registry:
         """The programs that subscribe to ``topic``."""
         return [self.entries[instance] for instance in self._subscribers.get(topic, {})]
 
-    def _index_publishers(self, old: Registration | None, new: Registration | None) -> set[str]:
-        before = set(old.publishes) if old else set[str]()
-        after = set(new.publishes) if new else set[str]()
-        is_elsewhere = old is not None and new is not None and old.publishing != new.publishing
-        came, gone = after if is_elsewhere else after - before, before - after
-        if old is not None:
-            for topic in gone:
-                _take_out(self._publishers, topic, old.instance)
-        if new is not None:
-            for topic in came:
-                self._publishers.setdefault(topic, {})[new.instance] = new.publishing
+    def _index(self, old: Registration, new: Registration) -> set[str]:
+        """Note what is different in what a program tells; the topics whose publishers changed."""
+        instance = new.instance
+        for subscriber, topic in old.subscribes.items() - new.subscribes.items():
+            ids = self._subscribers[topic][instance]
+            ids.remove(subscriber)
+            if not ids:
+                _take_out(self._subscribers, topic, instance)
+        for subscriber, topic in new.subscribes.items() - old.subscribes.items():
+            self._subscribers.setdefault(topic, {}).setdefault(instance, []).append(subscriber)
+        before, after = set(old.publishes), set(new.publishes)
+        came, gone = after - before if old.publishing == new.publishing else after, before - after
+        for topic in gone:
+            _take_out(self._publishers, topic, instance)
+        for topic in came:
+            self._publishers.setdefault(topic, {})[instance] = new.publishing
         return came | gone
 
-    def _index_subscribers(self, old: Registration | None, new: Registration | None) -> None:
-        before = old.subscribes if old else {}
-        after = new.subscribes if new else {}
-        if old is not None:
-            for subscriber, topic in before.items() - after.items():
-                ids = self._subscribers[topic][old.instance]
-                ids.remove(subscriber)
-                if not ids:
-                    _take_out(self._subscribers, topic, old.instance)
-        if new is not None:
-            for subscriber, topic in after.items() - before.items():
-                ids = self._subscribers.setdefault(topic, {}).setdefault(new.instance, [])
-                ids.append(subscriber)
+
+def _without_topics(told: Registration) -> Registration:
+    return msgspec.structs.replace(told, publishes=[], subscribes={})
 
 
 def _take_out(index: dict[str, dict[str, V]], topic: str, instance: str) -> None:
@@ -180,15 +179,3 @@ def _take_out(index: dict[str, dict[str, V]], topic: str, instance: str) -> None
     del programs[instance]
     if not programs:
         del index[topic]
-
-
-def _name_taken(other: Registration) -> NameTaken:
-    return NameTaken(
-        'A node named "{node}" is already running (process {pid}).',
-        checklist=(
-            "Give the new node another name.",
-            'Or stop the running "{node}" first.',
-        ),
-        node=other.node,
-        pid=other.pid,
-    )

@@ -8,17 +8,18 @@ from __future__ import annotations
 import atexit
 import os
 import threading
+from collections import defaultdict
 from collections.abc import Iterable
 from dataclasses import dataclass
 
 from nep_core.errors import MasterNotFound, NetworkError
 
 from . import master_messages
-from .endpoints import NETWORK_VARIABLE, broker_endpoints, master_endpoint
+from .endpoints import NETWORK_VARIABLE, broker_endpoints, broker_registry, master_endpoint
 from .master_client import Feed, MasterFeed, OnChange
 from .network import Network
 from .registry import Registration
-from .zmq_networks import PeerNetwork
+from .zmq_networks import BrokerNetwork, PeerNetwork
 
 TRANSPORTS = ("p2p", "broker", "zenoh")
 
@@ -41,8 +42,6 @@ def network_for(node: str = "", *, master: str | None = None) -> Network:
     """A program's place in the project's network; ``master`` is where p2p finds its own."""
     match transport():
         case "broker":
-            from .zmq_networks import BrokerNetwork
-
             return BrokerNetwork(node=node)
         case "zenoh":
             from .zenoh_network import ZenohNetwork
@@ -104,10 +103,8 @@ def follow_in(network: Network, on_change: OnChange) -> Feed:
 def nobody_answers(master: str | None = None) -> MasterNotFound:
     """The error to raise when the network's registry does not answer."""
     if transport() == "broker":
-        from .zmq_networks import no_broker
-
-        return no_broker(broker_endpoints()[0])
-    return master_messages.no_master(_registry(master))
+        return master_messages.no_master(broker_registry(), broker_endpoints()[0])
+    return master_messages.no_master(master or master_endpoint())
 
 
 def _registry(master: str | None) -> str:
@@ -153,13 +150,14 @@ class TopicEnds:
 
 def topics_of(registrations: Iterable[Registration]) -> list[TopicEnds]:
     """All topics that somebody publishes or hears, sorted by name."""
-    ends: dict[str, tuple[set[str], set[str]]] = {}
+    says: dict[str, set[str]] = defaultdict(set)
+    hears: dict[str, set[str]] = defaultdict(set)
     for told in registrations:
         for topic in told.publishes:
-            ends.setdefault(topic, (set(), set()))[0].add(told.node)
+            says[topic].add(told.node)
         for topic in told.subscribes.values():
-            ends.setdefault(topic, (set(), set()))[1].add(told.node)
+            hears[topic].add(told.node)
     return [
-        TopicEnds(topic, tuple(sorted(says)), tuple(sorted(hears)))
-        for topic, (says, hears) in sorted(ends.items())
+        TopicEnds(topic, tuple(sorted(says[topic])), tuple(sorted(hears[topic])))
+        for topic in sorted({*says, *hears})
     ]

@@ -20,10 +20,10 @@ from functools import partial
 from queue import Empty, SimpleQueue
 from typing import TYPE_CHECKING, Any
 
-from nep_core.errors import NameTaken, NetworkError
+from nep_core.errors import NameTaken
 from nep_core.wire import outbox
 from nep_core.wire.inbox import Backlog
-from nep_core.wire.outbox import Outbox, SendFrame
+from nep_core.wire.outbox import Outbox, SendFrame, network_closed
 
 from .master_client import Feed, OnChange
 from .network import HANDSHAKE_S, Network, Policy
@@ -146,20 +146,14 @@ class ZenohInbox:
         for sample in self._subscription.handler:  # ends with the subscription
             frame = sample.payload.to_bytes()
             with self._lock:
-                self._put(frame)
+                if frame.startswith(self._private):
+                    instance, frame = outbox.read_welcome(frame)
+                    self._publishers.add(instance)
+                if frame:
+                    self._backlog.put(frame)
             if self._is_awaited:
                 self._is_awaited = False
                 self._wakes.put(None)
-
-    def _put(self, frame: bytes) -> None:
-        if frame.startswith(self._private):
-            instance, frame = outbox.read_welcome(frame)
-            self._publishers.add(instance)
-        if frame:
-            self._backlog.put(frame)
-
-
-# The sending side of a zenoh network: its streams, and who hears them.
 
 
 class ZenohOutbox(Outbox):
@@ -212,20 +206,15 @@ class ZenohOutbox(Outbox):
                 frames_key(topic), congestion_control=zenoh.CongestionControl.DROP
             ).put
         except zenoh.ZError as error:
-            raise self._closed() from error
+            raise network_closed(self._node) from error
 
         def send(frame: bytes) -> None:
             try:
                 put(frame)
             except zenoh.ZError as error:
-                raise self._closed() from error
+                raise network_closed(self._node) from error
 
         return send
-
-    def _closed(self) -> NetworkError:
-        return NetworkError(
-            "The network of {node} is closed.", checklist=("Start it again.",), node=self._node
-        )
 
     def _send_privately(self, topic: str, subscriber: str, notice: bytes) -> None:
         frame = outbox.private_frame(topic, subscriber, self._instance, notice)
@@ -334,9 +323,8 @@ class ZenohNetwork(Network):
         others: list[str] = []
         for attempt in range(NAME_TRIES):
             time.sleep(attempt * random.uniform(0.5, 1.0) * NAME_PAUSE_S)
-            token = self._declare(
-                node_token(self.node, self.instance, os.getpid(), sockets.gethostname())
-            )
+            mine = node_token(self.node, self.instance, os.getpid(), sockets.gethostname())
+            token = self._declare(mine)
             tokens = tokens_at(self.session, node_tokens(self.node))
             others = [other for other in tokens if f"/{self.instance}/" not in other]
             if not others:
@@ -345,10 +333,7 @@ class ZenohNetwork(Network):
         told = registrations_of(others, "")[0]
         raise NameTaken(
             'A node named "{node}" is already running (process {pid} on {host}).',
-            checklist=(
-                "Give the new node another name.",
-                'Or stop the running "{node}" first.',
-            ),
+            checklist=("Give the new node another name.", 'Or stop the running "{node}" first.'),
             node=self.node,
             pid=told.pid,
             host=told.host,
@@ -380,9 +365,6 @@ def zenoh_stop(node: str, connect: Iterable[str] = ()) -> bool:
         for registration in told:
             session.put(stop_key(registration.instance), b"")
     return bool(told)
-
-
-# Following who is in a zenoh network, for tools that show it.
 
 
 class ZenohFeed(Feed):

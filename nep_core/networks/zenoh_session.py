@@ -8,7 +8,6 @@ the folder of the certificates that ``tls/`` and ``quic/`` endpoints need.
 from __future__ import annotations
 
 import atexit
-import ipaddress
 import json
 import os
 import re
@@ -24,6 +23,7 @@ from faults import Fault, fault_of
 from nep_core.errors import NetworkError, PortTaken, RouterNotFound
 
 from .registry import Registration
+from .security.addresses import is_loopback
 
 if TYPE_CHECKING:
     import zenoh
@@ -40,11 +40,7 @@ SETTINGS: dict[str, Any] = {
     "scouting/multicast/enabled": False,
     "scouting/gossip/enabled": False,
     "scouting/delay": 0,
-    "connect/retry": {
-        "period_init_ms": 50,
-        "period_max_ms": 500,
-        "period_increase_factor": 2,
-    },
+    "connect/retry": {"period_init_ms": 50, "period_max_ms": 500, "period_increase_factor": 2},
     "transport/shared_memory/enabled": False,
     # As many batches of 64 KB as zenoh takes: with its usual 2, floods lose messages.
     "transport/link/tx/queue/size/data": 16,
@@ -75,9 +71,8 @@ def check_zenoh_endpoint(endpoint: str) -> str:
     return endpoint
 
 
-def open_client(routers: Iterable[str]) -> zenoh.Session:
+def open_client(routers: list[str]) -> zenoh.Session:
     """A program's session with the first of ``routers`` that answers; raises RouterNotFound."""
-    routers = list(routers)
     settings = {"connect/timeout_ms": CONNECT_MS, DROP_US: PROGRAM_WAITS_US}
     failure = RouterNotFound(
         "No zenoh router answers at {routers}.",
@@ -91,26 +86,11 @@ def open_client(routers: Iterable[str]) -> zenoh.Session:
     return _open("client", routers, [], settings, failure)
 
 
-def open_router(listen: Iterable[str], connect: Iterable[str]) -> zenoh.Session:
-    """A router's session, which goes on looking for the other routers; raises PortTaken."""
-    listen = list(listen)
-    failure = PortTaken(
-        "{listen} cannot be used.",
-        checklist=(
-            "Is a router running there already? Use that one, or stop it.",
-            "Choose another port: --listen tcp/127.0.0.1:7448",
-            "Is that an address of this computer?",
-        ),
-        listen=" or ".join(listen),
-    )
-    return _open("router", list(connect), listen, {DROP_US: ROUTER_WAITS_US}, failure)
-
-
 def check_private(endpoint: str) -> None:
     """Raise NetworkError when anybody on a network could reach and read ``endpoint``."""
     match = _ENDPOINT.fullmatch(check_zenoh_endpoint(endpoint))
     assert match is not None
-    if match["how"].lower() not in ENCRYPTED and not _is_this_computer(match["host"]):
+    if match["how"].lower() not in ENCRYPTED and not is_loopback(match["host"].strip("[]")):
         raise NetworkError(
             "At {endpoint} everybody on the network could listen and send.",
             checklist=(
@@ -122,22 +102,10 @@ def check_private(endpoint: str) -> None:
         )
 
 
-def _is_this_computer(host: str) -> bool:
-    try:
-        return ipaddress.ip_address(host.strip("[]")).is_loopback
-    except ValueError:
-        return host.lower() == "localhost"
-
-
 def _open(
-    mode: str,
-    connect: list[str],
-    listen: list[str],
-    settings: dict[str, Any],
-    failure: NetworkError,
+    mode: str, connect: list[str], listen: list[str], more: dict[str, Any], failure: NetworkError
 ) -> zenoh.Session:
     """A session; raises ``failure`` when zenoh does not open it."""
-    # Raise NetworkError when the library is not installed
     if find_spec("zenoh") is None:
         raise NetworkError(
             "The zenoh library is not installed.",
@@ -148,12 +116,11 @@ def _open(
         )
     import zenoh
 
-    settings = SETTINGS | settings
-    settings |= {"mode": mode, "connect/endpoints": connect, "listen/endpoints": listen}
+    settings = {**SETTINGS, "mode": mode, "connect/endpoints": connect, "listen/endpoints": listen}
     if any(endpoint.lower().startswith(ENCRYPTED) for endpoint in (*connect, *listen)):
         settings["transport/link/tls"] = _certificates()
     config = zenoh.Config()
-    for key, value in settings.items():
+    for key, value in (settings | more).items():
         config.insert_json5(key, json.dumps(value))
     try:
         return zenoh.open(config)
@@ -258,11 +225,8 @@ def _part(text: str) -> str:
     return quote(text, safe="")
 
 
-# A zenoh router in this process: programs of one site connect to it, and it to other sites.
-
-
 class ZenohRouter:
-    """Passes messages on between its programs and to the routers that it knows of.
+    """Passes messages on, in this process: between its programs, and to routers that it knows of.
 
     ``listen``: its endpoints (default: NEP_ZENOH); ``connect``: routers of other sites, which it
     looks for as long as it lives. Endpoints that anybody could read must be allowed by
@@ -270,17 +234,23 @@ class ZenohRouter:
     """
 
     def __init__(
-        self,
-        listen: Iterable[str] = (),
-        connect: Iterable[str] = (),
-        *,
-        is_private: bool = False,
+        self, listen: Iterable[str] = (), connect: Iterable[str] = (), *, is_private: bool = False
     ) -> None:
         places = [check_zenoh_endpoint(one) for one in listen] or router_endpoints()
         if not is_private:
             for place in places:
                 check_private(place)
-        self._session = open_router(places, [check_zenoh_endpoint(one) for one in connect])
+        failure = PortTaken(
+            "{listen} cannot be used.",
+            checklist=(
+                "Is a router running there already? Use that one, or stop it.",
+                "Choose another port: --listen tcp/127.0.0.1:7448",
+                "Is that an address of this computer?",
+            ),
+            listen=" or ".join(places),
+        )
+        others = [check_zenoh_endpoint(one) for one in connect]
+        self._session = _open("router", others, places, {DROP_US: ROUTER_WAITS_US}, failure)
         self._told_sites = 0
         self.endpoint = " and ".join(places)
         atexit.register(self.close)  # zenoh's threads must end before the interpreter does
@@ -292,8 +262,7 @@ class ZenohRouter:
     def take_warning(self) -> Fault | None:
         """How many other sites are connected, if that has changed since the last time."""
         before, self._told_sites = self._told_sites, self.sites()
-        changed = self._told_sites != before
-        if not changed:
+        if self._told_sites == before:
             return None
         return fault_of("Connected with other sites: {count}.", count=self._told_sites)
 

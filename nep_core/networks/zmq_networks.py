@@ -10,14 +10,13 @@ import contextlib
 import os
 import socket
 import threading
-from collections.abc import Iterator
 from functools import partial
 from typing import Any, Literal
 
 import zmq
 
 from faults import Fault, fault_of, reason_of
-from nep_core.errors import BrokerNotFound, MasterNotFound, NetworkError, NotLetIn
+from nep_core.errors import NetworkError
 from nep_core.wire.inbox import WAKE_ENDPOINT, Inbox
 from nep_core.wire.outbox import HIGH_WATER_MARK, ZmqOutbox, bind
 
@@ -146,11 +145,8 @@ class DirectNetwork(ZmqNetwork):
         return set()
 
 
-# The default network: publishers bind a free port, and the master tells subscribers where.
-
-
 class PeerNetwork(ZmqNetwork):
-    """One program's place in a p2p network.
+    """One program's place in a p2p network: the master tells subscribers where publishers are.
 
     Joining raises MasterNotFound when no master answers, NameTaken when a node of this name is
     already running.
@@ -206,6 +202,7 @@ class PeerNetwork(ZmqNetwork):
             self._connect_subscribers,
             lambda: self.on_stop(),  # a node sets it later
             self.security.allow if self.security else lambda keys: None,
+            through[0] if through is not None else "",
         )
         self.io.start()
 
@@ -217,15 +214,18 @@ class PeerNetwork(ZmqNetwork):
         """Register the topic; the subscribers that the master knows."""
         with self._lock:
             self._topics[topic] = self._topics.get(topic, 0) + 1
-        return set(self._client.change(self._tell_topics, topic).subscribers)
+        _publishers, subscribers = self._client.change(self._tell_topics, topic)
+        return set(subscribers)
 
     def add_subscriber(self, topic: str, subscriber: str, inbox: Inbox) -> set[str]:
         """Register the subscriber; the publishers that the master knows."""
+        if self._heard_at:
+            inbox.connect({self._heard_at: self._key_at(self._heard_at)})
         with self._lock:
             self._inboxes_by_topic.setdefault(topic, []).append(inbox)
             self._heard[subscriber] = topic
-        ends = self._client.change(self._tell_topics, topic)
-        return {publisher.instance for publisher in ends.publishers}
+        publishers, _subscribers = self._client.change(self._tell_topics, topic)
+        return {publisher.instance for publisher in publishers}
 
     def remove_publisher(self, topic: str) -> None:
         """Tell the master, without waiting, when the topic's last publisher here is closed."""
@@ -261,9 +261,6 @@ class PeerNetwork(ZmqNetwork):
 
     def _leave(self) -> None:
         self._client.close()
-
-
-# The central service of the broker network: a proxy for its messages, a master for its names.
 
 
 class Broker:
@@ -322,9 +319,6 @@ class Broker:
         self._subscribers.close()
 
 
-# The network with a central service: names go through its registry, messages through itself.
-
-
 class BrokerNetwork(PeerNetwork):
     """Everybody connects to one central service (``nep broker``), which passes messages on.
 
@@ -332,42 +326,4 @@ class BrokerNetwork(PeerNetwork):
     """
 
     def __init__(self, broker: str | None = None, *, node: str = "") -> None:
-        self._ends = broker_endpoints(broker)
-        super().__init__(node, master=broker_registry(broker), through=self._ends)
-
-    def join(self) -> None:
-        """Make the node's name known at once; the first topic would do it too."""
-        with self._broker_found():
-            super().join()
-
-    def add_publisher(self, topic: str) -> set[str]:
-        """Register the topic; the subscribers that are known."""
-        with self._broker_found():
-            return super().add_publisher(topic)
-
-    def add_subscriber(self, topic: str, subscriber: str, inbox: Inbox) -> set[str]:
-        """Connect to the broker and register; the publishers that are known."""
-        inbox.connect({self._heard_at: self._key_at(self._heard_at)})
-        with self._broker_found():
-            return super().add_subscriber(topic, subscriber, inbox)
-
-    @contextlib.contextmanager
-    def _broker_found(self) -> Iterator[None]:
-        try:
-            yield
-        except NotLetIn:
-            raise
-        except MasterNotFound as error:
-            raise no_broker(self._ends[0]) from error
-
-
-def no_broker(endpoint: str) -> BrokerNotFound:
-    """The error to raise when no broker answers at ``endpoint``."""
-    return BrokerNotFound(
-        "No NEP broker answers at {endpoint}.",
-        checklist=(
-            "Start one in another terminal: nep broker",
-            "Is it at another place? Set NEP_BROKER to its endpoint.",
-        ),
-        endpoint=endpoint,
-    )
+        super().__init__(node, master=broker_registry(broker), through=broker_endpoints(broker))

@@ -9,7 +9,7 @@ import shutil
 import socket
 import threading
 import time
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
 from functools import partial
 from pathlib import Path
@@ -33,8 +33,6 @@ from .process import ASKED, ChildProcess, Outcome, program_command
 
 log = logging.getLogger(__name__)
 
-
-# A node that the launcher keeps running, and whether it deserves another life.
 
 MOST_RESTARTS = 5
 HEALTHY_S = 10.0
@@ -74,12 +72,6 @@ class LaunchedNode:
         with contextlib.suppress(psutil.Error, ValueError):
             return self.process.pid in [parent.pid for parent in psutil.Process(pid).parents()]
         return False
-
-    def has_said_end(self, outcome: Outcome) -> bool:
-        """Whether the node itself told that it stopped; waits a moment for its last message."""
-        if outcome.code != 0 or not self.ready.is_set():
-            return False
-        return self.said_end.wait(LAST_WORD_S)
 
     def deserves_another(self, outcome: Outcome) -> bool:
         """Whether it is to be started again; 10 s of health start the count anew."""
@@ -125,9 +117,6 @@ class LaunchedNode:
                     name=self.name,
                     timeout_s=f"{timeout_s:g}",
                 )
-
-
-__all__ = ["LaunchedNode", "Launcher", "Report"]
 
 
 SETTINGS = {"PYTHONUNBUFFERED": "1", "PYTHONUTF8": "1"}
@@ -212,7 +201,10 @@ class Launcher(Closing):
         if manifest.command:
             folder = Path(manifest.path).parent
             command = [part.replace("{folder}", str(folder)) for part in manifest.command]
-            command = _guarded([*command, "--name", name, *settings])
+            command += ["--name", name, *settings]
+            if shutil.which(command[0]):  # one that cannot be found fails at once
+                # It knows of no life line: the guard lets it end with us
+                command = program_command(GUARD, *command)
         else:
             command = program_command("node", manifest.path, f"--name={name}", *settings)
         return self._launch(LaunchedNode(name, manifest, command, restart or manifest.restart))
@@ -221,34 +213,23 @@ class Launcher(Closing):
         """Start and supervise a program that has no manifest, such as the master."""
         return self._launch(LaunchedNode(name, None, command))
 
-    def stop(self, name: str) -> None:
-        """Stop one node and all the processes that it started."""
+    def stop(self, *names: str) -> None:
+        """Stop nodes, all at once, and all the processes that they started."""
         with self._lock:  # a restart may be starting another process at this moment
-            launched = self.nodes.get(name)
-            if launched is None:
-                return
-            launched.stopping = True
-            launched.ended.set()
-            process = launched.process
-        if process is not None:
-            process.stop()
-
-    def stop_all(self, names: Iterable[str]) -> None:
-        """Stop several nodes, all at once."""
-        with self._lock:
             stopped = [self.nodes[name] for name in names if name in self.nodes]
             for launched in stopped:
                 launched.stopping = True
-            processes = [launched.process for launched in stopped]
+                launched.ended.set()
+            processes = [launched.process for launched in stopped if launched.process is not None]
         for process in processes:
-            if process is not None and process.poll() is None:
+            if process.poll() is None:
                 process.ask_to_stop()
-        for launched in stopped:
-            self.stop(launched.name)
+        for process in processes:
+            process.stop()
 
     def close(self) -> None:
         """Stop every node, all at once."""
-        self.stop_all(list(self.nodes))
+        self.stop(*self.nodes)
         for launched in list(self.nodes.values()):
             launched.end_reported.wait(TOLD_S)
         self.leave()
@@ -317,13 +298,17 @@ class Launcher(Closing):
         launched.outcome = outcome
         if not again:
             launched.ended.set()
-        is_well = outcome.code in (0, ASKED) and not outcome.asked
-        if not is_well and not (outcome.asked and launched.has_said_end(outcome)):
+        if outcome.asked:  # the node may have told that itself; its last message may be on its way
+            could_tell = outcome.code == 0 and launched.ready.is_set()
+            is_told = could_tell and launched.said_end.wait(LAST_WORD_S)
+        else:
+            is_told = outcome.was_successful
+        if not is_told:
             state = NodeState(
                 node=launched.name,
                 type=launched.manifest.type if launched.manifest else "cognitive",
                 event="stopped" if outcome.asked else "crashed",
-                pid=launched.process.pid if launched.process else 0,
+                pid=launched.pid,
                 host=socket.gethostname(),
                 **described(outcome.fault(again=again)),
             )
@@ -344,8 +329,3 @@ class Launcher(Closing):
             launched.ready.set()
         elif state.event == "stopped" and launched.owns(state.pid):
             launched.said_end.set()
-
-
-def _guarded(command: list[str]) -> list[str]:
-    """Let a node that knows of no life line end with us; one that cannot be found fails at once."""
-    return program_command(GUARD, *command) if shutil.which(command[0]) else command

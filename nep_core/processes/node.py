@@ -10,6 +10,7 @@ import signal
 import socket
 import time
 import unicodedata
+from collections import Counter
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, TypeVar, get_args
@@ -27,8 +28,6 @@ from nep_core.wire.pubsub import Publisher, Subscriber
 log = logging.getLogger(__name__)
 
 
-# What a node may be called.
-
 LONGEST_NAME = 100
 
 
@@ -37,22 +36,16 @@ def check_node_name(name: str) -> str:
     if not name.strip():
         raise _wrong("A node has no name.")
     if len(name) > LONGEST_NAME:
-        raise _wrong(
-            text_of(
-                "The name {name}... is longer than {longest_name} letters.",
-                name=repr(name[:20]),
-                longest_name=LONGEST_NAME,
-            )
-        )
+        words = "The name {name}... is longer than {longest_name} letters."
+        raise _wrong(words, name=repr(name[:20]), longest_name=LONGEST_NAME)
     if any(unicodedata.category(letter) in ("Cc", "Cs") for letter in name):
-        raise _wrong(
-            text_of("The name {name} has a letter in it that cannot be written.", name=repr(name))
-        )
+        raise _wrong("The name {name} has a letter in it that cannot be written.", name=repr(name))
     return name
 
 
-def _wrong(sentence: Words) -> ParameterError:
-    return ParameterError(sentence, checklist=("Give the node a short name, such as watch.",))
+def _wrong(words: str, **values: Any) -> ParameterError:
+    steps = ("Give the node a short name, such as watch.",)
+    return ParameterError(words, checklist=steps, **values)
 
 
 T = TypeVar("T")
@@ -76,11 +69,6 @@ class _Listening:
     subscriber: ref[Subscriber[Any]]
     lost: int = 0
 
-    def lost_since(self, lost: int) -> int:
-        """How many it lost since the last time, by what it has lost now."""
-        before, self.lost = self.lost, lost
-        return lost - before
-
 
 class Node:
     """A node in this process; raises MasterNotFound, NameTaken or ParameterError if it cannot join.
@@ -95,7 +83,8 @@ class Node:
         self.network = network or network_for(name)
         self.was_asked = False
         """Whether it stops because somebody in the network asked it to."""
-        self._stopping = False
+        self.stopping = False
+        """Whether it has been asked to stop."""
         self._stopped = Wake()  # an Event could deadlock in a signal handler
         self._host = socket.gethostname()
         self._listening: list[_Listening] = []
@@ -113,11 +102,6 @@ class Node:
         self.state("starting")
         self.network.on_stop = self._on_stop_asked
         self.network.io.tend(self._beat)
-
-    @property
-    def stopping(self) -> bool:
-        """Whether the node has been asked to stop."""
-        return self._stopping
 
     def publisher(
         self, topic: str, *, encoding: Encoding | None = None, latched: bool | None = None
@@ -189,13 +173,13 @@ class Node:
 
     def wait(self, seconds: float) -> bool:
         """Wait so long; True at once when the node is asked to stop."""
-        if not self._stopping:
+        if not self.stopping:
             select.select([self._stopped], [], [], max(0.0, min(seconds, LONGEST_WAIT_S)))
-        return self._stopping
+        return self.stopping
 
     def stop(self) -> None:
         """Ask the node to stop; safe in a signal handler and from any thread."""
-        self._stopping = True
+        self.stopping = True
         self._stopped()
         self.network.interrupt()
 
@@ -217,7 +201,7 @@ class Node:
         return self
 
     def __exit__(self, _kind: object, error: BaseException | None, _trace: object) -> None:
-        is_its_end = self._stopping and isinstance(error, NepError)  # the network has gone first
+        is_its_end = self.stopping and isinstance(error, NepError)  # the network has gone first
         if error is None or is_its_end or isinstance(error, KeyboardInterrupt | SystemExit):
             self.close()
         else:
@@ -228,7 +212,7 @@ class Node:
         self.stop()
 
     def _on_signal(self, number: int, _frame: Any) -> None:
-        if self._stopping and number == signal.SIGINT:  # a second Ctrl-C: somebody is in a hurry
+        if self.stopping and number == signal.SIGINT:  # a second Ctrl-C: somebody is in a hurry
             signal.signal(number, signal.SIG_DFL)
             signal.raise_signal(number)
         self.stop()
@@ -246,11 +230,13 @@ class Node:
         fault: Fault | None = None,
         measures: Mapping[str, float] | None = None,
     ) -> NodeState:
+        told = (measures or {}).items()
         return NodeState(
             node=self.name,
             type=self.type,
             event=event,
-            measures={name: value for name, value in (measures or {}).items() if _is_number(value)},
+            # JSON has no NaN and no infinities
+            measures={name: value for name, value in told if math.isfinite(value)},
             pid=os.getpid(),
             host=self._host,
             **(described(fault) if fault is not None else {}),
@@ -268,21 +254,17 @@ class Node:
 
     def _look_for_losses(self) -> None:
         """Warn when more messages came than the node could take, and say when that is over."""
-        lost: dict[str, int] = {}
+        lost: Counter[str] = Counter()
         for one in list(self._listening):
             if (subscriber := one.subscriber()) is None:
                 self._listening.remove(one)
-            elif count := one.lost_since(subscriber.lost):
-                lost[subscriber.topic] = lost.get(subscriber.topic, 0) + count
+            elif (count := subscriber.lost) > one.lost:
+                lost[subscriber.topic] += count - one.lost
+                one.lost = count
         if lost:
             self._beats_since_loss, self._well_again = 0, "It keeps up again."
-            count = sum(lost.values())
-            self.state(
-                "warning",
-                "Messages of {lost} were lost: {count}. It could not keep up.",
-                lost=", ".join(lost),
-                count=count,
-            )
+            words = "Messages of {lost} were lost: {count}. It could not keep up."
+            self.state("warning", words, lost=", ".join(lost), count=lost.total())
         elif self._beats_since_loss < QUIET_BEATS:
             self._beats_since_loss += 1
             if self._beats_since_loss == QUIET_BEATS:
@@ -301,8 +283,3 @@ def _check(word: T, known: Any, what: str) -> T:
             words=", ".join(words),
         )
     return word
-
-
-def _is_number(value: float) -> bool:
-    """Whether JSON knows the number: it has none for NaN and the infinities."""
-    return math.isfinite(value)

@@ -68,8 +68,6 @@ def kill(processes: Iterable[psutil.Process]) -> None:
             process.kill()
 
 
-# How a process ended, as data that can say it in a sentence.
-
 ASKED = 71
 """The exit code of a launched node that somebody in the network asked to stop."""
 
@@ -264,7 +262,8 @@ class ChildProcess:
     def stop(self, grace_s: float = 2.0) -> None:
         """Ask it to stop, and end the whole process tree after ``grace_s``."""
         if self.poll() is None:  # when it has ended, another process may have its number
-            self.ask_to_stop()
+            if not self._asked:  # a second signal could end it while it is leaving in good order
+                self.ask_to_stop()
             if self.wait(grace_s) is None:
                 log.warning("%s did not stop within %.0f s and was ended", self.name, grace_s)
                 with contextlib.suppress(OSError):
@@ -297,7 +296,7 @@ class ChildProcess:
         if self._popen.stdin is not None:
             self._popen.stdin.close()
         # The last line that says something, one without an indent if there is any
-        said = [line for line in self._last_lines if line.strip()] or [""]
+        said = [line for line in self.last_lines if line.strip()] or [""]
         words = ([line for line in said if not line[:1].isspace()] or said)[-1].strip()
         refusal = handover.take(self._refusal)
         self._on_end(Outcome(self.name, code, self._asked, words, refusal))
@@ -324,24 +323,17 @@ def _start(
             command=command[0],
             reason=reason_of(error) if isinstance(error, OSError) else error,
         ) from error
-    return popen, _job_of(popen) if ON_WINDOWS else None
-
-
-def _job_of(popen: subprocess.Popen[bytes]) -> Job | None:
-    try:
-        return Job(int(popen._handle))  # type: ignore[attr-defined]  # there is no other way
-    except OSError as error:  # its life line and its mark are still there
-        log.warning("A process is in no job: %s", error)
-        return None
+    if ON_WINDOWS:
+        try:  # there is no other way to its handle
+            return popen, Job(int(popen._handle))  # type: ignore[attr-defined]
+        except OSError as error:  # its life line and its mark are still there
+            log.warning("A process is in no job: %s", error)
+    return popen, None
 
 
 def _can_send_signals() -> bool:
     """A Windows program without a console, as the frozen one with its window, cannot."""
-    if sys.platform != "win32":
-        return True
-    import ctypes
-
-    return bool(ctypes.windll.kernel32.GetConsoleCP())
+    return sys.platform != "win32" or bool(ctypes.windll.kernel32.GetConsoleCP())
 
 
 def program_command(*words: str) -> list[str]:
@@ -425,15 +417,10 @@ def _windows() -> Any:
     if sys.platform != "win32":
         raise OSError("Jobs are there on Windows only.")
     system = ctypes.WinDLL("kernel32")
-    handle, flag = wintypes.HANDLE, wintypes.BOOL
-    system.CreateJobObjectW.argtypes = (ctypes.c_void_p, wintypes.LPCWSTR)
+    handle, flag, pointer = wintypes.HANDLE, wintypes.BOOL, ctypes.c_void_p
+    system.CreateJobObjectW.argtypes = (pointer, wintypes.LPCWSTR)
     system.CreateJobObjectW.restype = handle
-    system.SetInformationJobObject.argtypes = (
-        handle,
-        ctypes.c_int,
-        ctypes.c_void_p,
-        wintypes.DWORD,
-    )
+    system.SetInformationJobObject.argtypes = (handle, ctypes.c_int, pointer, wintypes.DWORD)
     system.SetInformationJobObject.restype = flag
     system.AssignProcessToJobObject.argtypes = (handle, handle)
     system.AssignProcessToJobObject.restype = flag

@@ -11,7 +11,8 @@ import threading
 import time
 import uuid
 from dataclasses import dataclass, field
-from typing import Any, cast
+from functools import partial
+from typing import Any
 
 from nep_core.errors import ActionFailed, RobotNotAnswering
 from nep_core.networks.network import Network
@@ -102,23 +103,18 @@ class ActionClient:
                     description=result.fault.sentence,
                 )
 
-    def send(self, robots: list[str], action: str, args: dict[str, Any]) -> None:
-        """Ask without waiting."""
-        self._requests.send(
-            ActionRequest(id=uuid.uuid4().hex, robots=robots, action=action, args=args)
-        )
-
-    def begin(self, robots: list[str], action: str, args: dict[str, Any]) -> str:
-        """Ask without waiting; the action is ended when the part that asks is cancelled.
-
-        Returns the id of the request.
-        """
+    def send(self, robots: list[str], action: str, args: dict[str, Any]) -> str:
+        """Ask without waiting; the id of the request."""
         request = ActionRequest(id=uuid.uuid4().hex, robots=robots, action=action, args=args)
         self._requests.send(request)
-        current_task().undo[action, *robots] = lambda: self.send(
-            robots, "stop", {"request": request.id}
-        )
         return request.id
+
+    def begin(self, robots: list[str], action: str, args: dict[str, Any]) -> str:
+        """The same; the action is ended when the part that asks is cancelled."""
+        request = self.send(robots, action, args)
+        stop = partial(self.send, robots, "stop", {"request": request})
+        current_task().undo[action, *robots] = stop
+        return request
 
     def end(self, robots: list[str], action: str, request_id: str) -> None:
         """End an action that was begun in this part of the program."""
@@ -140,19 +136,16 @@ class ActionClient:
             call.ended.wait(POLL_S)
 
     def _on_result(self, result: ActionResult) -> None:
-        call = self._calls.get(result.id)
-        if call is not None:
+        if (call := self._calls.get(result.id)) is not None:
             if result.state in _ENDS:
-                self.last_done[result.robot] = max(
-                    result.time, self.last_done.get(result.robot, 0.0)
-                )
+                before = self.last_done.get(result.robot, 0.0)
+                self.last_done[result.robot] = max(result.time, before)
             call.note(result)
 
 
 def action_client(network: Network | None = None) -> ActionClient:
     """The client of this program's network."""
-    place = network or default_network()
-    return cast(ActionClient, place.shared("actions", lambda: ActionClient(place)))
+    return (network or default_network()).shared(ActionClient)
 
 
 def not_answering(robot: str) -> RobotNotAnswering:

@@ -78,11 +78,7 @@ class Behavior:
         "queue" another run.
         """
 
-        def add(action: Action) -> Action:
-            self._rules.append(Rule(state, action, again, source))
-            return action
-
-        return add
+        return _decorator(lambda action: self._rules.append(Rule(state, action, again, source)))
 
     def when_heard(self, word: str, *, again: Again = "ignore") -> Decorator:
         """Run the decorated function each time that a word or sentence is heard."""
@@ -103,21 +99,18 @@ class Behavior:
     def when_true(self, condition: Condition, *, again: Again = "ignore") -> Decorator:
         """Run the decorated function each time that ``condition()`` becomes true."""
 
-        def add(action: Action) -> Action:
-            self._rules.append(Rule("condition", action, again, condition=condition))
-            return action
-
-        return add
+        return _decorator(
+            lambda action: self._rules.append(Rule("condition", action, again, condition=condition))
+        )
 
     def when_idle(self, seconds: float) -> Decorator:
         """Run the decorated function each time that for so long no state came and no rule ran."""
 
-        def add(action: Action) -> Action:
-            rule = Rule("idle", action, condition=lambda: self._idle_s() >= seconds)
-            self._rules.append(rule)
-            return action
-
-        return add
+        return _decorator(
+            lambda action: self._rules.append(
+                Rule("idle", action, condition=lambda: self._idle_s() >= seconds)
+            )
+        )
 
     def goal(
         self,
@@ -136,11 +129,9 @@ class Behavior:
         ``name`` is told to people; ``interrupted`` is "again" or "drop".
         """
 
-        def add(action: Action) -> Action:
-            self._goals.add(Goal(name, when, action, priority, stop, interrupted))
-            return action
-
-        return add
+        return _decorator(
+            lambda action: self._goals.add(Goal(name, when, action, priority, stop, interrupted))
+        )
 
     def when_goal(self, name: str, event: GoalEvent) -> Decorator:
         """Run the decorated function when a goal has "finished", or was "stopped" or "interrupted".
@@ -148,11 +139,7 @@ class Behavior:
         Or, before it begins again, when it "returns".
         """
 
-        def add(action: Action) -> Action:
-            self._goals.hook(name, event, action)
-            return action
-
-        return add
+        return _decorator(lambda action: self._goals.hook(name, event, action))
 
     def when_started(self, action: Action) -> Action:
         """Run the decorated function when the program starts."""
@@ -164,7 +151,10 @@ class Behavior:
         network = self._network or default_network()
         self._states = Publisher(PROGRAM_STATE, network=network)
         words = Publisher(EXPECTED_WORDS, network=network)
-        words.send(ExpectedWords(words=self._expected_words()))
+        # What rules and goals wait for: real robots must know it before
+        states = [*(rule.state for rule in self._rules), *self._goals.states]
+        expected = dict.fromkeys(filter(None, map(word_of_state, states)))
+        words.send(ExpectedWords(words=list(expected)))
         listener = human_listener(network)
         self._busy_s = time.monotonic()
         listener.listen(self._on_behavior)
@@ -186,11 +176,6 @@ class Behavior:
             PROGRAM.end_undone()
             self._states.close()
             words.close()
-
-    def _expected_words(self) -> list[str]:
-        """The words that rules and goals wait for: real robots must know them before."""
-        states = [*(rule.state for rule in self._rules), *self._goals.states]
-        return list(dict.fromkeys(filter(None, map(word_of_state, states))))
 
     def _watch(self, rule: Rule) -> None:
         """Fire a rule each time that its condition becomes true."""
@@ -273,6 +258,16 @@ class Behavior:
         name = threading.current_thread().name
         state = ProgramState(program=self.name, event=event, rule=rule, thread=name, line=line)
         self._states.send(state)
+
+
+def _decorator(note: Callable[[Action], None]) -> Decorator:
+    """What gives a function to ``note``, and leaves it as it is."""
+
+    def decorate(action: Action) -> Action:
+        note(action)
+        return action
+
+    return decorate
 
 
 def _line_of(action: Action) -> int:
@@ -396,7 +391,11 @@ class Goals:
                 if goal.state == state and goal not in (self._running, *self._waiting):
                     goal.returns = False
                     self._waiting.append(goal)
-            self._interrupt()
+            running = self._running
+            if running is not None and self._cut == "finished":
+                order = ORDER[running.priority]
+                if any(ORDER[goal.priority] > order for goal in self._waiting):
+                    self._cut_running("interrupted")
             self._news.notify_all()
 
     def run(self) -> None:
@@ -456,13 +455,6 @@ class Goals:
         goal.action()
         with self._news:
             self._has_ended = True
-
-    def _interrupt(self) -> None:
-        running = self._running
-        if running is None or self._cut != "finished":
-            return
-        if any(ORDER[goal.priority] > ORDER[running.priority] for goal in self._waiting):
-            self._cut_running("interrupted")
 
     def _cut_running(self, end: End) -> None:
         """End the running goal; being stopped outdoes being interrupted."""

@@ -9,7 +9,6 @@ from collections import deque
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
-from typing import cast
 
 from nep_core.networks.network import Network
 from nep_core.networks.transports import default_network
@@ -88,11 +87,15 @@ class HumanListener:
     """
 
     def __init__(self, network: Network) -> None:
-        self._state = ""
-        self._heard_s = 0.0
+        self.state = ""
+        """What was heard last."""
+        self.heard_s = 0.0
+        """When anything was last heard, time.monotonic(); 0 when nothing was."""
         self._seen: dict[str, Seen] = {}
-        self._told_s: dict[str, float] = {}
-        self._remembered_until_s: dict[str, float] = {}
+        self.told_s: dict[str, float] = {}
+        """When each robot or node told of the person last, on its own clock, in s."""
+        self.remembered_until_s: dict[str, float] = {}
+        """Until when (time.monotonic()) states are remembered."""
         self._lock = threading.RLock()
         self._listeners: list[Listener] = []
         self._kept: deque[HumanBehavior] = deque(maxlen=100)
@@ -112,19 +115,6 @@ class HumanListener:
         with self._lock:
             self._listeners.remove(listener)
 
-    def state(self) -> str:
-        """The last state, "" when nothing was seen for 3 s."""
-        return self._state if time.monotonic() - self._heard_s <= REMEMBER_S else ""
-
-    @property
-    def heard_s(self) -> float:
-        """When anything was last heard, time.monotonic(); 0 when nothing was."""
-        return self._heard_s
-
-    def told_s(self, source: str) -> float:
-        """When a robot or node told of the person last, on its own clock, in s; 0 is never."""
-        return self._told_s.get(source, 0.0)
-
     def seen(self, state: str) -> Seen:
         """When a state was last seen, and how often; times 0 when never."""
         return self._seen.get(state, Seen())
@@ -134,15 +124,6 @@ class HumanListener:
         with self._lock:
             fitting = [state for state in self._seen if state.startswith(beginning)]
             return max(fitting, key=lambda state: self._seen[state].last_s, default="")
-
-    def remember(self, state: str, seconds: float) -> None:
-        """Remember a state from now on for some seconds."""
-        with self._lock:
-            self._remembered_until_s[state] = time.monotonic() + seconds
-
-    def is_remembered(self, state: str) -> bool:
-        """Whether a state is remembered still."""
-        return time.monotonic() < self._remembered_until_s.get(state, 0.0)
 
     @contextmanager
     def following(self) -> Iterator[list[str]]:
@@ -159,17 +140,14 @@ class HumanListener:
         finally:
             self.unlisten(note)
 
-    def _note(self, state: str) -> None:
-        seen = self._seen.pop(state, Seen())  # the newest last
-        self._seen[state] = Seen(time.monotonic(), seen.times + 1)
-        if len(self._seen) > MOST_STATES:
-            del self._seen[next(iter(self._seen))]
-
     def _on_behavior(self, behavior: HumanBehavior) -> None:
         with self._lock:
-            self._state, self._heard_s = behavior.human_state, time.monotonic()
-            self._told_s[behavior.source] = behavior.time
-            self._note(behavior.human_state)
+            self.state, self.heard_s = behavior.human_state, time.monotonic()
+            self.told_s[behavior.source] = behavior.time
+            seen = self._seen.pop(self.state, Seen())  # the newest last
+            self._seen[self.state] = Seen(self.heard_s, seen.times + 1)
+            if len(self._seen) > MOST_STATES:
+                del self._seen[next(iter(self._seen))]
             if not self._listeners:
                 self._kept.append(behavior)
             for listener in list(self._listeners):
@@ -178,13 +156,13 @@ class HumanListener:
 
 def human_listener(network: Network | None = None) -> HumanListener:
     """The listener of this program's network."""
-    place = network or default_network()
-    return cast(HumanListener, place.shared("human", lambda: HumanListener(place)))
+    return (network or default_network()).shared(HumanListener)
 
 
 def human_state() -> str:
     """What the person did last, such as "gesture_karate"; "" when nothing for 3 s."""
-    return human_listener().state()
+    listener = human_listener()
+    return listener.state if time.monotonic() - listener.heard_s <= REMEMBER_S else ""
 
 
 def was_seen(state: str, seconds: float) -> bool:
@@ -200,12 +178,12 @@ def times_seen(state: str) -> int:
 
 def remember(state: str, seconds: float) -> None:
     """Remember something from now on for some seconds."""
-    human_listener().remember(state, seconds)
+    human_listener().remembered_until_s[state] = time.monotonic() + seconds
 
 
 def is_remembered(state: str) -> bool:
     """Whether something is remembered still."""
-    return human_listener().is_remembered(state)
+    return time.monotonic() < human_listener().remembered_until_s.get(state, 0.0)
 
 
 def until_state(state: str, most: float = float("inf")) -> Iterator[int]:

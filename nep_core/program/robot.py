@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import re
 import threading
-from typing import Any, cast
+from typing import Any
 
 from nep_core.errors import RobotError
 from nep_core.networks.network import Network
@@ -13,7 +13,7 @@ from nep_core.networks.transports import default_network
 from nep_core.wire.messages import ROBOT_STATE, RobotState
 from nep_core.wire.pubsub import Subscriber
 
-from .actions import action_client, not_answering
+from .actions import ActionClient, action_client, not_answering
 from .human import LONGEST_WAIT_S, human_listener, next_word, plain, state_of_word
 from .tasks import POLL_S, current_task
 
@@ -57,11 +57,8 @@ class RobotListener:
 
 def robot_listener(network: Network | None = None) -> RobotListener:
     """The listener of this program's network."""
-    place = network or default_network()
-    return cast(RobotListener, place.shared("robots", lambda: RobotListener(place)))
+    return (network or default_network()).shared(RobotListener)
 
-
-# A robot, or several: what it can be asked to do, and what it measures.
 
 CLOSE_M, MIDDLE_M = 1.0, 2.0
 TOUCHES = {
@@ -94,7 +91,7 @@ class Robot:
 
     def stop(self) -> None:
         """Stop all that the robot does, at once; does not wait."""
-        self._send("stop")
+        self._client.send(self.robots, "stop", {})
 
     # Its voice and its ears
 
@@ -148,11 +145,12 @@ class Robot:
 
     def _listen(self, words: list[str], seconds: float, heard: list[str]) -> str:
         wanted = {state_of_word(word): word for word in words}
-        request = self._begin("listen", words=words, seconds=min(seconds, LONGEST_WAIT_S))
+        listening = {"words": words, "seconds": min(seconds, LONGEST_WAIT_S)}
+        request = self._client.begin(self.robots, "listen", listening)
         try:
             return next_word(heard, wanted, seconds)
         finally:
-            self._end("listen", request)
+            self._client.end(self.robots, "listen", request)
 
     # Its body: hands, joints, walking, gaze, sleep
 
@@ -233,11 +231,11 @@ class Robot:
         It ends with ``stop_moving``, or as soon as the legs are asked for something else.
         """
         speeds = {"forward": forward / 100, "left": left / 100, "turn": turn / 100}
-        self._begin("walk_freely", **speeds)
+        self._client.begin(self.robots, "walk_freely", speeds)
 
     def stop_moving(self) -> None:
         """Stop what moves joints, at once; what is said goes on. Does not wait."""
-        self._send("stop_moving")
+        self._client.send(self.robots, "stop_moving", {})
 
     def look(self, yaw_deg: float, pitch_deg: float = 0.0) -> None:
         """Turn the head: yaw to the left, pitch down, in degrees."""
@@ -362,16 +360,16 @@ class Robot:
         "fallen": it lies because it lost its balance.
         """
         state = self._state()
-        if what in ("awake", "breathing"):
-            return bool(state.settings.get(what))
-        if what == "aware":
-            return bool(state.settings.get("awareness"))
-        return {
-            "speaking": bool(state.saying),
+        doing = {
+            "speaking": state.saying,
             "moving": state.moving,
-            "listening": bool(state.listening),
+            "listening": state.listening,
+            "awake": state.settings.get("awake"),
+            "breathing": state.settings.get("breathing"),
+            "aware": state.settings.get("awareness"),
             "fallen": state.fallen,
-        }.get(what, False)
+        }
+        return bool(doing.get(what))
 
     def is_in(self, posture: str) -> bool:
         """Whether it is in a posture, such as "posture_sit"."""
@@ -403,26 +401,19 @@ class Robot:
 
     # How it asks and looks: requests to all its robots, and the newest state of the first
 
+    @property
+    def _client(self) -> ActionClient:
+        return action_client(self._network)
+
     def _perform(self, action: str, **args: Any) -> None:
-        action_client(self._network).perform(self.robots, action, args)
-
-    def _begin(self, action: str, **args: Any) -> str:
-        """Ask without waiting; the id of the request, which ends when this part is cancelled."""
-        return action_client(self._network).begin(self.robots, action, args)
-
-    def _end(self, action: str, request_id: str) -> None:
-        """End an action that was begun."""
-        action_client(self._network).end(self.robots, action, request_id)
-
-    def _send(self, action: str, **args: Any) -> None:
-        """Ask without waiting, whatever comes."""
-        action_client(self._network).send(self.robots, action, args)
+        self._client.perform(self.robots, action, args)
 
     def _state(self) -> RobotState:
         """The newest state, told after all that the robot was seen to do, or told of the person."""
         robot = self.robots[0]
-        done = action_client(self._network).last_done.get(robot, 0.0)
-        told = human_listener(self._network).told_s(robot)  # a rule may have fired just now
+        done = self._client.last_done.get(robot, 0.0)
+        # A rule may have fired just now
+        told = human_listener(self._network).told_s.get(robot, 0.0)
         state = robot_listener(self._network).newest(robot, max(done, told))
         if state is None:
             raise not_answering(robot)
@@ -450,7 +441,8 @@ _COLOUR = re.compile(r"#?([0-9a-fA-F]{2})([0-9a-fA-F]{2})([0-9a-fA-F]{2})")
 
 def colour_from(red: float, green: float, blue: float) -> str:
     """The colour with these parts of red, green and blue, each from 0 to 255."""
-    return "#" + "".join(f"{_part(value):02x}" for value in (red, green, blue))
+    parts = [min(max(round(value), 0), 255) for value in (red, green, blue)]
+    return "#" + bytes(parts).hex()
 
 
 def mix_colours(first: str, second: str, percent: float = 50) -> str:
@@ -466,7 +458,3 @@ def _parts(colour: str) -> tuple[int, ...]:
     if parts is None:
         raise ValueError(f"{colour!r} is not a colour: a colour is written like #ff8800.")
     return tuple(int(part, 16) for part in parts.groups())
-
-
-def _part(value: float) -> int:
-    return min(max(round(value), 0), 255)

@@ -26,7 +26,7 @@ class Task:
 
     def __init__(self, parent: Task | None = None) -> None:
         self.cancelled = threading.Event()
-        self.undo: dict[tuple[str, ...], Callable[[], None]] = {}
+        self.undo: dict[tuple[str, ...], Callable[[], object]] = {}
         """What is still to be ended, by what it is, when this part is cancelled."""
         self._children: list[Task] = []
         self._lock = threading.Lock()

@@ -66,22 +66,14 @@ class Channel:
         return {"nep.node": self.node, "nep.encoding": self.encoding}
 
     @property
-    def schema_name(self) -> str:
-        """The name of the schema; "" when there is none."""
-        if self.is_text:
-            return "nep.Text"
-        if self.encoding != "json":
-            return ""
-        kind = BY_TOPIC.get(self.topic)
-        return f"nep.{kind.__name__}" if kind else "nep.Any"
-
-    @property
-    def schema(self) -> bytes:
-        """The JSON schema, simple enough for Foxglove."""
-        if self.is_text:
-            return plain_schema(Text)
-        kind = BY_TOPIC.get(self.topic)
-        return plain_schema(kind) if kind else b'{"type":"object","properties":{}}'
+    def schema(self) -> tuple[str, bytes]:
+        """The name of its JSON schema, which is simple enough for Foxglove; "" for none."""
+        if self.encoding != "json" and not self.is_text:
+            return "", b""
+        kind = Text if self.is_text else BY_TOPIC.get(self.topic)
+        if kind is None:
+            return "nep.Any", b'{"type":"object","properties":{}}'
+        return f"nep.{kind.__name__}", plain_schema(kind)
 
 
 def channel_of(message: RawMessage) -> tuple[Channel, bytes]:
@@ -107,11 +99,6 @@ def read_channel(topic: str, message_encoding: str, metadata: dict[str, str]) ->
     return None if encoding is None else Channel(topic, node, encoding)
 
 
-def payload_of(channel: Channel, data: bytes) -> bytes:
-    """The payload as it was sent; raises msgspec.MsgspecError when the data are not of its kind."""
-    return msgspec.json.decode(data, type=Text).text.encode() if channel.is_text else data
-
-
 def plain_schema(kind: type[Any]) -> bytes:
     """The schema of a struct without what Foxglove does not know.
 
@@ -126,7 +113,8 @@ def plain_schema(kind: type[Any]) -> bytes:
 def _plain(schema: Json, definitions: Json) -> Json | None:
     """One schema in plain types; None when there is no plain way to say it."""
     schema = _one_way(schema, definitions)
-    kind = schema.get("type") or ("string" if _is_choice(schema) else None)
+    is_choice = all(isinstance(value, str) for value in schema.get("enum", [0]))
+    kind = schema.get("type") or ("string" if is_choice else None)
     about = {"description": schema["description"]} if "description" in schema else {}
     if kind == "object":
         fields = {
@@ -155,10 +143,6 @@ def _one_way(schema: Json, definitions: Json) -> Json:
         if len(ways) != 1:
             return schema
         schema = ways[0]
-
-
-def _is_choice(schema: Json) -> bool:
-    return all(isinstance(value, str) for value in schema.get("enum", [0]))
 
 
 LARGEST_RECORD = 256_000_000
@@ -202,9 +186,8 @@ class Recording:
         channels: dict[int, Channel | None] = {}
         self.is_whole = True
         with self.path.open("rb") as file:
-            records = self._records(file)
-            for record in records:
-                yield from self._sorted(record, channels)
+            for records in self._records(file):
+                yield from self._sorted(records, channels)
 
     def _records(self, file: Any) -> Iterator[list[McapRecord]]:
         """The records of a chunk at a time, as far as they can be read."""
@@ -317,10 +300,12 @@ def _next_whole(read: Callable[[], Any]) -> Any:
 
 
 def _message(channel: Channel, record: Any) -> RawMessage | None:
-    try:
-        payload = payload_of(channel, record.data)
-    except msgspec.MsgspecError:
-        return None
+    payload = record.data
+    if channel.is_text:
+        try:
+            payload = msgspec.json.decode(payload, type=Text).text.encode()
+        except msgspec.MsgspecError:
+            return None
     return RawMessage(
         channel.topic,
         channel.node,

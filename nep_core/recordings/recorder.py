@@ -26,14 +26,13 @@ from nep_core.networks.network import Network
 from nep_core.networks.registry import Registration
 from nep_core.networks.transports import topics_of
 from nep_core.networks.zmq_networks import PeerNetwork
-from nep_core.recordings.file import Overview, Recording, overview, read_recording
-from nep_core.recordings.raw import RawMessage, RawSubscriber, SteadyClock
 from nep_core.wire.frames import Sendable
 from nep_core.wire.io_thread import Wake
 from nep_core.wire.messages import LATCHED, NODE_STATE
 from nep_core.wire.pubsub import Publisher
 
-from .file import Channel, channel_of
+from .file import Channel, Overview, Recording, channel_of, overview
+from .raw import RawMessage, RawSubscriber, SteadyClock
 
 log = logging.getLogger(__name__)
 
@@ -140,7 +139,8 @@ class Recorder(Closing):
     @property
     def lost(self) -> int:
         """How many messages were sent but did not arrive."""
-        return sum(subscriber.lost for subscriber in self._subscribers.values())
+        there = list(self._subscribers.values())  # topics may come meanwhile, in another thread
+        return sum(subscriber.lost for subscriber in there)
 
     @property
     def file_bytes(self) -> int:
@@ -200,28 +200,19 @@ class Recorder(Closing):
 
     def _keep(self, message: RawMessage) -> None:
         channel, data = channel_of(message)
-        number = self._channels.get(channel)
-        if number is None:
-            number = self._channels[channel] = self._open_channel(channel)
-        self._writer.add_message(
-            number,
-            message.arrived_ns,
-            data,
-            max(0, message.sent_ns),
-            message.sequence % SEQUENCES,
-        )
+        if channel not in self._channels:
+            name, schema = channel.schema
+            if name not in self._schemas:
+                self._schemas[name] = self._writer.register_schema(name, "jsonschema", schema)
+            self._channels[channel] = self._writer.register_channel(
+                channel.topic, channel.message_encoding, self._schemas[name], channel.metadata
+            )
+        number = self._channels[channel]
+        sent_ns, sequence = max(0, message.sent_ns), message.sequence % SEQUENCES
+        self._writer.add_message(number, message.arrived_ns, data, sent_ns, sequence)
         self.totals.messages += 1
         self.totals.payload_bytes += len(message.payload)
         self.totals.topics[message.topic] = self.totals.topics.get(message.topic, 0) + 1
-
-    def _open_channel(self, channel: Channel) -> int:
-        schema = self._schemas.get(channel.schema_name)
-        if schema is None:
-            schema = self._writer.register_schema(channel.schema_name, "jsonschema", channel.schema)
-            self._schemas[channel.schema_name] = schema
-        return self._writer.register_channel(
-            channel.topic, channel.message_encoding, schema, channel.metadata
-        )
 
     def _keep_on_disk(self) -> None:
         kept = 0
@@ -269,20 +260,13 @@ def _cannot_write(path: Path, error: OSError, kept: int) -> RecordingError:
     return RecordingError(
         "The recording ended because {path} cannot grow: {reason}. What was recorded before is "
         "kept: {kept} bytes.",
-        checklist=(
-            "Make room on the disk, or record to another one.",
-            "Record fewer topics.",
-        ),
+        checklist=("Make room on the disk, or record to another one.", "Record fewer topics."),
         details=str(error),
         path=path,
         reason=reason_of(error),
         kept=kept,
     )
 
-
-# Playing a recording: its messages go out again on their topics, in their true timing.
-
-__all__ = ["Overview", "Player", "Recording", "overview", "read_recording"]
 
 Join = Callable[[str], Network]
 
@@ -373,22 +357,24 @@ class Player(Closing):
                 continue
             due_s = begin_s + (message.arrived_ns - self._start_ns) / 1e9 / self._speed
             left_s = due_s - time.monotonic()
-            if self.is_stopping or (left_s > 0 and self._waits(left_s)):
+            if left_s > 0:
+                select.select([self._stopped], [], [], left_s)
+            if self.is_stopping:
                 break
             self._send(message)
             last_s = max(last_s, due_s)
         return last_s
 
-    def _waits(self, wait_s: float) -> bool:
-        """Wait so long; True when it was stopped meanwhile."""
-        return bool(select.select([self._stopped], [], [], wait_s)[0])
-
     def _send(self, message: RawMessage) -> None:
-        try:
-            again = _as_it_was(message)
-        except UnicodeDecodeError:
-            log.warning("%s: a text that is not UTF-8 is not played", message.topic)
-            return
+        again: Sendable = message.payload
+        if message.encoding == "text":
+            try:
+                again = message.payload.decode()
+            except UnicodeDecodeError:
+                log.warning("%s: a text that is not UTF-8 is not played", message.topic)
+                return
+        elif message.encoding != "bytes":
+            again = msgspec.Raw(message.payload)  # goes out as it is
         self._publishers[message.topic, message.encoding == "msgpack"].send(again)
         self.sent += 1
 
@@ -425,12 +411,3 @@ def _chosen(told: Overview, topics: Collection[str] | None, node_states: bool) -
             sorted=", ".join(sorted(there)) or "no messages",
         )
     return set(topics)
-
-
-def _as_it_was(message: RawMessage) -> Sendable:
-    """What to send so that the same bytes go out; raises UnicodeDecodeError."""
-    if message.encoding == "text":
-        return message.payload.decode()
-    if message.encoding == "bytes":
-        return message.payload
-    return msgspec.Raw(message.payload)  # goes out as it is

@@ -4,7 +4,7 @@ The header is a JSON array ``[node, number of the first payload, time in ns, enc
 ``run`` is text that differs each time that a publisher's program starts: its numbers begin at 1
 again. The NUL behind the topic matters: ZeroMQ matches subscriptions by prefix, and ``/gesture``
 must not receive ``/gesture_debug``. Only JSON payloads, which hold no NUL, may share a frame.
-Frames whose first byte is 0xFF are private: see handshake.py. What they bring is a *notice*: its
+Frames whose first byte is 0xFF are private: see outbox.py. What they bring is a *notice*: its
 header has a sixth value, how many messages were sent so far; without a payload it is a *mark*.
 """
 

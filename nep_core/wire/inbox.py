@@ -14,6 +14,7 @@ from zmq.backend import Socket as BackendSocket
 
 from nep_core.errors import BadMessage
 from nep_core.networks.network import Policy
+from nep_core.networks.security import connect
 
 from . import outbox
 from .frames import NUL, Header, read_header, subscription
@@ -327,7 +328,7 @@ class Inbox:
                 if endpoint not in self._wanted and self._leaving.pop(endpoint, None) is None:
                     if self._security is not None:
                         self._security.trust(self._socket, key)
-                    self._socket.connect(endpoint)
+                    connect(self._socket, endpoint)
             self._wanted = set(endpoints)
             if self._known is not None:
                 self._publishers &= self._known

@@ -28,36 +28,14 @@ SURROUNDINGS = "/surroundings"
 EXPECTED_WORDS = "/expected_words"
 
 NodeType = Literal["sensory", "perceptual", "cognitive", "action"]
-NodeEvent = Literal[
-    "starting",
-    "ready",
-    "running",
-    "busy",
-    "connecting",
-    "connected",
-    "connection_failed",
-    "disconnected",
-    "alive",
-    "warning",
-    "stopped",
-    "crashed",
-]
+Working = Literal["starting", "ready", "running", "busy"]
+Connection = Literal["connecting", "connected", "connection_failed", "disconnected"]
+NodeEvent = Literal[Working, Connection, "alive", "warning", "stopped", "crashed"]
 ActionState = Literal["accepted", "started", "done", "failed", "cancelled"]
-ProgramEvent = Literal[
-    "started",
-    "line",
-    "rule_started",
-    "rule_finished",
-    "goal_started",
-    "goal_finished",
-    "goal_stopped",
-    "goal_interrupted",
-    "value",
-    "paused",
-    "resumed",
-    "finished",
-    "failed",
-]
+RuleStep = Literal["rule_started", "rule_finished"]
+GoalStep = Literal["goal_started", "goal_finished", "goal_stopped", "goal_interrupted"]
+Pause = Literal["paused", "resumed"]
+ProgramEvent = Literal["started", "line", RuleStep, GoalStep, "value", Pause, "finished", "failed"]
 
 PROCESS_ENDED = "process_ended"
 PROCESS_RESTARTS = "process_restarts"

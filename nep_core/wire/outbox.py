@@ -16,6 +16,7 @@ from zmq.backend import Socket as BackendSocket
 
 from faults import reason_of
 from nep_core.errors import NetworkError, PortTaken
+from nep_core.networks.security import connect
 from nep_core.networks.security.addresses import require_loopback
 
 from . import frames
@@ -239,11 +240,6 @@ class Outbox:
         with self._changed:
             return set(self._ids[topic])
 
-    def everyone(self) -> list[tuple[str, str]]:
-        """All that hear something: topic and id."""
-        with self._changed:
-            return [(topic, who) for topic, ids in self._ids.items() for who in ids]
-
     def wait_for(self, topic: str, ids: set[str], count: int, timeout_s: float) -> bool:
         """Wait until all ``ids`` and at least ``count`` subscribers hear ``topic``.
 
@@ -318,7 +314,6 @@ class Outbox:
 
 PRIVATE = b"\xffs"
 PRIVATE_BYTE = 0xFF
-_NUL = b"\0"
 
 
 class Seen(NamedTuple):
@@ -331,14 +326,14 @@ class Seen(NamedTuple):
 
 def private_subscription(topic: str, subscriber: str) -> bytes:
     """The private subscription of ``subscriber`` (an id of its own) for ``topic``."""
-    return PRIVATE + topic.encode() + _NUL + subscriber.encode() + _NUL
+    return PRIVATE + topic.encode() + NUL + subscriber.encode() + NUL
 
 
 def read_subscription(event: bytes) -> Seen | None:
     """What an XPUB event tells of a subscriber; None for ordinary subscriptions and rubbish."""
     if not event[1:].startswith(PRIVATE) or event[:1] not in (b"\0", b"\1"):
         return None
-    parts = event[1 + len(PRIVATE) :].split(_NUL)
+    parts = event[1 + len(PRIVATE) :].split(NUL)
     if len(parts) != 3:
         return None
     topic, subscriber = (part.decode(errors="replace") for part in parts[:2])
@@ -350,13 +345,13 @@ def private_frame(topic: str, subscriber: str, instance: str, notice: bytes = b"
 
     ``topic`` is what ``subscriber``, its id, hears; ``instance`` is who tells it.
     """
-    return private_subscription(topic, subscriber) + instance.encode() + _NUL + notice
+    return private_subscription(topic, subscriber) + instance.encode() + NUL + notice
 
 
 def read_welcome(frame: bytes) -> tuple[str, bytes]:
     """The instance that sent a private frame, and its notice."""
-    _topic, _subscriber, rest = frame[len(PRIVATE) :].split(_NUL, 2)
-    instance, _, notice = rest.partition(_NUL)
+    _topic, _subscriber, rest = frame[len(PRIVATE) :].split(NUL, 2)
+    instance, _, notice = rest.partition(NUL)
     return instance.decode(errors="replace"), notice
 
 
@@ -368,7 +363,7 @@ each subscriber while messages are below 16 KB. Larger ones are not bounded by t
 their size may wait. Whoever sends images gives the network a lower high-water mark.
 
 What comes when all that is full is lost, and counted: ZeroMQ keeps the oldest here. It is the
-subscriber's own backlog (backlog.py) that keeps the newest while its program is merely busy.
+subscriber's own backlog (inbox.py) that keeps the newest while its program is merely busy.
 """
 
 # The send of the C back end: pyzmq's own looks for options that we never use.
@@ -419,7 +414,7 @@ class ZmqOutbox(Outbox):
         with self._lock:
             if self._security is not None:
                 self._security.trust(self._socket, self._security.key_at(endpoint))
-            self._socket.connect(endpoint)
+            connect(self._socket, endpoint)
 
     def tend(self) -> None:
         """Read who subscribed and who left, welcome the newcomers, send what waits."""
@@ -454,7 +449,9 @@ class ZmqOutbox(Outbox):
             _send(self._socket, frame, zmq.NOBLOCK)
         except zmq.Again:
             # Note who has none; from then on ZeroMQ leaves those out until they have read
-            for topic, subscriber in self.everyone():
+            with self._changed:
+                everyone = [(topic, who) for topic, ids in self._ids.items() for who in ids]
+            for topic, subscriber in everyone:
                 try:
                     told = private_frame(topic, subscriber, self._instance)
                     _send(self._socket, told, zmq.NOBLOCK)
@@ -466,13 +463,18 @@ class ZmqOutbox(Outbox):
             finally:
                 self._socket.setsockopt(zmq.XPUB_NODROP, 1)
         except zmq.ZMQError as error:
-            raise NetworkError(
-                "The network of {node} is closed.", checklist=("Start it again.",), node=self._node
-            ) from error
+            raise network_closed(self._node) from error
 
     def _send_privately(self, topic: str, subscriber: str, notice: bytes) -> None:
         if not self._socket.closed:
             self._send(private_frame(topic, subscriber, self._instance, notice))
+
+
+def network_closed(node: str) -> NetworkError:
+    """The error to raise when somebody sends or joins after ``node`` has left its network."""
+    return NetworkError(
+        "The network of {node} is closed.", checklist=("Start it again.",), node=node
+    )
 
 
 def bind(socket: zmq.Socket[bytes], endpoint: str, security: Security | None = None) -> None:

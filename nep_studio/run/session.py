@@ -100,7 +100,7 @@ class Session:
                 program.process.wait(ASK_TO_END_S)
         finally:
             started, self._started = self._started, []
-            self.network.launcher.stop_all(reversed(started))
+            self.network.launcher.stop(*reversed(started))
             self.network.unlisten(self._on_message, self._on_end)
 
     def watch(self, watching: Watching) -> None:

@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+import socket
 from collections.abc import Callable
+from contextlib import closing
 
 import psutil
 import pytest
 import zmq
 
 from nep_core.errors import MasterNotFound, NameTaken, NetworkError, PortTaken
+from nep_core.networks.master import Master
 from nep_core.networks.zmq_networks import DirectNetwork, PeerNetwork
 from nep_core.wire.frames import subscription
 from nep_core.wire.outbox import read_subscription
@@ -52,6 +55,30 @@ def test_a_second_node_of_the_same_name_is_refused_and_nobody_is_killed(join: Jo
         second.join()
 
     Publisher("/x", network=first).send("the first goes on")
+
+
+def has_ipv6() -> bool:
+    try:
+        with socket.create_server(("::1", 0), family=socket.AF_INET6):
+            return True
+    except OSError:
+        return False
+
+
+@pytest.mark.skipif(not has_ipv6(), reason="this computer has no IPv6")
+def test_a_master_and_a_publisher_at_an_address_of_ipv6_are_reached(free_port: int) -> None:
+    place = f"tcp://[::1]:{free_port}"
+    with closing(Master("tcp://[::1]:*")) as master, DirectNetwork(place) as fixed:
+        publisher = Publisher("/x", network=fixed)
+
+        with PeerNetwork("watch", master=master.endpoint) as network:
+            network.join()
+        with DirectNetwork(place) as hearer:
+            subscriber = Subscriber("/x", network=hearer)
+            assert publisher.wait_for_subscribers(1, 2.0)
+            publisher.send("hello")
+
+            assert subscriber.receive(2.0) == "hello"
 
 
 def test_the_private_subscription_is_sent_after_the_data_one(free_port: int) -> None:

@@ -77,6 +77,31 @@ def test_stopping_a_child_that_has_ended_signals_nobody(
     assert not child.last_lines
 
 
+LEAVES_SLOWLY = """
+import signal, time
+asked = []
+signal.signal(signal.SIGTERM, lambda *_: asked.append(1))
+print("here", flush=True)
+while not asked: time.sleep(0.01)
+time.sleep(0.3)
+print("asked", len(asked), flush=True)
+"""
+
+
+@pytest.mark.skipif(os.name != "posix", reason="needs SIGTERM")
+def test_a_child_that_was_asked_to_stop_is_not_asked_again_while_it_leaves(tmp_path: Path) -> None:
+    outcomes: Outcomes = queue.Queue()
+    child = start(LEAVES_SLOWLY, tmp_path / "child.log", outcomes)
+    while not child.last_lines:
+        assert child.wait(0.02) is None
+
+    child.ask_to_stop()
+    child.stop()
+
+    assert outcomes.get(timeout=5).code == 0
+    assert child.last_lines[-1] == "asked 1"
+
+
 def test_a_child_that_we_may_not_end_does_not_keep_stop_from_ending_the_others(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -248,6 +248,7 @@ def _texts_of_labels(node: ast.AST) -> Iterator[ast.AST]:
 def given_to_tell(node: ast.AST) -> Iterator[ast.expr]:
     """What a part of a source gives as a template to what tells it to a person."""
     if isinstance(node, ast.ClassDef):
+        yield from (one.value for one in node.keywords if one.arg == "title")
         for line in node.body:
             is_set = isinstance(line, ast.Assign | ast.AnnAssign) and line.value is not None
             if is_set and ast.unparse(_target(line)) == "title":

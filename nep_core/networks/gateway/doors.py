@@ -171,7 +171,7 @@ def read_request(frame: bytes, old: bool) -> Request:
         raise BadMessage(
             "There is no mode {mode}: use one of {modes}.", mode=repr(mode), modes=", ".join(MODES)
         )
-    socket = _text(told, "socket", "unknown")
+    socket, pid = _text(told, "socket", "unknown"), told.get("pid")
     msg_type = _text(told, "msg_type", "json")
     return Request(
         node=_text(told, "node_name" if paper else "node", "default"),
@@ -181,7 +181,7 @@ def read_request(frame: bytes, old: bool) -> Request:
         socket=socket,
         msg_type=msg_type,
         shape=shape_of(msg_type, old),
-        pid=_pid(told.get("pid")),
+        pid=pid if type(pid) is int and 0 < pid <= MAX_PID else 0,
         paper=paper,
     )
 
@@ -233,21 +233,13 @@ def _role(socket: str) -> Role:
     return cast(Role, socket) if socket in ("publisher", "subscriber") else "unknown"
 
 
-def _pid(told: object) -> int:
-    is_number = isinstance(told, int) and not isinstance(told, bool)
-    return cast(int, told) if is_number and 0 < cast(int, told) <= MAX_PID else 0
-
-
 # The sockets at which programs of the original meet the gateway, and who is connected to them.
 
 log = logging.getLogger(__name__)
 
 
-# Waits on many sockets and calls what belongs to the one that has something.
-
-
 class Watch:
-    """Belongs to one thread."""
+    """Waits on many sockets and calls what belongs to the one that has something; one thread."""
 
     def __init__(self) -> None:
         self._poller = zmq.Poller()
@@ -407,13 +399,11 @@ class WayOut(Door):
             self._on_change()
 
 
-# Warns at most once a second, so that a flood of faults is no flood of words.
-
 WARN_S = 1.0
 
 
 class Warner:
-    """Any thread."""
+    """Warns at most once a second, so that a flood of faults is no flood of words; any thread."""
 
     def __init__(self) -> None:
         self._next_s = 0.0

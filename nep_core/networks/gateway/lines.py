@@ -15,6 +15,7 @@ import socket as sockets
 import sys
 import threading
 import time
+from abc import ABC, abstractmethod
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -270,14 +271,10 @@ class Lines:
             self._add_way_out(line).bind(self._endpoint(line.port + 1))
         elif role == "unknown":
             line.decides_s = time.monotonic() + DECIDES_S
-        elif (role, mode) == ("publisher", "one2many"):
-            self._add_way_in(line).connect(self._endpoint(line.port))
-        elif role == "publisher":
-            self._add_way_in(line).bind(self._endpoint(line.port))
-        elif mode == "one2many":
-            self._add_way_out(line).bind(self._endpoint(line.port))
         else:
-            self._add_way_out(line).connect(self._endpoint(line.port))
+            door = self._add_way_in(line) if role == "publisher" else self._add_way_out(line)
+            program_binds = (role, mode) in (("publisher", "one2many"), ("subscriber", "many2one"))
+            (door.connect if program_binds else door.bind)(self._endpoint(line.port))
 
     def _add_way_in(self, line: Line) -> WayIn:
         topic, shape = line.request.topic, line.request.shape
@@ -369,20 +366,50 @@ AGAIN_S = 1.0
 ENDS_S = 2.0
 
 
-class Speaker:
+class Side(ABC):
+    """Takes part in a topic of our network, in a thread of its own."""
+
+    def __init__(self, network: PeerNetwork, topic: str) -> None:
+        self._network = network
+        self._topic = topic
+        self._closing = threading.Event()
+        self._thread = threading.Thread(target=self._run, name=f"nep-original-{topic}", daemon=True)
+        self._thread.start()
+
+    @abstractmethod
+    def close(self) -> None:
+        """End soon."""
+
+    @abstractmethod
+    def _run(self) -> None:
+        """Join the topic, and pass on until it is closed."""
+
+    def wait(self) -> None:
+        """Wait until it has ended, but not for ever."""
+        self._thread.join(ENDS_S)
+
+    def _joined(self, attempt: Callable[[], T]) -> T | None:
+        """What ``attempt`` gives, as soon as there is a master; None when it is too late for it."""
+        while not (self._closing.is_set() or self._network.closed):
+            try:
+                self._network.join()  # first: an attempt that fails would leave its half behind
+                return attempt()
+            except NetworkError as error:
+                log.warning("programs of the original have to wait: %s", error.sentence)
+                self._closing.wait(AGAIN_S)
+        return None
+
+
+class Speaker(Side):
     """Publishes in our network what a program of the original says."""
 
     def __init__(
         self, network: PeerNetwork, topic: str, encoding: Literal["msgpack"] | None = None
     ) -> None:
-        self._network = network
-        self._topic = topic
         self._encoding = encoding
         self._warn = Warner()
-        self._closing = threading.Event()
         self._waiting: queue.Queue[Any] = queue.Queue(WAITING)
-        self._thread = threading.Thread(target=self._run, name=f"nep-original-{topic}", daemon=True)
-        self._thread.start()
+        super().__init__(network, topic)
 
     def say(self, value: Any) -> None:
         """Publish soon."""
@@ -399,12 +426,8 @@ class Speaker:
         except queue.Full:
             log.debug("%s: what waits is published first", self._topic)
 
-    def wait(self) -> None:
-        """Wait until all is said, but not for ever."""
-        self._thread.join(ENDS_S)
-
     def _run(self) -> None:
-        publisher = _joined(self._network, self._closing, self._open)
+        publisher = self._joined(self._open)
         if publisher is None:
             return
         while not (self._closing.is_set() and self._waiting.empty()):
@@ -426,20 +449,16 @@ class Speaker:
             return Publisher(self._topic, network=self._network)
 
 
-class Listener:
+class Listener(Side):
     """Hears a topic of our network, but not what the gateway itself says there."""
 
     def __init__(
         self, network: PeerNetwork, topic: str, on_value: Callable[[str, Any], None]
     ) -> None:
-        self._network = network
-        self._topic = topic
         self._on_value = on_value
-        self._closing = threading.Event()
         self._lock = threading.Lock()
         self._subscriber: Subscriber[Any] | None = None
-        self._thread = threading.Thread(target=self._run, name=f"nep-original-{topic}", daemon=True)
-        self._thread.start()
+        super().__init__(network, topic)
 
     def close(self) -> None:
         """Hear no more."""
@@ -448,12 +467,8 @@ class Listener:
             if self._subscriber is not None:
                 self._subscriber.close()
 
-    def wait(self) -> None:
-        """Wait until it has ended, but not for ever."""
-        self._thread.join(ENDS_S)
-
     def _run(self) -> None:
-        subscriber = _joined(self._network, self._closing, self._open)
+        subscriber = self._joined(self._open)
         if subscriber is None:
             return
         for value in subscriber:
@@ -468,15 +483,3 @@ class Listener:
             if self._closing.is_set():
                 subscriber.close()
         return subscriber
-
-
-def _joined(network: PeerNetwork, closing: threading.Event, attempt: Callable[[], T]) -> T | None:
-    """What ``attempt`` gives, as soon as there is a master; None when it is too late for it."""
-    while not (closing.is_set() or network.closed):
-        try:
-            network.join()  # first: an attempt that fails would leave its half behind
-            return attempt()
-        except NetworkError as error:
-            log.warning("programs of the original have to wait: %s", error.sentence)
-            closing.wait(AGAIN_S)
-    return None

@@ -40,14 +40,20 @@ def from_environment(context: zmq.Context[zmq.Socket[bytes]]) -> Security | None
         raise
 
 
-def trust_master(socket: zmq.Socket[bytes]) -> None:
-    """Prepare a socket that is about to be connected to the master; raises KeyFileError."""
+def connect_to_master(socket: zmq.Socket[bytes], endpoint: str) -> None:
+    """Connect a socket to a master, by our keys if we were told any; raises KeyFileError."""
     path = key_file_path()
-    if path is None:
-        return
-    from .curve import expect_key, show_keys
-    from .keys import KeyFile
+    if path is not None:
+        from .curve import expect_key, show_keys
+        from .keys import KeyFile
 
-    keys = KeyFile(path).keys
-    show_keys(socket, keys)
-    expect_key(socket, keys.master_key)
+        keys = KeyFile(path).keys
+        show_keys(socket, keys)
+        expect_key(socket, keys.master_key)
+    connect(socket, endpoint)
+
+
+def connect(socket: zmq.Socket[bytes], endpoint: str) -> None:
+    """Connect a socket to an endpoint, which may have an address of IPv6."""
+    socket.ipv6 = "[" in endpoint
+    socket.connect(endpoint)

@@ -5,7 +5,6 @@ from __future__ import annotations
 import contextlib
 import errno
 import logging
-import socket
 import socket as sockets
 import threading
 import time
@@ -72,7 +71,14 @@ class Refusals:
         with self._lock:
             refused, self._refused = self._refused, set()
             unable, self._unable = self._unable, set()
-        told = self._about_refused(refused) | _about_unable(unable)
+        told = self._about_refused(refused)
+        if unable:
+            told["unable"] = text_of(
+                "The program at {places} does not have the keys of this network, or does not know "
+                "ours. Start it with NEP_KEYS, or pair the two computers.",
+                places=_places(unable),
+                addresses=sorted(unable),
+            )
         now_s = time.monotonic()
         if not told:
             return None
@@ -104,18 +110,6 @@ class Refusals:
                 addresses=[""],
             )
         return told
-
-
-def _about_unable(endpoints: set[str]) -> dict[str, Text]:
-    if not endpoints:
-        return {}
-    told = text_of(
-        "The program at {places} does not have the keys of this network, or does not know ours. "
-        "Start it with NEP_KEYS, or pair the two computers.",
-        places=_places(endpoints),
-        addresses=sorted(endpoints),
-    )
-    return {"unable": told}
 
 
 def _places(places: Iterable[str]) -> Text:
@@ -273,7 +267,11 @@ class Doorkeeper:
             elif kind == zmq.EVENT_DISCONNECTED:
                 self._on_disconnected(watched, number, event["endpoint"].decode())
             else:
-                watched.failure = kind if kind in FAILURES and not _is_broken(kind, number) else 0
+                # Not one that left without reading what we had said: it was killed, or just
+                # knocked. A plain program reads our greeting and leaves because of it.
+                hung_up = number == errno.ECONNRESET
+                is_broken = kind == zmq.EVENT_HANDSHAKE_FAILED_NO_DETAIL and hung_up
+                watched.failure = kind if kind in FAILURES and not is_broken else 0
 
     def _on_disconnected(self, watched: _Watched, number: int, endpoint: str) -> None:
         # One thread of ZeroMQ makes all events: this is the connection that has just failed.
@@ -286,26 +284,15 @@ class Doorkeeper:
             self._refusals.cannot_join(endpoint)  # without detail: it may just have ended
 
 
-def _is_broken(kind: int, number: int) -> bool:
-    """Whether a peer left without reading what we had said: it was killed, or just knocked.
-
-    A plain program reads our greeting and leaves because of it.
-    """
-    return kind == zmq.EVENT_HANDSHAKE_FAILED_NO_DETAIL and number == errno.ECONNRESET
-
-
 def _address_behind(number: int) -> str:
     """Who is at the other end of a connection; "" when it has already ended."""
-    try:
+    with contextlib.suppress(OSError):
         connection = sockets.socket(fileno=number)
-    except OSError:
-        return ""
-    try:
-        return str(connection.getpeername()[0])
-    except OSError:
-        return ""
-    finally:
-        connection.detach()  # it is ZeroMQ's
+        try:
+            return str(connection.getpeername()[0])
+        finally:
+            connection.detach()  # it is ZeroMQ's
+    return ""
 
 
 HANDSHAKE_MS = 5_000
@@ -322,6 +309,8 @@ class Security:
         self.file = file
         self._allowed_by_master: frozenset[str] = frozenset()
         self._refusals = Refusals(str(file.path))
+        self.take_warning = self._refusals.take
+        """Who was refused since the last time, and what to do; None when nobody was."""
         self._doorkeeper = Doorkeeper(context, self.allows, self._refusals)
         self._trusting: WeakSet[zmq.Socket[bytes]] = WeakSet()
 
@@ -329,11 +318,6 @@ class Security:
     def key(self) -> str:
         """This program's public key: the one of its computer."""
         return self.file.keys.public
-
-    @property
-    def master_key(self) -> str:
-        """The public key of the computer where the master is."""
-        return self.file.keys.master_key
 
     def guard(self, socket: zmq.Socket[bytes]) -> None:
         """Let only known keys come to ``socket``; before it is bound."""
@@ -384,10 +368,6 @@ class Security:
         """Let in these keys from now on: the master tells which computers there are."""
         self._allowed_by_master = frozenset(keys)
 
-    def take_warning(self) -> Fault | None:
-        """Who was refused since the last time, and what to do; None when nobody was."""
-        return self._refusals.take()
-
 
 def show_keys(socket: zmq.Socket[bytes], keys: Keys) -> None:
     """Let a socket prove that it is this computer's."""
@@ -420,11 +400,10 @@ def mechanism_at(endpoint: str, timeout_s: float = 1.0) -> str:
     end_s = time.monotonic() + timeout_s
     with contextlib.suppress(OSError, ValueError):
         place = (host_of(endpoint), int(endpoint.rpartition(":")[2]))
-        with socket.create_connection(place, timeout=timeout_s) as connection:
+        with sockets.create_connection(place, timeout=timeout_s) as connection:
             connection.sendall(SIGNATURE + VERSION)
             while len(heard) < MECHANISM.stop and time.monotonic() < end_s:
-                part = connection.recv(GREETING_BYTES)
-                if not part:
+                if not (part := connection.recv(GREETING_BYTES)):
                     break
                 heard += part
         if heard[:1] == SIGNATURE[:1] and len(heard) >= MECHANISM.stop:

@@ -94,16 +94,8 @@ class KeyFile:
 
     def __init__(self, path: Path) -> None:
         self.path = path
-        self.version = 0
-        """Counts the changes that were seen."""
         self._lock = threading.RLock()
         self._stamp, self._keys = self._read()
-
-    @classmethod
-    def make(cls, path: Path, keys: Keys) -> KeyFile:
-        """Write a new key file, which only its owner can read."""
-        write_keys(path, keys)
-        return cls(path)
 
     @property
     def keys(self) -> Keys:
@@ -112,7 +104,6 @@ class KeyFile:
             try:
                 if self._stamp != _stamp_of(os.stat(self.path)):
                     self._stamp, self._keys = self._read()
-                    self.version += 1
             except (OSError, KeyFileError):
                 pass  # it is being repaired, or gone: who was let in stays so
             return self._keys
@@ -143,7 +134,10 @@ class KeyFile:
         return known[0]
 
     def forget(self, name: str) -> bool:
-        """Let a computer in no more; whether it was known."""
+        """Let a computer in no more; whether it was known.
+
+        Connections that exist stay until the programs at one of their ends are started again.
+        """
         before = self.keys.computers
 
         def drop(keys: Keys) -> Keys:

@@ -23,7 +23,7 @@ from nep_core.wire.pubsub import Publisher
 
 from .addresses import endpoint_at, lan_address
 from .curve import Security
-from .keys import Computer, KeyFile, new_keys
+from .keys import KeyFile, new_keys, write_keys
 from .pairing import CODE_S, Code, Door, DoorEvent
 
 log = logging.getLogger(__name__)
@@ -60,7 +60,8 @@ class Opening:
         self.master = fixed_endpoint(endpoint_at(self.host, port))
         check_endpoint(endpoint_at(self.host, door_port or "*"))
         self.file = owned_key_file(keys, title)
-        self._door_port = door_port
+        self.door_port = door_port
+        """Where the second computer knocks."""
         self._is_announced = is_announced
         self._on_event = on_event
         self._door: Door | None = None
@@ -69,8 +70,8 @@ class Opening:
     def start(self) -> None:
         """Open the door and announce the network; raises PortTaken."""
         self.file.change(lambda keys: msgspec.structs.replace(keys, master=self.master))
-        self._door = Door(self.file, (self.host, self._door_port), self._on_event)
-        self._door_port = self._door.port
+        self._door = Door(self.file, (self.host, self.door_port), self._on_event)
+        self.door_port = self._door.port
         if self._is_announced:
             keys = self.file.keys
             self._announcement = discovery.announce(
@@ -79,19 +80,14 @@ class Opening:
                     computer=keys.computer,
                     network=keys.network,
                     master=self.master,
-                    door_port=self._door_port,
+                    door_port=self.door_port,
                 )
             )
 
     @property
-    def door_port(self) -> int:
-        """Where the second computer knocks."""
-        return self._door_port
-
-    @property
     def door_place(self) -> str:
         """The door's address and port, as they are typed."""
-        return endpoint_at(self.host, self._door_port).removeprefix("tcp://")
+        return endpoint_at(self.host, self.door_port).removeprefix("tcp://")
 
     @property
     def code(self) -> Code | None:
@@ -103,18 +99,6 @@ class Opening:
         if self._door is None:
             raise RuntimeError("start() comes first")
         return self._door.new_code(seconds)
-
-    @property
-    def peers(self) -> tuple[Computer, ...]:
-        """The computers that were let in."""
-        return self.file.keys.computers
-
-    def forget(self, peer: str) -> bool:
-        """Let a computer in no more; whether it was known.
-
-        Connections that exist stay until the programs at one of their ends are started again.
-        """
-        return self.file.forget(peer)
 
     def close(self) -> None:
         """Shut the door and announce no more; programs go on as they are."""
@@ -129,7 +113,7 @@ class Opening:
 def owned_key_file(path: Path, title: str) -> KeyFile:
     """The key file of a network that this computer opened, made when there is none."""
     if not path.exists():
-        return KeyFile.make(path, new_keys(title))
+        write_keys(path, new_keys(title))
     file = KeyFile(path)
     if not file.keys.is_owner:
         raise KeyFileError(
@@ -144,11 +128,11 @@ def owned_key_file(path: Path, title: str) -> KeyFile:
     return file
 
 
-# The master of an opened network tells every program which computers are let in.
-
-
 class Admission:
-    """Belongs to the master's thread; ``send`` gives an encoded answer to an address."""
+    """Lets the master of an opened network tell all programs which computers are let in.
+
+    It belongs to the master's thread; ``send`` gives an encoded answer to an address.
+    """
 
     def __init__(
         self, security: Security, registry: Registry, send: Callable[[bytes, bytes], bool]
@@ -185,11 +169,11 @@ class Admission:
         return says.encode(says.Computers(keys=sorted(self._announced)))
 
 
-# What a service of an opened network says on ``/node_state``: it is no node, but has news.
-
-
 class ServiceVoice:
-    """Speaks as ``name``; joins its network when there is something to say."""
+    """Tells the news of a service, which is no node, on ``/node_state`` as ``name``.
+
+    It joins its network when there is something to say.
+    """
 
     def __init__(self, name: str, join: Callable[[], Network]) -> None:
         self._name = name

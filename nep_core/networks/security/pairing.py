@@ -188,11 +188,8 @@ def _check(told: str, right: str) -> None:
         raise wrong_code()
 
 
-# One JSON message a line over a TCP connection, with a limit to bytes and time.
-
-
 class Lines:
-    """A talk that ends after ``seconds``, however slowly the other side sends."""
+    """A talk over TCP, one JSON message a line, that ends after ``seconds``, however slow."""
 
     def __init__(self, connection: socket.socket, seconds: float) -> None:
         self._connection = connection
@@ -238,10 +235,7 @@ class Lines:
 def _broken() -> PairingError:
     return PairingError(
         "The talk with the other computer ended too early.",
-        checklist=(
-            "Is that the address of the computer that opened the network?",
-            "Try again.",
-        ),
+        checklist=("Is that the address of the computer that opened the network?", "Try again."),
     )
 
 
@@ -284,11 +278,6 @@ class Code:
     def left_s(self) -> float:
         """How long it may still be typed, whatever the computer's clock is set to meanwhile."""
         return self.until_s - time.monotonic()
-
-    @property
-    def until(self) -> float:
-        """The same as a time of day (time.time())."""
-        return time.time() + self.left_s
 
 
 NO_CODE = fault_of(
@@ -411,43 +400,27 @@ class Door:
 
     def _let_in(self, guest: Guest, address: str) -> None:
         name = plain_name(guest.name) or "a computer"
-        computer = self._file.let_in(name, guest.key, address)
+        name = self._file.let_in(name, guest.key, address).name
         with self._lock:
             self._code = None
-        self._on_event(
-            DoorEvent(
-                "paired",
-                text_of(
-                    "{name} at {address} was paired. Its programs may join now.",
-                    name=computer.name,
-                    address=address,
-                ),
-                computer.name,
-                address,
-            )
-        )
+        words = "{name} at {address} was paired. Its programs may join now."
+        sentence = text_of(words, name=name, address=address)
+        self._on_event(DoorEvent("paired", sentence, name, address))
 
     def _refuse(self, lines: Lines, address: str) -> None:
         with contextlib.suppress(PairingError):
             lines.say(_no(wrong_code().fault))
         if self.code is not None:
-            self._on_event(
-                DoorEvent(
-                    "wrong_code",
-                    text_of("A computer at {address} gave a wrong code.", address=address),
-                    "",
-                    address,
-                )
-            )
+            sentence = text_of("A computer at {address} gave a wrong code.", address=address)
+            self._on_event(DoorEvent("wrong_code", sentence, "", address))
             return
         with self._lock:
             self._code = None
-        sentence = text_of(
+        words = (
             "The code was tried {tries} times in vain, the last time by {address}. It holds no "
-            "more; make a new one.",
-            tries=TRIES,
-            address=address,
+            "more; make a new one."
         )
+        sentence = text_of(words, tries=TRIES, address=address)
         self._on_event(DoorEvent("code_used_up", sentence, "", address))
 
     def _host(self) -> Host:
@@ -469,8 +442,6 @@ def _no(fault: Fault) -> No:
     )
 
 
-# The second computer: pair with the one that opened a network, and write the key file.
-
 T = TypeVar("T")
 
 JOINING_TALK_S = 10.0
@@ -487,7 +458,10 @@ def pair(host: str, port: int, code: str, path: Path) -> Keys:
     before = KeyFile(path).keys if path.exists() else None
     if before is not None and before.is_owner:
         raise _other_network(path, before)
-    public, secret = _own_pair(before)
+    if before is not None:
+        public, secret = before.public, before.secret
+    else:
+        public, secret = (key.decode() for key in zmq.curve_keypair())
     told = _talk(host, port, code, Guest(name=own_name(), key=public))
     if before is not None and before.network != told.network:
         raise _other_network(path, before)
@@ -506,19 +480,13 @@ def pair(host: str, port: int, code: str, path: Path) -> Keys:
     return keys
 
 
-def _own_pair(before: Keys | None) -> tuple[str, str]:
-    if before is not None:
-        return before.public, before.secret
-    public, secret = zmq.curve_keypair()
-    return public.decode(), secret.decode()
-
-
 def _talk(host: str, port: int, code: str, guest: Guest) -> Host:
     talk = GuestTalk(code, guest)
     hello = talk.hello()  # it takes a while, and the door does not wait for it
     try:
         connection = socket.create_connection((host, port), timeout=JOINING_TALK_S)
     except (OSError, UnicodeError, OverflowError) as error:
+        is_known = isinstance(error, OSError)
         raise PairingError(
             "No computer answers at {host}, port {port}: {reason}.",
             checklist=(
@@ -529,9 +497,7 @@ def _talk(host: str, port: int, code: str, guest: Guest) -> Host:
             ),
             host=host,
             port=port,
-            reason=reason_of(error)
-            if isinstance(error, OSError)
-            else Text("there can be no such place"),
+            reason=reason_of(error) if is_known else Text("there can be no such place"),
         ) from error
     with connection:
         lines = Lines(connection, JOINING_TALK_S)

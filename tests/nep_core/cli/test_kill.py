@@ -23,7 +23,6 @@ from tests.nep_core.cli.conftest import Call, nep
 DEAF = """
 import sys, time
 from nep_core.networks.zmq_networks import PeerNetwork
-from nep_core.recordings.recorder import overview
 network = PeerNetwork("deaf")
 network.join()
 print("joined", flush=True)

@@ -8,7 +8,7 @@ from collections.abc import Callable
 import msgspec
 import pytest
 
-from nep_core.cli.graph import dot_lines, text_lines
+from nep_core.cli.look import dot_lines, text_lines
 from nep_core.networks.transports import TopicEnds
 from nep_core.networks.zmq_networks import PeerNetwork
 from nep_core.processes.node import Node

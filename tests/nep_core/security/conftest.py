@@ -16,8 +16,13 @@ from nep_core.networks.endpoints import MASTER_VARIABLE
 from nep_core.networks.master import Master
 from nep_core.networks.security import KEYS_VARIABLE
 from nep_core.networks.security.addresses import HOST_VARIABLE
-from nep_core.networks.security.keys import KeyFile, Keys, new_keys
+from nep_core.networks.security.keys import KeyFile, Keys, new_keys, write_keys
 from nep_core.networks.zmq_networks import PeerNetwork
+
+
+def written(path: Path, keys: Keys) -> KeyFile:
+    write_keys(path, keys)
+    return KeyFile(path)
 
 
 def wait_until(condition: Callable[[], object], seconds: float = 5.0) -> bool:
@@ -53,7 +58,7 @@ class Opened:
     def guest(self, name: str, *, let_in: bool = True) -> Path:
         """Another computer's key file."""
         path = self.file.path.with_name(f"{name}.keys")
-        guest = KeyFile.make(path, keys_of_a_guest(self.file.keys, name))
+        guest = written(path, keys_of_a_guest(self.file.keys, name))
         if let_in:
             self.file.let_in(name, guest.keys.public, "127.0.0.1")
         return path
@@ -65,7 +70,7 @@ class Opened:
 
 @pytest.fixture
 def key_file(tmp_path: Path) -> KeyFile:
-    return KeyFile.make(tmp_path / "owner.keys", new_keys("karate"))
+    return written(tmp_path / "owner.keys", new_keys("karate"))
 
 
 @pytest.fixture

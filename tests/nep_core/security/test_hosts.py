@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from nep_core.networks.security.keys import KeyFile, Keys
-from tests.nep_core.security.conftest import keys_of_a_guest
+from tests.nep_core.security.conftest import keys_of_a_guest, written
 from tests.nep_core.security.hosts import Host, are_apart, three_hosts
 
 PROGRAMS = "tests.nep_core.security.host_programs"
@@ -46,7 +46,7 @@ def test_a_paired_computer_takes_part_and_another_is_refused_visibly(tmp_path: P
         line_with(witness, r'{"count": \d+}')
 
         plain = nep(stranger, "topics", master=f"tcp://{home.address}:7100")
-        forgotten = KeyFile.make(tmp_path / "stranger.keys", _keys_of_nobody(tmp_path))
+        forgotten = written(tmp_path / "stranger.keys", _keys_of_nobody(tmp_path))
         refused = nep(stranger, "topics", keys=forgotten.path)
         line_with(plain, "open only to programs that have its keys")
         line_with(refused, "does not take the keys")

@@ -39,15 +39,15 @@ def opening(tmp_path: Path, free_port: int) -> Iterator[Opening]:
 def test_an_opening_pairs_shows_and_forgets_computers(opening: Opening, tmp_path: Path) -> None:
     keys = pair(HOST, opening.door_port, opening.new_code().text, tmp_path / "guest.keys")
 
-    peers = opening.peers
-    was_there = opening.forget(peers[0].name)
+    peers = opening.file.keys.computers
+    was_there = opening.file.forget(peers[0].name)
 
     assert keys.title == "karate"
     assert keys.master == opening.master
     assert [peer.key for peer in peers] == [keys.public]
     assert was_there
-    assert opening.peers == ()
-    assert not opening.forget("nobody")
+    assert opening.file.keys.computers == ()
+    assert not opening.file.forget("nobody")
 
 
 def test_a_network_that_is_opened_again_keeps_its_keys_and_computers(
@@ -61,7 +61,7 @@ def test_a_network_that_is_opened_again_keeps_its_keys_and_computers(
     again.start()
     again.close()
 
-    assert again.peers == before.computers
+    assert again.file.keys.computers == before.computers
     assert again.file.keys.secret == before.secret
     assert again.file.keys.master == f"tcp://127.0.0.2:{free_port}"
 
@@ -88,7 +88,7 @@ def test_a_network_that_is_announced_is_found() -> None:
     found = find(10.0, is_enough=lambda seen: told in seen, interfaces=[HOST])
     announcement.close()
 
-    assert announcement.is_out
+    assert announcement.zeroconf is not None
     assert told in found
 
 
@@ -98,7 +98,7 @@ def test_announcing_and_finding_fail_quietly_where_they_cannot_work(
     announcement = announce(Found("x", "x", "x", "tcp://198.51.100.1:7100", 7101))
     announcement.close()
 
-    assert not announcement.is_out
+    assert announcement.zeroconf is None
     assert find(0.1, interfaces=["198.51.100.1"]) == []
 
 

@@ -17,7 +17,7 @@ from nep_core.networks.security import pairing
 from nep_core.networks.security import pairing as door_module
 from nep_core.networks.security.keys import KeyFile, Keys, new_keys
 from nep_core.networks.security.pairing import Door, DoorEvent, pair
-from tests.nep_core.security.conftest import wait_until
+from tests.nep_core.security.conftest import wait_until, written
 
 HOST = "127.0.0.1"
 CLEAR = b'{"do":"no","sentence":"\\u001b[2J","checklist":["\\u001b"]}\n'
@@ -126,7 +126,7 @@ def test_a_computer_that_is_paired_again_keeps_its_key(
 
 
 def test_the_key_file_of_another_network_is_not_overwritten(door: Door, tmp_path: Path) -> None:
-    other = KeyFile.make(tmp_path / "other.keys", new_keys("other"))
+    other = written(tmp_path / "other.keys", new_keys("other"))
     before = other.path.read_bytes()
 
     with pytest.raises(KeyFileError, match='belongs to another network, "other"'):
