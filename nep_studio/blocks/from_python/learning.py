@@ -25,8 +25,9 @@ from nep_studio.blocks.generate.expressions import (
     Piece,
     show,
 )
+from nep_studio.blocks.generate.generators import REPORTERS, STATEMENTS
 from nep_studio.blocks.generate.names import ProgramNames
-from nep_studio.blocks.generate.rules import HATS, REPORTERS, STATEMENTS
+from nep_studio.blocks.generate.rules import HATS
 from nep_studio.blocks.language import Language
 from nep_studio.blocks.procedures import procedure_of
 from nep_studio.blocks.program import ALL_ROBOTS, Block, Project, split_slot

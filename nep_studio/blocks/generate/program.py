@@ -15,8 +15,9 @@ from nep_studio.blocks.slices import Steps, at_once
 from nep_studio.blocks.slots import Setting, constant
 
 from .expressions import Expressions, call, literal, method_call, show
+from .generators import REPORTERS
 from .names import NameTable, ProgramNames
-from .rules import HATS, REPORTERS, RuleWriter
+from .rules import HATS, RuleWriter
 from .source_map import Code
 
 
