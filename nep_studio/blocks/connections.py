@@ -9,7 +9,7 @@ from faults import Text, text_of
 from .definitions import Definition
 from .language import Language
 from .program import FARTHEST, Block, Note, Project
-from .slots import why_not_fit, why_not_name, why_not_text
+from .slots import RESULTS, why_not_name, why_not_text
 
 MOST_VARIABLES = 1000
 MOST_NOTES = 1000
@@ -58,7 +58,15 @@ def why_not_plugged(
         return Text("Only a block that gives a value goes into a slot.")
     if value.result in slot.kind.fits:
         return None
-    return why_not_fit(slot.kind, value.result, value.in_words)
+    noun = Text(slot.kind.noun)
+    if not slot.kind.pluggable:
+        return text_of("This place takes {noun} that is chosen or typed, not a block.", noun=noun)
+    return text_of(
+        "This place needs {noun}, and “{block_name}” gives {result}.",
+        noun=noun,
+        block_name=value.in_words,
+        result=Text(RESULTS[value.result]),
+    )
 
 
 def why_no_body(owner: Block, key: str, definitions: Mapping[str, Definition]) -> Text | None:

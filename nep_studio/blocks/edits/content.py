@@ -151,7 +151,7 @@ class AddNote(Edit, frozen=True):
         _require_page(project, self.note.page)
         project.notes[self.note.id] = _in_floats(self.note)
         project.id_seen(self.note.id)
-        project.touch_note(self.note.id)
+        project.changes.notes.add(self.note.id)
         return RemoveNote(self.note.id)
 
 
@@ -165,7 +165,7 @@ class RemoveNote(Edit, frozen=True):
         """Delete the note."""
         old = _require_note(project, self.note)
         del project.notes[self.note]
-        project.touch_note(self.note)
+        project.changes.notes.add(self.note)
         return AddNote(old)
 
 
@@ -180,7 +180,7 @@ class ChangeNote(Edit, frozen=True):
         old = _require_note(project, self.note.id)
         _require_page(project, self.note.page)
         project.notes[self.note.id] = _in_floats(self.note)
-        project.touch_note(self.note.id)
+        project.changes.notes.add(self.note.id)
         return ChangeNote(old)
 
 

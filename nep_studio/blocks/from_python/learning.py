@@ -396,13 +396,7 @@ class CodeUnread(BlocksError):
     title = "This Python cannot become blocks"
 
     def __init__(
-        self,
-        sentence: Words,
-        line: int,
-        /,
-        *,
-        checklist: Sequence[Words] = (),
-        **values: object,
+        self, sentence: Words, line: int, /, *, checklist: Sequence[Words] = (), **values: object
     ) -> None:
         said = text_of(sentence, **values)
         super().__init__("Line {line}: {sentence}", checklist=checklist, line=line, sentence=said)
