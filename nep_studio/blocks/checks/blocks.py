@@ -59,12 +59,7 @@ _Misplaced = tuple[Severity, str, Text, str]
 
 
 def _why_not_filled(
-    project: Project,
-    language: Language,
-    block: Block,
-    definition: Definition,
-    key: str,
-    slot: Slot,
+    project: Project, language: Language, block: Block, definition: Definition, key: str, slot: Slot
 ) -> _Wrong | None:
     """The kind, the sentence and the checklist of what is wrong with a slot, or None."""
     value, kind = definition.value(block, key), slot.kind

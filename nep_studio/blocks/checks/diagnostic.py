@@ -68,9 +68,7 @@ SORTS = {
         ("Take it out, or put another block in its place.",),
     ),
     "wrong_page": Sort(
-        "error",
-        "This block belongs on the page {page}.",
-        ("Move it to the page {page}.",),
+        "error", "This block belongs on the page {page}.", ("Move it to the page {page}.",)
     ),
     "loose_block": Sort(
         "info",
@@ -128,9 +126,7 @@ SORTS = {
     ),
     # robots and nodes
     "same_name": Sort(
-        "error",
-        "Two robots or nodes are called “{name}”.",
-        ("Give each a name of its own.",),
+        "error", "Two robots or nodes are called “{name}”.", ("Give each a name of its own.",)
     ),
     "robot_lacks": Sort(
         "error",

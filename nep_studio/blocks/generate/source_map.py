@@ -120,8 +120,7 @@ class ReporterPlaces:
         definition = self._definitions.get(block.type)
         slots = list(definition.slots) if definition is not None else []
         in_order = sorted(
-            block.inputs,
-            key=lambda key: (split_slot(key)[1], _index(slots, split_slot(key)[0])),
+            block.inputs, key=lambda key: (split_slot(key)[1], _index(slots, split_slot(key)[0]))
         )
         for key in in_order:
             plugged = self._project.blocks[block.inputs[key]]

@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import NamedTuple
 
+from msgspec.structs import replace
+
 from nep_studio.blocks.edits.content import SetField
 
 from ..editor import Editor
@@ -61,19 +63,10 @@ def keep_animation(editor: Editor, animation: OwnAnimation, name: str = "") -> s
 def rename_animation(editor: Editor, name: str, title: str) -> str:
     """Give an animation another title, and the name that goes with it; its uses follow."""
     animation = _known(editor, name)
-    renamed = OwnAnimation(
-        title,
-        animation.joints,
-        animation.kind,
-        animation.description,
-        animation.starts_from,
-        animation.says,
-    )
-    others = _taken(editor) - {name}
-    new = free_name(title, others)
+    new = free_name(title, _taken(editor) - {name})
     with editor.transaction("rename a motion"):
         uses = animation_uses(editor, name)
-        keep_animation(editor, renamed, new)
+        keep_animation(editor, replace(animation, title=title), new)
         if new != name:
             for use in uses:
                 editor.apply(SetField(use.block, use.slot, new))
