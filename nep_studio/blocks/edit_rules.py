@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 
 from faults import Text, text_of
 
+from . import edits
 from .connections import (
     MOST_NOTES,
     MOST_PAGES,
@@ -18,30 +19,6 @@ from .connections import (
     why_not_plugged,
     why_not_size,
     why_not_variable_name,
-)
-from .edits import Edit
-from .edits.content import (
-    AddGroup,
-    AddNote,
-    AddProcedure,
-    ChangeNote,
-    ChangeProcedure,
-    RemoveGroup,
-    RemoveProcedure,
-    SetComment,
-    SetCommentSize,
-    SetExtra,
-    SetField,
-    why_not_extra,
-)
-from .edits.placing import CreateBlocks, MoveBlocks
-from .edits.project import (
-    AddPage,
-    AddVariable,
-    MoveStack,
-    RenamePage,
-    RenameProject,
-    RenameVariable,
 )
 from .files import why_not_block
 from .language import Language
@@ -60,7 +37,9 @@ from .slots import why_not_name, why_not_text
 # Why blocks cannot be put into a place: what is above and below, the slot, the page.
 
 
-def why_not_move(edit: MoveBlocks, project: Project, language: Language) -> Text | None:
+def why_not_move(
+    edit: edits.placing.MoveBlocks, project: Project, language: Language
+) -> Text | None:
     """Why blocks cannot be moved."""
     if edit.first not in project.blocks:
         return Text("This block is not there any more.")
@@ -70,7 +49,9 @@ def why_not_move(edit: MoveBlocks, project: Project, language: Language) -> Text
     return _why_not_here(roots or [project.blocks[edit.first]], edit.place, project, language)
 
 
-def why_not_create(edit: CreateBlocks, project: Project, language: Language) -> Text | None:
+def why_not_create(
+    edit: edits.placing.CreateBlocks, project: Project, language: Language
+) -> Text | None:
     """Why blocks cannot be made."""
     by_id = {block.id: block for block in edit.blocks}
     inside = [child for block in edit.blocks for child in block.children()]
@@ -231,14 +212,14 @@ def _is_misplaced(block: Block, project: Project, after: Language) -> bool:
     return why_not_chained(definition, first_in_stack=chain[0] == block.id) is not None
 
 
-def why_not(edit: Edit, project: Project, language: Language) -> Text | None:
+def why_not(edit: edits.Edit, project: Project, language: Language) -> Text | None:
     """Why an edit does not fit the language, or None when it does."""
     match edit:
-        case MoveBlocks():
+        case edits.placing.MoveBlocks():
             return why_not_move(edit, project, language)
-        case CreateBlocks():
+        case edits.placing.CreateBlocks():
             return why_not_create(edit, project, language)
-        case SetField():
+        case edits.content.SetField():
             block = project.blocks.get(edit.block)
             if block is None:
                 return Text("This block is not there any more.")
@@ -251,52 +232,52 @@ def why_not(edit: Edit, project: Project, language: Language) -> Text | None:
             if slot is None:
                 return None
             return language.why_not_choice(slot, edit.value, block, edit.slot)
-        case AddGroup() | RemoveGroup():
+        case edits.content.AddGroup() | edits.content.RemoveGroup():
             return _why_not_group(edit, project, language)
-        case SetComment():
+        case edits.content.SetComment():
             return why_not_text(edit.comment)
-        case MoveStack() if max(abs(edit.x), abs(edit.y)) > FARTHEST:
+        case edits.project.MoveStack() if max(abs(edit.x), abs(edit.y)) > FARTHEST:
             return Text("This is too far outside the page.")
-        case RenameProject():
+        case edits.project.RenameProject():
             return why_not_name(edit.name)
-        case AddVariable():
+        case edits.project.AddVariable():
             return why_not_variable_name(project, edit.name)
-        case RenameVariable():
+        case edits.project.RenameVariable():
             return why_not_variable_name(project, edit.name, but=edit.variable)
     return _why_not_more(edit, project, language)
 
 
-def _why_not_more(edit: Edit, project: Project, language: Language) -> Text | None:
+def _why_not_more(edit: edits.Edit, project: Project, language: Language) -> Text | None:
     """The edits of notes, pages and own blocks."""
     match edit:
-        case AddNote() if len(project.notes) >= MOST_NOTES:
+        case edits.content.AddNote() if len(project.notes) >= MOST_NOTES:
             return text_of("There are too many notes: {most_notes} at most.", most_notes=MOST_NOTES)
-        case AddNote() | ChangeNote():
+        case edits.content.AddNote() | edits.content.ChangeNote():
             return why_not_note(project, edit.note)
-        case SetCommentSize():
+        case edits.content.SetCommentSize():
             return why_not_size(edit.width, edit.height)
-        case AddPage() if len(project.pages) >= MOST_PAGES:
+        case edits.project.AddPage() if len(project.pages) >= MOST_PAGES:
             return text_of("There are too many pages: {most_pages} at most.", most_pages=MOST_PAGES)
-        case AddPage() | RenamePage():
+        case edits.project.AddPage() | edits.project.RenamePage():
             return why_not_name(edit.title) if edit.title else None
-        case AddProcedure() if len(project.procedures) >= MOST_PROCEDURES:
+        case edits.content.AddProcedure() if len(project.procedures) >= MOST_PROCEDURES:
             return text_of(
                 "There are too many own blocks: {most_procedures} at most.",
                 most_procedures=MOST_PROCEDURES,
             )
-        case AddProcedure():
+        case edits.content.AddProcedure():
             return why_not_procedure(edit.procedure)
-        case ChangeProcedure():
+        case edits.content.ChangeProcedure():
             return why_not_change(edit.procedure, project, language)
-        case RemoveProcedure():
+        case edits.content.RemoveProcedure():
             return why_not_remove(edit.procedure, project)
-        case SetExtra():
-            return why_not_extra(edit.key, edit.value)
+        case edits.content.SetExtra():
+            return edits.content.why_not_extra(edit.key, edit.value)
     return None
 
 
 def _why_not_group(
-    edit: AddGroup | RemoveGroup, project: Project, language: Language
+    edit: edits.content.AddGroup | edits.content.RemoveGroup, project: Project, language: Language
 ) -> Text | None:
     block = project.blocks.get(edit.block)
     definition = language.definitions.get(block.type) if block is not None else None
@@ -304,12 +285,14 @@ def _why_not_group(
         return Text("This block has no such part.")
     if edit.slots != definition.group_slots(edit.group):
         return Text("This part has other slots.")
-    count = block.groups.get(edit.group, 0) + (1 if isinstance(edit, AddGroup) else -1)
+    count = block.groups.get(edit.group, 0) + (
+        1 if isinstance(edit, edits.content.AddGroup) else -1
+    )
     if count > definition.groups[edit.group].maximum:
         return Text("This block cannot have more parts.")
     if count < definition.minimum[edit.group]:
         return Text("This block cannot have fewer parts.")
-    if isinstance(edit, RemoveGroup):
+    if isinstance(edit, edits.content.RemoveGroup):
         return None
     for name, value in edit.fields.items():
         slot = definition.slots[name] if name in edit.slots else None

@@ -16,7 +16,7 @@ import sys
 import zlib
 from array import array
 from base64 import b64decode, b64encode
-from collections.abc import Container, Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from itertools import chain, pairwise
 from typing import Any, Literal, get_args
 from weakref import WeakKeyDictionary
@@ -324,11 +324,8 @@ def gestures_with(
     own = {name: gesture.title for name, gesture in own_gestures(project).items()}
     if not own or "gestures" not in choices:  # an absent table means that any value passes
         return dict(choices)
-    return {**choices, "gestures": {**own, **_others(choices["gestures"], own)}}
-
-
-def _others(shipped: Mapping[str, str], own: Container[str]) -> dict[str, str]:
-    return {name: title for name, title in shipped.items() if name not in own}
+    others = {name: title for name, title in choices["gestures"].items() if name not in own}
+    return {**choices, "gestures": {**own, **others}}
 
 
 def _plain(value: msgspec.Struct | None) -> Any:

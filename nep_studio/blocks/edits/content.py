@@ -222,18 +222,8 @@ def _require_page(project: Project, page: str) -> None:
 # An edit of what a project keeps besides its program, such as the cues of its operator.
 
 FILE_KEYS = frozenset(
-    (
-        "format",
-        "version",
-        "name",
-        "pages",
-        "blocks",
-        "variables",
-        "procedures",
-        "notes",
-        "page_order",
-    )
-)
+    ("format", "version", "name", "pages", "blocks", "variables", "procedures", "notes")
+) | {"page_order"}
 """The keys of the program itself, which nothing else may be kept under."""
 
 LONGEST_KEY = 64

@@ -271,13 +271,8 @@ def _suggestion(attempt: _Try, filler: Filler, recents: Sequence[str]) -> Sugges
             made.inputs[slot] = filling.value
         else:
             made.fields[slot] = filling.value
-    return _as_suggestion(
-        made,
-        filler,
-        attempt.score + _recency(definition.id, recents),
-        attempt.matched,
-        new_variables,
-    )
+    score = attempt.score + _recency(definition.id, recents)
+    return _as_suggestion(made, filler, score, attempt.matched, new_variables)
 
 
 def _as_suggestion(
