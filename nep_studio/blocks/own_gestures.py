@@ -27,7 +27,7 @@ from faults import Text, text_of
 
 from .edits.content import GESTURE, RECOGNISER, RECORDING, SetExtra
 from .file_text import in_words
-from .own_animations import KEPT_NAME, free_kept_name
+from .own_animations import KEPT_NAME, free_kept_name, kept
 from .program import Project
 from .slots import why_not_name, why_not_text
 
@@ -159,22 +159,13 @@ class OwnRecogniser(msgspec.Struct, frozen=True, forbid_unknown_fields=True, omi
 
 def own_gestures(project: Project) -> dict[str, OwnGesture]:
     """The gestures of a project by name, in their order."""
-    found = {
-        key.removeprefix(GESTURE): msgspec.convert(value, OwnGesture)
-        for key, value in project.extra.items()
-        if key.startswith(GESTURE) and why_not_gesture(key.removeprefix(GESTURE), value) is None
-    }
+    found = kept(project, GESTURE, OwnGesture, why_not_gesture)
     return dict(sorted(found.items(), key=lambda item: (item[1].number, item[0])))
 
 
 def own_recordings(project: Project) -> dict[str, OwnRecording]:
     """The recordings of a project by id."""
-    return {
-        key.removeprefix(RECORDING): msgspec.convert(value, OwnRecording)
-        for key, value in project.extra.items()
-        if key.startswith(RECORDING)
-        and _shape_of_recording(key.removeprefix(RECORDING), value) is None
-    }
+    return kept(project, RECORDING, OwnRecording, _shape_of_recording)
 
 
 def own_recogniser(project: Project) -> OwnRecogniser | None:

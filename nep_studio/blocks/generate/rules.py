@@ -199,12 +199,15 @@ class _Frame:
     opens: bool = False
 
 
+Line = tuple[str, str]
+"""A line of Python with the block that made it, or an empty text."""
+
+
 class RuleWriter:
-    """Writes one rule; ``blocks[i]`` is the block that made ``lines[i]``."""
+    """Writes one rule: its lines, each with the block that made it."""
 
     def __init__(self, code: Expressions) -> None:
-        self.lines: list[str] = []
-        self.blocks: list[str] = []
+        self.lines: list[Line] = []
         self._code = code
         self._has_code_blocks = False
 
@@ -224,8 +227,7 @@ class RuleWriter:
                 scope = frames.pop().scope
                 if frame.opens and scope.assigned:  # at the end of a function
                     line = f"{_MARGINS[scope.indent]}global {', '.join(sorted(scope.assigned))}"
-                    self.lines.insert(scope.line, line)
-                    self.blocks.insert(scope.line, scope.block)
+                    self.lines.insert(scope.line, (line, scope.block))
             elif isinstance(item, Block):
                 frames.append(self._block(frame, item))
             elif (inner := self._piece(frame, item)) is not None:
@@ -233,11 +235,11 @@ class RuleWriter:
         if self._has_code_blocks:
             # Code that a person wrote is right by itself, but perhaps not where it is
             try:
-                compile_quietly("\n".join(self.lines))
+                compile_quietly("\n".join(line for line, _ in self.lines))
             except CodeTextRefused as refused:
-                number = min(max(refused.line, 1), len(self.blocks))
+                _, block = self.lines[min(max(refused.line, 1), len(self.lines)) - 1]
                 raise CodeRefused(
-                    refused.sentence, block=self.blocks[number - 1], checklist=("Change the code.",)
+                    refused.sentence, block=block, checklist=("Change the code.",)
                 ) from refused
 
     def _block(self, chain: _Frame, block: Block) -> _Frame:
@@ -267,7 +269,7 @@ class RuleWriter:
             return None
         chain = self._code.project.blocks[frame.block].bodies.get(piece.slot, [])
         if isinstance(piece, Function):
-            if not self.lines[-1].endswith(":"):
+            if not self.lines[-1][0].endswith(":"):
                 self._line("", "")
             self._line(f"{margin}def {piece.name}():", frame.block)
             return self._function(chain, frame.block, frame.indent + 1)
@@ -332,8 +334,7 @@ class RuleWriter:
         return iter(blocks)
 
     def _line(self, line: str, block: str) -> None:
-        self.lines.append(line)
-        self.blocks.append(block)
+        self.lines.append((line, block))
 
     def _comment(self, block: Block, margin: str) -> None:
         """What a person wrote at a block; control characters could end the comment."""

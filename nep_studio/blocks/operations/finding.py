@@ -61,7 +61,7 @@ def _said(project: Project, language: Language, block: Block) -> Iterator[str]:
             yield from (words for words in inner if isinstance(words, str))
     for key, slot in definition.keys(block.groups):
         if key not in block.inputs and slot.kind.name != "body":
-            yield field_text(project, language, block, slot, definition.value(block, key))
+            yield field_text(project, language, block, slot, definition.value(block, key), key)
 
 
 # What blocks are about (a variable, a robot, a gesture): where it is used, where it is defined.

@@ -8,8 +8,8 @@ from itertools import groupby
 from typing import Literal, NamedTuple
 
 from faults import Text
-from nep_studio.blocks.connections import why_not_below, why_not_chained
 from nep_studio.blocks.definitions import Definition
+from nep_studio.blocks.edit_rules import why_not_below, why_not_chained
 from nep_studio.blocks.editor import Editor
 from nep_studio.blocks.edits import Edit
 from nep_studio.blocks.edits.content import AddProcedure
