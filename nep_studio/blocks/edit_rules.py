@@ -10,7 +10,7 @@ from faults import Text, text_of
 from . import edits
 from .definitions import Definition
 from .language import Language
-from .places import InBody, InInput, InStack, NewStack, Place, procedure_uses
+from .places import InBody, InInput, InStack, NewStack, Place, chain_at, procedure_uses
 from .procedures import (
     CALL,
     DEFINE,
@@ -273,12 +273,7 @@ def _why_not_between(
     roots: list[Block], place: Place, project: Project, language: Language
 ) -> Text | None:
     """Why these blocks cannot be between those that will be above and below a place."""
-    if isinstance(place, InStack) and place.stack in project.stacks:
-        chain = project.stacks[place.stack].body
-    elif isinstance(place, InBody) and place.block in project.blocks:
-        chain = project.blocks[place.block].bodies.get(place.slot, [])
-    else:
-        chain = []
+    chain = chain_at(project, place)
     moved, definitions = {block.id for block in roots}, language.definitions
     left = chain if moved.isdisjoint(chain) else [i for i in chain if i not in moved]
     index = place.index if isinstance(place, InStack | InBody) else 0

@@ -233,11 +233,6 @@ class Project:
         self.procedure_revision += 1
         self.changes.whole = True
 
-    def touch_extra(self) -> None:
-        """Say that what is kept beside the program has changed."""
-        self.extra_revision += 1
-        self.changes.whole = True
-
 
 def split_slot(key: str) -> tuple[str, int]:
     """Take ``also_do.2`` apart into its name and number; the number is 0 outside groups."""

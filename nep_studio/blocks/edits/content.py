@@ -260,7 +260,8 @@ class SetExtra(Edit, frozen=True):
             project.extra.pop(self.key, None)
         else:
             project.extra[self.key] = self.value
-        project.touch_extra()
+        project.extra_revision += 1
+        project.changes.whole = True
         project.changes.kept.add(self.key)
         return old
 

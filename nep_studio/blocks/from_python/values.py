@@ -10,7 +10,6 @@ from functools import partial
 from nep_studio.blocks.code_text import CodeTextRefused, read_value
 from nep_studio.blocks.definitions import Definition, Slot
 from nep_studio.blocks.edits.content import AddProcedure
-from nep_studio.blocks.edits.placing import CreateBlocks
 from nep_studio.blocks.edits.project import RenameProject
 from nep_studio.blocks.language import Language
 from nep_studio.blocks.procedures import CALL, PARAMETER, parameters, words
@@ -21,7 +20,7 @@ from ..deployment import names_used, robot_entries
 from ..editor import Editor
 from ..generate.expressions import known_whole
 from ..generate.names import RESERVED, python_name
-from ..places import InStack
+from ..operations.fixes import append_entry
 from ..program import ALL_ROBOTS, ROBOT_BLOCK, Parameter, Procedure
 from .learning import (
     BODY,
@@ -142,17 +141,8 @@ def _note(editor: Editor, names: SourceNames, name: str, made: str, node: ast.As
 
 
 def _add_robot(editor: Editor, name: str) -> None:
-    if any(e.name == name for e in robot_entries(editor.project, editor.language)):
-        return
-    block = editor.language.definitions[ROBOT_BLOCK].new_block(editor.project.new_id("b"))
-    block.fields["name"] = name
-    stacks = editor.project.pages["robots"]
-    place = (
-        InStack(stacks[-1].id, len(stacks[-1].body))
-        if stacks
-        else editor.new_stack("robots", 40, 40)
-    )
-    editor.apply(CreateBlocks((block.id,), (block,), place))
+    if all(e.name != name for e in robot_entries(editor.project, editor.language)):
+        append_entry(editor, "robots", ROBOT_BLOCK, {"name": name})
 
 
 def _note_procedure(editor: Editor, names: SourceNames, node: ast.FunctionDef) -> None:

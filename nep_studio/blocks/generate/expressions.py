@@ -212,9 +212,8 @@ class Expressions:
                 checklist=("Set a variable to a part of this, and use the variable here.",),
                 deepest_value=DEEPEST_VALUE,
             )
-        node: ast.expr
         if definition.call is not None:
-            node = self.call(block, definition.call)
+            node: ast.expr = self.call(block, definition.call)
         else:
             node = self.reporters[definition.generator](self, block)
         self._depth -= cost

@@ -17,7 +17,7 @@ from nep_studio.blocks.edits.placing import CreateBlocks, MoveBlocks
 from nep_studio.blocks.edits.project import MoveStack
 from nep_studio.blocks.errors import EditRefused
 from nep_studio.blocks.language import Language
-from nep_studio.blocks.places import InBody, InInput, InStack, NewStack, Place, place_of
+from nep_studio.blocks.places import InBody, InInput, InStack, NewStack, Place, chain_at, place_of
 from nep_studio.blocks.procedures import procedure_of
 from nep_studio.blocks.program import Block, Project
 
@@ -151,14 +151,6 @@ def load_of_run(project: Project, run: Run) -> Load:
     return Load(chain, lambda place: MoveBlocks(run.first, run.count, place), run)
 
 
-def load_of_clip(clip: Clip) -> Load:
-    """The load that the blocks of a clip of one stack are."""
-    roots = clip.roots[0]
-    blocks = tuple(clip.project.within(roots))
-    chain = [clip.project.blocks[root] for root in roots]
-    return Load(chain, lambda place: CreateBlocks(roots, blocks, place))
-
-
 def why_not_land(editor: Editor, load: Load, place: Place, *, wrap: bool) -> Text | None:
     """Why blocks cannot land in a place, or None when they can."""
     if load.run is not None and is_within_run(editor.project, place, load.run):
@@ -213,15 +205,6 @@ def blocks_below(project: Project, load: Load, place: Place) -> list[str]:
     moved = load.ids
     left = [block for block in chain_at(project, place) if block not in moved]
     return left[place.index :] if isinstance(place, InStack | InBody) else []
-
-
-def chain_at(project: Project, place: Place) -> list[str]:
-    """The chain that a place is in, as it is now; empty when it is none yet."""
-    if isinstance(place, InStack) and place.stack in project.stacks:
-        return project.stacks[place.stack].body
-    if isinstance(place, InBody) and place.block in project.blocks:
-        return project.blocks[place.block].bodies.get(place.slot, [])
-    return []
 
 
 def page_at(project: Project, place: Place) -> str:
@@ -335,7 +318,11 @@ def why_not_create(editor: Editor, clip: Clip, place: Place, *, wrap: bool = Fal
     """Why the new blocks of a clip cannot be put into a place, or None when they can."""
     if len(clip.stacks) != 1:
         return Text("Several stacks can be put onto a page only, not into one place.")
-    return why_not_land(editor, load_of_clip(clip), place, wrap=wrap)
+    roots = clip.roots[0]
+    blocks = tuple(clip.project.within(roots))
+    chain = [clip.project.blocks[root] for root in roots]
+    load = Load(chain, lambda there: CreateBlocks(roots, blocks, there))
+    return why_not_land(editor, load, place, wrap=wrap)
 
 
 def move_by(

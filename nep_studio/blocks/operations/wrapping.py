@@ -15,7 +15,7 @@ from nep_studio.blocks.places import InBody, InInput, InStack, place_of
 from nep_studio.blocks.program import Block
 from nep_studio.blocks.slots import FieldValue
 
-from .moving import Point, first_body, set_aside
+from .moving import Point, first_body, set_aside, without_hat
 from .selection import Run, members, require_runs
 
 
@@ -98,16 +98,13 @@ def _single(editor: Editor, ids: Iterable[str]) -> Run:
 
 
 def _without_hat(editor: Editor, run: Run) -> Run:
-    blocks = editor.project.blocks
-    definition = editor.language.definitions.get(blocks[run.first].type)
-    if definition is None or definition.shape != "hat":
-        return run
-    if run.count == 1:
+    left = without_hat(editor, run)
+    if left is None:
         raise EditRefused(
             "A “when” block begins a stack: no block goes around it.",
             checklist=("Choose the blocks below it.",),
         )
-    return Run(members(editor.project, run)[1], run.count - 1)
+    return left
 
 
 # Disable, collapse and comment several blocks at once.
