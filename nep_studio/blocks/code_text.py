@@ -96,8 +96,7 @@ def read_value(text: str) -> CodeText:
 def compile_quietly(text: str) -> CodeType:
     """Compile without running anything and without warnings, or raise CodeTextRefused."""
     try:
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore")
+        with warnings.catch_warnings(action="ignore"):
             code: CodeType = compile(text, "program.py", "exec", dont_inherit=True)
             return code
     except SyntaxError as error:
@@ -108,8 +107,7 @@ def compile_quietly(text: str) -> CodeType:
 
 def _parse(text: str, mode: str) -> ast.Module | ast.Expression:
     try:
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore")
+        with warnings.catch_warnings(action="ignore"):
             return ast.parse(text, mode=mode)  # type: ignore[return-value]
     except SyntaxError as error:
         line = error.lineno or 1

@@ -117,8 +117,7 @@ def read_source(text: str) -> Source:
         )
     text = text.replace("\r\n", "\n").replace("\r", "\n")
     try:
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore")
+        with warnings.catch_warnings(action="ignore"):
             tree = ast.parse(text)
         comments, alone = _comments(text)
     except SyntaxError as error:

@@ -168,11 +168,6 @@ class Difference:
     sentence: str
     before: str = ""
 
-    def __str__(self) -> str:
-        if self.what == "changed" and self.before != self.sentence:
-            return f"changed: “{self.before}” is now “{self.sentence}”"
-        return f"{self.what}: “{self.sentence}”"
-
 
 def compare(old: Project, new: Project, language: Language) -> tuple[Difference, ...]:
     """The blocks that differ, as ids say which are the same; a block that moved with the one

@@ -158,10 +158,10 @@ def _set(editor: Editor, ids: Iterable[str], flag: Flag, on: bool) -> None:
 # The repeated parts of a block (else-ifs, items): add, remove, put in another order.
 
 
-def add_part(editor: Editor, block_id: str, group: str, index: int | None = None) -> int:
-    """Add a part to a block, as number ``index`` from 1, else the last; gives its number."""
+def add_part(editor: Editor, block_id: str, group: str) -> int:
+    """Add a part to the end of a block; gives its number."""
     block, definition = _require(editor, block_id, group)
-    number = block.groups.get(group, 0) + 1 if index is None else index
+    number = block.groups.get(group, 0) + 1
     slots = definition.group_slots(group)
     fields = {slot: definition.defaults[slot] for slot in slots if slot in definition.defaults}
     editor.apply(AddGroup(block_id, group, number, slots, fields), "add a part")

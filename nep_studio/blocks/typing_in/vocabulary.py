@@ -365,8 +365,7 @@ def _parsed(text: str) -> ast.expr | None:
     if len(text) > LONGEST_EXPRESSION:
         return None
     try:
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore")
+        with warnings.catch_warnings(action="ignore"):
             return ast.parse(text.strip(), mode="eval").body
     except (SyntaxError, ValueError, RecursionError, MemoryError):
         return None

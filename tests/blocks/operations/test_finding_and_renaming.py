@@ -95,7 +95,7 @@ def test_two_versions_are_compared_in_words(language):
     found = {(it.what, it.block) for it in compare(old, editor.project, language)}
 
     assert found == {("changed", a), ("removed", b), ("moved", d), ("added", new)}
-    assert any("new words" in str(it) for it in compare(old, editor.project, language))
+    assert any("new words" in it.sentence for it in compare(old, editor.project, language))
     assert compare(old, old, language) == ()
 
 
