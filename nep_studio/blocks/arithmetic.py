@@ -39,6 +39,18 @@ _OF_MATH: dict[str, Callable[[float], float]] = {
     "cos": math.cos,
     "tan": math.tan,
 }
+
+
+def _power(a: Number, b: Number) -> Number:
+    """A power whose size is looked at before it is calculated."""
+    if a and abs(b) * abs(math.log2(abs(a))) > _LARGEST_BITS:
+        raise ArithmeticRefused("This power is too large or too small.")
+    value = a**b
+    if isinstance(value, complex):
+        raise ArithmeticRefused("A root of a negative number is no number on the number line.")
+    return value
+
+
 _OPERATIONS: dict[type[ast.operator], Callable[[Number, Number], Number]] = {
     ast.Add: operator.add,
     ast.Sub: operator.sub,
@@ -46,6 +58,7 @@ _OPERATIONS: dict[type[ast.operator], Callable[[Number, Number], Number]] = {
     ast.Div: operator.truediv,
     ast.FloorDiv: operator.floordiv,
     ast.Mod: operator.mod,
+    ast.Pow: _power,
 }
 
 
@@ -83,15 +96,12 @@ def calculate(text: str) -> Arithmetic:
     if "\n" in plain or "\r" in plain:
         raise ArithmeticRefused("A number is written on one line.")
     try:
-        tree = ast.parse(plain, mode="eval").body
-    except (SyntaxError, ValueError, RecursionError, MemoryError) as error:
+        value, node = _read(ast.parse(plain, mode="eval").body, 0)
+    except (SyntaxError, RecursionError, MemoryError) as error:
         raise ArithmeticRefused(_not_understood(text)) from error
-    reader = _Reader(text)
-    try:
-        value, node = reader.read(tree, 0)
     except (ArithmeticError, ValueError) as error:
         raise ArithmeticRefused("“{text}” cannot be calculated.", text=text) from error
-    return Arithmetic(value, node, reader.needs_math)
+    return Arithmetic(value, node, any(isinstance(n, ast.Attribute) for n in ast.walk(node)))
 
 
 def number_of(value: object) -> Number:
@@ -108,67 +118,42 @@ def _not_understood(text: str) -> Text:
     return text_of("{shown} is not a number, nor arithmetic such as 2*pi/3.", shown=repr(shown))
 
 
-class _Reader:
-    """Walks a tree of Python once: gives the value of each part, and a clean tree of it."""
-
-    def __init__(self, text: str) -> None:
-        self._text = text
-        self.needs_math = False
-
-    def read(self, node: ast.expr, depth: int) -> tuple[Number, ast.expr]:
-        if depth > DEEPEST_ARITHMETIC:
-            raise ArithmeticRefused("There are too many parentheses in each other.")
-        match node:
-            case ast.Constant(value=int(value) | float(value)) if not isinstance(value, bool):
-                return _small(value), ast.Constant(value)
-            case ast.Name(id=name) if name in _CONSTANTS:
-                return _CONSTANTS[name], self._of_math(name)
-            case ast.UnaryOp(op=ast.UAdd(), operand=operand):
-                return self.read(operand, depth + 1)
-            case ast.UnaryOp(op=ast.USub(), operand=operand):
-                value, inner = self.read(operand, depth + 1)
-                return -value, ast.UnaryOp(ast.USub(), inner)
-            case ast.BinOp(left=left, op=sign, right=right):
-                return self._operation(left, sign, right, depth + 1)
-            case ast.Call(func=ast.Name(id=name), args=arguments, keywords=[]):
-                return self._call(name, arguments, depth + 1)
-        raise ArithmeticRefused(_not_understood(self._text))
-
-    def _operation(
-        self, left: ast.expr, sign: ast.operator, right: ast.expr, depth: int
-    ) -> tuple[Number, ast.expr]:
-        a, first = self.read(left, depth)
-        b, second = self.read(right, depth)
-        if not isinstance(sign, ast.Pow) and type(sign) not in _OPERATIONS:
-            raise ArithmeticRefused(_not_understood(self._text))
-        value = _power(a, b) if isinstance(sign, ast.Pow) else _OPERATIONS[type(sign)](a, b)
-        return _small(value), ast.BinOp(first, sign, second)
-
-    def _call(self, name: str, arguments: list[ast.expr], depth: int) -> tuple[Number, ast.expr]:
-        read = [self.read(argument, depth) for argument in arguments]
-        values, nodes = [value for value, _ in read], [node for _, node in read]
-        if name in ("min", "max") and len(values) >= 2:
-            return (min if name == "min" else max)(values), ast.Call(ast.Name(name), nodes, [])
-        if len(values) == 1 and name in ("abs", "round"):
-            value = abs(values[0]) if name == "abs" else round(values[0])
-            return _small(value), ast.Call(ast.Name(name), nodes, [])
-        if len(values) == 1 and name in _OF_MATH:
-            return _small(_OF_MATH[name](values[0])), ast.Call(self._of_math(name), nodes, [])
-        raise ArithmeticRefused(_not_understood(self._text))
-
-    def _of_math(self, name: str) -> ast.expr:
-        self.needs_math = True
-        return ast.Attribute(ast.Name("math"), name)
+def _read(node: ast.expr, depth: int) -> tuple[Number, ast.expr]:
+    """The value of a part, and a clean tree of it; SyntaxError when it is no arithmetic."""
+    if depth > DEEPEST_ARITHMETIC:
+        raise ArithmeticRefused("There are too many parentheses in each other.")
+    match node:
+        case ast.Constant(value=int(value) | float(value)) if not isinstance(value, bool):
+            return _small(value), ast.Constant(value)
+        case ast.Name(id=name) if name in _CONSTANTS:
+            return _CONSTANTS[name], ast.Attribute(ast.Name("math"), name)
+        case ast.UnaryOp(op=ast.UAdd(), operand=operand):
+            return _read(operand, depth + 1)
+        case ast.UnaryOp(op=ast.USub(), operand=operand):
+            value, inner = _read(operand, depth + 1)
+            return -value, ast.UnaryOp(ast.USub(), inner)
+        case ast.BinOp(left=left, op=sign, right=right):
+            (a, first), (b, second) = _read(left, depth + 1), _read(right, depth + 1)
+            if type(sign) not in _OPERATIONS:
+                raise SyntaxError(f"no sign of arithmetic: {sign}")
+            return _small(_OPERATIONS[type(sign)](a, b)), ast.BinOp(first, sign, second)
+        case ast.Call(func=ast.Name(id=name), args=arguments, keywords=[]):
+            return _call(name, [_read(argument, depth + 1) for argument in arguments])
+    raise SyntaxError("this is no arithmetic")
 
 
-def _power(a: Number, b: Number) -> Number:
-    """A power whose size is looked at before it is calculated."""
-    if a and abs(b) * abs(math.log2(abs(a))) > _LARGEST_BITS:
-        raise ArithmeticRefused("This power is too large or too small.")
-    value = a**b
-    if isinstance(value, complex):
-        raise ArithmeticRefused("A root of a negative number is no number on the number line.")
-    return value
+def _call(name: str, read: list[tuple[Number, ast.expr]]) -> tuple[Number, ast.expr]:
+    values, nodes = [value for value, _ in read], [node for _, node in read]
+    function: ast.expr = ast.Name(name)
+    if name in ("min", "max") and len(values) >= 2:
+        value = min(values) if name == "min" else max(values)
+    elif len(values) == 1 and name in ("abs", "round"):
+        value = abs(values[0]) if name == "abs" else round(values[0])
+    elif len(values) == 1 and name in _OF_MATH:
+        value, function = _OF_MATH[name](values[0]), ast.Attribute(ast.Name("math"), name)
+    else:
+        raise SyntaxError(f"no function of arithmetic: {name}")
+    return _small(value), ast.Call(function, nodes, [])
 
 
 def _small(value: Number) -> Number:

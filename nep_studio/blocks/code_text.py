@@ -59,18 +59,13 @@ def read_lines(text: str, *, in_loop: bool = True) -> CodeText:
         raise CodeTextRefused(_in_line(refused.sentence, line), line) from refused
     if any(getattr(c, "co_flags", 0) & _GENERATOR_FLAGS for c in code.co_consts):
         raise CodeTextRefused("“yield” and “await” cannot be in a block of a program.")
-    # “global” is nowhere but in functions of its own
-    waiting: list[ast.AST] = [tree]
-    while waiting:
-        node = waiting.pop()
+    for node in _outside_functions(tree):
         if isinstance(node, ast.Global | ast.Nonlocal):
             raise CodeTextRefused(
                 _in_line(Text("The program writes “global” by itself."), node.lineno), node.lineno
             )
-        if not isinstance(node, ast.FunctionDef | ast.ClassDef | ast.Lambda):
-            waiting += ast.iter_child_nodes(node)
     read, made = _names(tree)
-    here = _names_here(tree)
+    here = frozenset(name for node in _outside_functions(tree) for name in _made_by(node))
     return CodeText(tuple(lines), inside, read, made, here, is_empty=not tree.body)
 
 
@@ -101,8 +96,7 @@ def read_value(text: str) -> CodeText:
 def compile_quietly(text: str) -> CodeType:
     """Compile without running anything and without warnings, or raise CodeTextRefused."""
     try:
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore")
+        with warnings.catch_warnings(action="ignore"):
             code: CodeType = compile(text, "program.py", "exec", dont_inherit=True)
             return code
     except SyntaxError as error:
@@ -113,8 +107,7 @@ def compile_quietly(text: str) -> CodeType:
 
 def _parse(text: str, mode: str) -> ast.Module | ast.Expression:
     try:
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore")
+        with warnings.catch_warnings(action="ignore"):
             return ast.parse(text, mode=mode)  # type: ignore[return-value]
     except SyntaxError as error:
         line = error.lineno or 1
@@ -145,34 +138,29 @@ def lines_inside_texts(tree: ast.AST) -> Iterator[int]:
 
 
 def _names(tree: ast.AST) -> tuple[frozenset[str], frozenset[str]]:
-    read: set[str] = set()
-    made: set[str] = set()
-    for node in ast.walk(tree):
-        made.update(_made_by(node))
-        if isinstance(node, ast.Name):
-            (read if isinstance(node.ctx, ast.Load) else made).add(node.id)
-        if isinstance(node, ast.AugAssign) and isinstance(node.target, ast.Name):
-            read.add(node.target.id)
-    return frozenset(read), frozenset(made)
+    """The names that Python reads, and those that it makes."""
+    nodes = list(ast.walk(tree))
+    changed = [node.target for node in nodes if isinstance(node, ast.AugAssign)]
+    names = [node for node in nodes if isinstance(node, ast.Name)]
+    read = [name.id for name in names if isinstance(name.ctx, ast.Load) or name in changed]
+    return frozenset(read), frozenset(name for node in nodes for name in _made_by(node))
 
 
-def _names_here(tree: ast.AST) -> frozenset[str]:
-    """The names that are made outside of functions and classes inside."""
-    made: set[str] = set()
+def _outside_functions(tree: ast.AST) -> Iterator[ast.AST]:
+    """The parts of Python that are in no function or class of its own."""
     waiting: list[ast.AST] = [tree]
     while waiting:
         node = waiting.pop()
-        made.update(_made_by(node))
-        if isinstance(node, ast.Name) and not isinstance(node.ctx, ast.Load):
-            made.add(node.id)
+        yield node
         if not isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef | ast.ClassDef | ast.Lambda):
             waiting += ast.iter_child_nodes(node)
-    return frozenset(made)
 
 
 def _made_by(node: ast.AST) -> Iterator[str]:
-    """The names that a statement makes without writing them as ast.Name."""
+    """The names that a part of Python makes itself."""
     match node:
+        case ast.Name(id=name, ctx=ast.Store() | ast.Del()):
+            yield name
         case ast.Import(names=names) | ast.ImportFrom(names=names):
             yield from ((alias.asname or alias.name).partition(".")[0] for alias in names)
         case ast.FunctionDef(name=name) | ast.AsyncFunctionDef(name=name) | ast.ClassDef(name=name):

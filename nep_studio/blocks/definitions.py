@@ -376,9 +376,12 @@ class Definition:
         """The names of the slots in a group."""
         return tuple(slot.name for slot in self.slots.values() if slot.group == group)
 
-    def new_block(self, block_id: str) -> Block:
-        """A block of this type with its default values."""
-        groups = dict(self.minimum)
+    def new_block(self, block_id: str, more: Mapping[str, int] | None = None) -> Block:
+        """A block of this type with its default values; ``more`` says how often groups are there.
+
+        A group that it does not name is there as often as it must be.
+        """
+        groups = {**self.minimum, **(more or {})}
         fields = {
             key: self.defaults[slot.name]
             for key, slot in self.keys(groups)

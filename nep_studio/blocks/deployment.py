@@ -13,7 +13,7 @@ from .slots import GESTURE_STATE, Setting
 
 NODE_BLOCK = "nodes.launch"
 GESTURE_NODE = "perceptual/gesture"
-"""What the human state of a recognised gesture begins with."""
+"""The node that recognises gestures."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -100,10 +100,7 @@ def names_used(project: Project, language: Language, kind: str) -> dict[str, str
 
 
 def is_recognised(
-    gesture: str,
-    nodes: tuple[NodeEntry, ...],
-    shipped: Iterable[str],
-    own: Container[str] = (),
+    gesture: str, nodes: tuple[NodeEntry, ...], shipped: Iterable[str], own: Container[str] = ()
 ) -> bool:
     """Whether a node of the Nodes page recognises a gesture.
 
@@ -112,15 +109,15 @@ def is_recognised(
     """
     for entry in nodes:
         if entry.node == GESTURE_NODE:
-            named, model = named_gestures(entry), entry.parameters.get("model")
+            named, model = named_gestures(entry.parameters), entry.parameters.get("model")
             if gesture in named or (not named and (model or gesture in (own or shipped))):
                 return True
     return False
 
 
-def named_gestures(entry: NodeEntry) -> list[str]:
+def named_gestures(parameters: Mapping[str, Setting]) -> list[str]:
     """The gestures that a node is to recognise; none stands for all of its model."""
-    named = str(entry.parameters.get("gesture") or "").split(",")
+    named = str(parameters.get("gesture") or "").split(",")
     return [name.strip() for name in named if name.strip()]
 
 

@@ -56,10 +56,10 @@ class History:
         self._open: Step | None = None
         self._may_merge = False
         self._last_number = 0
-        self._listeners: list[Listener] = []
+        self._listeners: dict[Listener, bool] = {}
+        """Each with whether it only wants to hear of the whole."""
         self._applied: list[Edit] = []
         self._recorders: list[Recorder] = []
-        self._of_whole: list[Listener] = []
         self.position = 0
         """The number of the step that undo would take back: tells whether a program is saved."""
         self.undo_label: Words = ""
@@ -72,15 +72,11 @@ class History:
 
         One ``is_of_whole`` that only wants to hear of what changes the project as a whole.
         """
-        self._listeners.append(listener)
-        if is_of_whole:
-            self._of_whole.append(listener)
+        self._listeners[listener] = is_of_whole
 
     def unlisten(self, listener: Listener) -> None:
         """Call ``listener`` no more."""
-        if listener in self._of_whole:
-            self._of_whole.remove(listener)
-        self._listeners.remove(listener)
+        del self._listeners[listener]
 
     def record(self, recorder: Recorder) -> None:
         """Call ``recorder`` with the edits of each step, undo and redo, to be played again."""
@@ -185,8 +181,8 @@ class History:
             recorder(applied)
         changes, self._project.changes = self._project.changes, Changes()
         if changes:
-            for listener in list(self._listeners):
-                if changes.whole or listener not in self._of_whole:
+            for listener, is_of_whole in list(self._listeners.items()):
+                if changes.whole or not is_of_whole:
                     listener(changes)
 
     def _take_back(self, step: Step) -> Step:
@@ -199,28 +195,17 @@ class History:
         return opposite
 
     def _is_same_typing(self, step: Step) -> bool:
-        """Whether a step goes on with the typing of the last one."""
-        if not _same_typing(self._undo[-1], step):
-            return False
-        edit = step.edits[0]
-        if not isinstance(edit, ChangeNote):
-            return True
-        return _without_text(edit.note) == _without_text(self._project.notes[edit.note.id])
-
-
-def _same_typing(earlier: Step, later: Step) -> bool:
-    """Whether two steps set the same field or comment; the earlier one then undoes both."""
-    if len(earlier.edits) != 1 or len(later.edits) != 1:
+        """Whether a step sets the field or text that the last one did, which then undoes both."""
+        match self._undo[-1].edits, step.edits:
+            case [SetField() as first], [SetField() as second]:
+                return (first.block, first.slot) == (second.block, second.slot)
+            case [SetComment() as first], [SetComment() as second]:
+                return first.block == second.block
+            case [ChangeNote() as first], [ChangeNote() as second]:
+                # both are what undoes a step: the note as it was before it
+                before, now = _without_text(second.note), self._project.notes[second.note.id]
+                return _without_text(first.note) == before == _without_text(now)
         return False
-    first, second = earlier.edits[0], later.edits[0]
-    if isinstance(first, SetField) and isinstance(second, SetField):
-        return (first.block, first.slot) == (second.block, second.slot)
-    if isinstance(first, SetComment) and isinstance(second, SetComment):
-        return first.block == second.block
-    if isinstance(first, ChangeNote) and isinstance(second, ChangeNote):
-        # both are what undoes a step: the note as it was before it
-        return _without_text(first.note) == _without_text(second.note)
-    return False
 
 
 def _without_text(note: Note) -> Note:

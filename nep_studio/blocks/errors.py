@@ -9,7 +9,7 @@ BlocksError
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from typing import Any
 
 from faults import FaultError, Words
 
@@ -43,15 +43,6 @@ class CodeRefused(BlocksError):
 
     title = "A block cannot become code"
 
-    def __init__(
-        self,
-        sentence: Words,
-        /,
-        *,
-        block: str = "",
-        checklist: Sequence[Words] = (),
-        details: str = "",
-        **values: object,
-    ) -> None:
-        super().__init__(sentence, checklist=checklist, details=details, code="", **values)
+    def __init__(self, sentence: Words, /, *, block: str = "", **values: Any) -> None:
+        super().__init__(sentence, **values)
         self.block = block

@@ -82,18 +82,8 @@ class Language:
         base = self._base or self
         own = base._own.get(project)
         if own is None:
-            own = _Own(
-                Language(
-                    dict(base.definitions),
-                    base.categories,
-                    dict(base.choices),
-                    base.profiles,
-                    base.words,
-                    {},
-                    base,
-                )
-            )
-            base._own[project] = own
+            fresh = replace(base, definitions={}, choices={}, robots={}, _base=base)
+            own = base._own[project] = _Own(fresh)
         if own.procedures != project.procedure_revision:
             own.procedures = project.procedure_revision
             definitions = own.language.definitions
@@ -132,14 +122,9 @@ class Language:
                 definition = self.definitions.get(block.type)
                 if block.type == ROBOT_BLOCK and definition is not None and not block.disabled:
                     driver = str(definition.value(block, "driver"))
-                    kinds[str(definition.value(block, "name"))] = self._kind_driven_by(driver)
+                    driven = (p for p in self.profiles if driver in p.choices.get(DRIVERS, {}))
+                    kinds[str(definition.value(block, "name"))] = next(driven, self.profile)
         return kinds
-
-    def _kind_driven_by(self, driver: str) -> RobotProfile:
-        for profile in self.profiles:
-            if driver in profile.choices.get(DRIVERS, {}):
-                return profile
-        return self.profile
 
     def _tables(self, kinds: tuple[str, ...]) -> Tables:
         """What robots of some kinds are offered together; the same objects for the same kinds."""
@@ -274,7 +259,8 @@ class Fault:
 
 def translated(language: Language, table: Table, code: str = "") -> Language:
     """The language with the words of a table, and those that blocks bring for ``code``."""
-    categories = {c.id: _category(c, table) for c in language.categories}
+    titles = _texts(table, "categories")
+    categories = {c.id: replace(c, title=titles.get(c.id, c.title)) for c in language.categories}
     return Language(
         {
             block_type: _definition(definition, categories, _sentence(definition, table, code))
@@ -378,24 +364,14 @@ def _definition(
     return replace(definition, category=category, parts=parts, groups=known)
 
 
-def _category(category: Category, table: Table) -> Category:
-    return replace(category, title=_texts(table, "categories").get(category.id, category.title))
-
-
 def _profile(profile: RobotProfile, table: Table) -> RobotProfile:
     """A kind of robot may have words of its own: they go before those of all kinds."""
-    own = {
-        name: {**_choices(name, known, table), **_own_labels(profile, name, known, table)}
-        for name, known in profile.choices.items()
-    }
+    own: dict[str, dict[str, str]] = {}
+    for name, known in profile.choices.items():
+        labels = _labels(f"{profile.name}.{name}", table)
+        mine = {value: label for value, label in labels.items() if value in known}
+        own[name] = {**_choices(name, known, table), **mine}
     return replace(profile, choices=own)
-
-
-def _own_labels(
-    profile: RobotProfile, name: str, known: Mapping[str, str], table: Table
-) -> dict[str, str]:
-    labels = _labels(f"{profile.name}.{name}", table)
-    return {value: label for value, label in labels.items() if value in known}
 
 
 def _choices(name: str, known: Mapping[str, str], table: Table) -> dict[str, str]:

@@ -9,9 +9,9 @@ from __future__ import annotations
 import math
 import re
 import unicodedata
-from collections.abc import Container, Iterator, Mapping
+from collections.abc import Callable, Container, Iterator, Mapping
 from itertools import pairwise
-from typing import Literal, get_args
+from typing import Literal, TypeVar, get_args
 
 import msgspec
 
@@ -90,13 +90,28 @@ class OwnAnimation(msgspec.Struct, frozen=True, forbid_unknown_fields=True, omit
         return max((joint.times[-1] for joint in self.joints.values()), default=0.0)
 
 
+Kept = TypeVar("Kept")
+
+
+def kept(
+    project: Project,
+    prefix: str,
+    kind: type[Kept],
+    why_not: Callable[[str, object], Text | None],
+) -> dict[str, Kept]:
+    """What a project keeps under keys with a prefix, by the rest of the key; no faulty ones."""
+    named = {
+        key.removeprefix(prefix): value
+        for key, value in project.extra.items()
+        if key.startswith(prefix)
+    }
+    fit = {name: value for name, value in named.items() if why_not(name, value) is None}
+    return {name: msgspec.convert(value, kind) for name, value in fit.items()}
+
+
 def own_animations(project: Project) -> dict[str, OwnAnimation]:
     """The animations of a project by name."""
-    return {
-        key.removeprefix(PREFIX): msgspec.convert(value, OwnAnimation)
-        for key, value in project.extra.items()
-        if key.startswith(PREFIX) and why_not_animation(key.removeprefix(PREFIX), value) is None
-    }
+    return kept(project, PREFIX, OwnAnimation, why_not_animation)
 
 
 def keep(name: str, animation: OwnAnimation | None) -> SetExtra:

@@ -16,7 +16,7 @@ import sys
 import zlib
 from array import array
 from base64 import b64decode, b64encode
-from collections.abc import Container, Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from itertools import chain, pairwise
 from typing import Any, Literal, get_args
 from weakref import WeakKeyDictionary
@@ -27,7 +27,7 @@ from faults import Text, text_of
 
 from .edits.content import GESTURE, RECOGNISER, RECORDING, SetExtra
 from .file_text import in_words
-from .own_animations import KEPT_NAME, free_kept_name
+from .own_animations import KEPT_NAME, free_kept_name, kept
 from .program import Project
 from .slots import why_not_name, why_not_text
 
@@ -159,22 +159,13 @@ class OwnRecogniser(msgspec.Struct, frozen=True, forbid_unknown_fields=True, omi
 
 def own_gestures(project: Project) -> dict[str, OwnGesture]:
     """The gestures of a project by name, in their order."""
-    found = {
-        key.removeprefix(GESTURE): msgspec.convert(value, OwnGesture)
-        for key, value in project.extra.items()
-        if key.startswith(GESTURE) and why_not_gesture(key.removeprefix(GESTURE), value) is None
-    }
+    found = kept(project, GESTURE, OwnGesture, why_not_gesture)
     return dict(sorted(found.items(), key=lambda item: (item[1].number, item[0])))
 
 
 def own_recordings(project: Project) -> dict[str, OwnRecording]:
     """The recordings of a project by id."""
-    return {
-        key.removeprefix(RECORDING): msgspec.convert(value, OwnRecording)
-        for key, value in project.extra.items()
-        if key.startswith(RECORDING)
-        and _shape_of_recording(key.removeprefix(RECORDING), value) is None
-    }
+    return kept(project, RECORDING, OwnRecording, _shape_of_recording)
 
 
 def own_recogniser(project: Project) -> OwnRecogniser | None:
@@ -324,11 +315,8 @@ def gestures_with(
     own = {name: gesture.title for name, gesture in own_gestures(project).items()}
     if not own or "gestures" not in choices:  # an absent table means that any value passes
         return dict(choices)
-    return {**choices, "gestures": {**own, **_others(choices["gestures"], own)}}
-
-
-def _others(shipped: Mapping[str, str], own: Container[str]) -> dict[str, str]:
-    return {name: title for name, title in shipped.items() if name not in own}
+    others = {name: title for name, title in choices["gestures"].items() if name not in own}
+    return {**choices, "gestures": {**own, **others}}
 
 
 def _plain(value: msgspec.Struct | None) -> Any:

@@ -59,6 +59,15 @@ def place_of(project: Project, first: str, count: int) -> Place:
     return NewStack(page, stack.id, stack.x, stack.y, project.pages[page].index(stack))
 
 
+def chain_at(project: Project, place: Place) -> list[str]:
+    """The chain that a place is in, as it is now; empty when it is none yet."""
+    if isinstance(place, InStack) and place.stack in project.stacks:
+        return project.stacks[place.stack].body
+    if isinstance(place, InBody) and place.block in project.blocks:
+        return project.blocks[place.block].bodies.get(place.slot, [])
+    return []
+
+
 def put(project: Project, roots: list[str], place: Place) -> None:
     """Put blocks that are in no place now into one; edits.py has checked that it is free."""
     if isinstance(place, NewStack):

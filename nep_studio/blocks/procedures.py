@@ -108,32 +108,23 @@ def _why_not_parameter(parameter: Parameter, ids: set[str]) -> Text | None:
 
 def _definitions(procedure: Procedure, words: Mapping[str, str]) -> Iterator[Definition]:
     given = parameters(procedure)
-    slots = {p.id: Slot(p.id, kind_of(p.kind)) for p in given}
-    pills = {p.id: _pill(procedure, p) for p in given}
-    news = {p.id: kind_of(p.kind).new for p in given}
-    defaults = {name: new for name, new in news.items() if new is not None}
-    call_shape: Shape = "reporter" if procedure.gives_value else "statement"
-    call = _sentence(procedure, slots)
+    kinds = {p.id: kind_of(p.kind) for p in given}
+    slots = {name: Slot(name, kind) for name, kind in kinds.items()}
+    defaults = {name: kind.new for name, kind in kinds.items() if kind.new is not None}
+    pills: dict[str, Slot] = {}
+    for p in given:
+        block_type = f"{PARAMETER}{procedure.id}.{p.id}"
+        pills[p.id] = Slot(p.id, kind_of("parameter"), block_type, label=p.name)
     header = (words.get("define", "define"), *_sentence(procedure, pills))
     yield _definition(DEFINE, procedure.id, "hat", header, pills)
-    yield _definition(
-        CALL,
-        procedure.id,
-        call_shape,
-        call,
-        slots,
-        defaults,
-        "any" if procedure.gives_value else "",
-    )
+    shape: Shape = "reporter" if procedure.gives_value else "statement"
+    result = "any" if procedure.gives_value else ""
+    call = _sentence(procedure, slots)
+    yield _definition(CALL, procedure.id, shape, call, slots, defaults, result)
     for p in given:
-        shape: Shape = "boolean" if p.kind == "boolean" else "reporter"
+        shape = "boolean" if p.kind == "boolean" else "reporter"
         own_id = f"{procedure.id}.{p.id}"
         yield _definition(PARAMETER, own_id, shape, (p.name,), {}, {}, p.kind)
-
-
-def _pill(procedure: Procedure, parameter: Parameter) -> Slot:
-    block_type = f"{PARAMETER}{procedure.id}.{parameter.id}"
-    return Slot(parameter.id, kind_of("parameter"), block_type, label=parameter.name)
 
 
 def _sentence(procedure: Procedure, slots: dict[str, Slot]) -> tuple[Part, ...]:

@@ -56,19 +56,12 @@ class Block(msgspec.Struct, omit_defaults=True):
 
     def copy(self) -> Block:
         """A block of the same content that can be changed apart from this one."""
-        return Block(
-            self.id,
-            self.type,
-            {slot: _own(value) for slot, value in self.fields.items()},
-            dict(self.inputs),
-            {slot: list(chain) for slot, chain in self.bodies.items() if chain},
-            dict(self.groups),
-            self.disabled,
-            self.collapsed,
-            self.comment,
-            self.comment_width,
-            self.comment_height,
-            self.extra,
+        return msgspec.structs.replace(
+            self,
+            fields={slot: _own(value) for slot, value in self.fields.items()},
+            inputs=dict(self.inputs),
+            bodies={slot: list(chain) for slot, chain in self.bodies.items() if chain},
+            groups=dict(self.groups),
         )
 
 
@@ -235,22 +228,9 @@ class Project:
         self.changes.stacks.add(stack_id)
         self.changes.owners.add(owner or stack_id)
 
-    def touch_note(self, note_id: str) -> None:
-        """Say that a note has come, gone or changed."""
-        self.changes.notes.add(note_id)
-
     def touch_procedures(self) -> None:
         """Say that the own blocks have changed."""
         self.procedure_revision += 1
-        self.changes.whole = True
-
-    def touch_extra(self) -> None:
-        """Say that what is kept beside the program has changed."""
-        self.extra_revision += 1
-        self.changes.whole = True
-
-    def touch_whole(self) -> None:
-        """Say that the name, the variables or the pages have changed."""
         self.changes.whole = True
 
 

@@ -14,6 +14,7 @@ import re
 import unicodedata
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
+from functools import partial
 from typing import Literal
 
 from faults import Text, text_of
@@ -208,17 +209,17 @@ def _why_not_setting(name: object, setting: object) -> Text | None:
 
 def _described(value: object) -> Text:
     """Name a value of any kind in a few words, whatever it holds."""
-    if value is None:
-        return Text("nothing")
-    if isinstance(value, bool):
-        return Text("yes or no")
-    if isinstance(value, int | float):
-        is_large = abs(value) > LARGEST_NUMBER
-        return (
-            Text("a very large number") if is_large else text_of("the number {value}", value=value)
-        )
-    if isinstance(value, str):
-        return text_of("the text {value}", value=f"{value[:40]!a}")
+    match value:
+        case None:
+            return Text("nothing")
+        case bool():
+            return Text("yes or no")
+        case int() | float() if abs(value) > LARGEST_NUMBER:
+            return Text("a very large number")
+        case int() | float():
+            return text_of("the number {value}", value=value)
+        case str():
+            return text_of("the text {value}", value=f"{value[:40]!a}")
     return Text("a list or a group of values")
 
 
@@ -339,51 +340,30 @@ _COLOUR_WORDS: dict[str, FieldValue] = {
 _SWITCH_WORDS: dict[str, FieldValue] = {"on": True, "off": False, "yes": True, "no": False}
 
 
-def _number(
-    name: str,
-    noun: str,
-    *,
-    hint: str = "",
-    unit: str = "",
-    mark: Mark = "",
-    why_not: WhyNot = why_not_quantity,
-    lowest: float = -math.inf,
-) -> Kind:
-    """A kind of field that holds a number, or arithmetic that comes to one."""
-    return Kind(
-        name,
-        noun,
-        "round",
-        frozenset({"number", "any"}),
-        why_not,
-        typed_number,
-        number_text,
-        constants=(int, float),
-        new=0,
-        is_number=True,
-        lowest=lowest,
-        hint=hint,
-        unit=unit,
-        mark=mark,
-    )
+_number = partial(
+    Kind,
+    shape="round",
+    fits=frozenset({"number", "any"}),
+    why_not=why_not_quantity,
+    read=typed_number,
+    write=number_text,
+    constants=(int, float),
+    new=0,
+    is_number=True,
+)
+"""A kind of field that holds a number, or arithmetic that comes to one."""
 
-
-def _words(
-    name: str, noun: str, *, fits: frozenset[str] = frozenset(), has_lines: bool = False
-) -> Kind:
-    """A kind of field that holds a text; where blocks fit, what is no text is written out."""
-    return Kind(
-        name,
-        noun,
-        "square",
-        fits,
-        why_not_text if fits else why_not_line,
-        new="",
-        takes_any_words=True,
-        becomes_text=bool(fits),
-        hint="text",
-        has_lines=has_lines,
-    )
+_words = partial(
+    Kind,
+    shape="square",
+    fits=_ALL,
+    why_not=why_not_text,
+    new="",
+    takes_any_words=True,
+    becomes_text=True,
+    hint="text",
+)
+"""A kind of field that holds a text; what is plugged in and is no text is written out."""
 
 
 def _name(
@@ -424,9 +404,9 @@ KINDS: dict[str, Kind] = {
             why_not=_why_not_duration,
             lowest=0.0,
         ),
-        _words("text", "a text", fits=_ALL),
-        _words("lines", "a text of several lines", fits=_ALL, has_lines=True),
-        _words("line", "one line of text"),
+        _words("text", "a text"),
+        _words("lines", "a text of several lines", has_lines=True),
+        Kind("line", "one line of text", "square", new="", takes_any_words=True, hint="text"),
         Kind(
             "boolean",
             "a yes-or-no question",
@@ -505,19 +485,3 @@ def kind_of(name: str) -> Kind:
     if kind is None:
         raise BlocksError("There is no kind of field called “{name}”.", name=name)
     return kind
-
-
-def why_not_fit(kind: Kind, result: str, block_name: str) -> Text | None:
-    """Why a block whose result is ``result`` cannot be plugged into a slot, or None when it can."""
-    if result in kind.fits:
-        return None
-    if not kind.pluggable:
-        return text_of(
-            "This place takes {noun} that is chosen or typed, not a block.", noun=Text(kind.noun)
-        )
-    return text_of(
-        "This place needs {noun}, and “{block_name}” gives {result}.",
-        noun=Text(kind.noun),
-        block_name=block_name,
-        result=Text(RESULTS[result]),
-    )

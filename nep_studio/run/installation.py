@@ -129,7 +129,7 @@ def _node(
             yield from _file(entry, name, value, folder)
     if manifest.id != GESTURE_NODE or entry.parameters.get("model"):
         return
-    for gesture in named_gestures(entry):
+    for gesture in named_gestures(entry.parameters):
         if gesture not in gestures:
             yield _wrong(
                 entry,

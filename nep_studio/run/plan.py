@@ -142,7 +142,7 @@ def _listed(entry: NodeEntry, folder: Path, project: Project) -> PlannedNode:
     node = PlannedNode(entry.node, entry.name, settings, "", entry.block_id)
     if node.node != GESTURE or settings.get("model"):
         return node
-    own, named = trained_gestures(project), named_gestures(entry)
+    own, named = trained_gestures(project), named_gestures(entry.parameters)
     is_own = all(gesture in own for gesture in named) if named else bool(own)
     return _of_project(node, project) if is_own else node
 

@@ -10,6 +10,7 @@ from block_building import B, build
 from sound_programs import kinds, only, sound
 
 from nep_studio.blocks.checks import check
+from nep_studio.blocks.edits.project import AddPage
 from nep_studio.blocks.generate.program import generate_program
 from nep_studio.blocks.language import Language
 
@@ -107,15 +108,32 @@ def test_repeating_until_a_state_is_a_loop(language: Language) -> None:
     ]
 
 
-def test_what_needs_a_real_robot_is_told_before_it_runs(language: Language) -> None:
+def with_needy_picture(language: Language) -> Language:
     picture = language.definitions["robot_camera.take_picture"]
     needy = replace(picture, flags=frozenset({*picture.flags, "needs_real_robot"}))
     definitions = {**language.definitions, needy.id: needy}
-    language = replace(language, definitions=definitions, _own=WeakKeyDictionary())
-    problem = only(sound(language, [B("event.started"), B(needy.id)]), language)
+    return replace(language, definitions=definitions, _own=WeakKeyDictionary())
+
+
+def test_what_needs_a_real_robot_is_told_before_it_runs(language: Language) -> None:
+    language = with_needy_picture(language)
+    picture = [B("event.started"), B("robot_camera.take_picture")]
+    problem = only(sound(language, picture), language)
 
     assert (problem.kind, problem.severity) == ("needs_real_robot", "warning")
     assert "takes the picture" in str(problem.sentence) and problem.checklist
+
+
+def test_what_needs_a_real_robot_is_told_on_its_own_page(language: Language) -> None:
+    language = with_needy_picture(language)
+    editor = sound(language)
+    editor.apply(AddPage("more", "More", 1))
+    picture = [B("event.started"), B("robot_camera.take_picture")]
+    build(language, picture, page="more", editor=editor)
+
+    problem = only(editor, language)
+
+    assert (problem.kind, problem.page) == ("needs_real_robot", "more")
 
 
 def test_every_robot_may_take_pictures(language: Language) -> None:

@@ -51,7 +51,7 @@ class Said:
         return f"{self.place}:{self.line} {self.made_by}: {self.words}"
 
 
-MADE_BY = ("Message", "Problem", "Diagnostic", "refuse", "confirm", "Explanation")
+MADE_BY = ("Message", "Problem", "Diagnostic", "Sort", "refuse", "confirm", "Explanation")
 """What makes messages besides errors."""
 
 
@@ -123,6 +123,8 @@ def _arguments(
             return str(first.value), words, _argument(call, 5, "checklist")
         words = [first, _argument(call, 1, "sentence")]
         return "error", words, _argument(call, 2, "checklist")
+    if name == "Sort":  # of diagnostics, which are the same at each block
+        return _words(call.args[0]), [call.args[1]], call.args[2]
     if name == "refuse":
         return "warning", [_argument(call, 0, "reason")], _argument(call, 1, "checklist")
     if name == "confirm" and "essages" in ast.unparse(call.func):

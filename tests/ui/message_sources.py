@@ -261,6 +261,8 @@ def given_to_tell(node: ast.AST) -> Iterator[ast.expr]:
             yield from node.args[:2]
         elif name == "Diagnostic":
             yield from node.args[4:5]
+        elif name == "Sort":
+            yield from node.args[1:2]
         elif name in errors():
             yield from node.args[:1]
         elif name in TEMPLATES and not _is_log(node.func):

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable
 from typing import NamedTuple
 
 from faults import Text, text_of
@@ -15,7 +15,7 @@ from nep_studio.blocks.program import Block, Project
 from nep_studio.blocks.slots import FieldValue
 from nep_studio.blocks.text import sentence
 
-from .diagnostic import Diagnostic, Found, Severity
+from .diagnostic import Diagnostic, Found, Severity, found
 
 
 def check_blocks(project: Project, language: Language, chain: list[str]) -> Found:
@@ -23,79 +23,33 @@ def check_blocks(project: Project, language: Language, chain: list[str]) -> Foun
     page, definitions = project.page_of(chain[0]), language.definitions
     first, kind = definitions.get(project.blocks[chain[0]].type), project.kind_of_page(page)
     if first is not None and first.shape != "hat" and first.page == kind == "behaviour":
-        yield _loose(project, language, page, chain[0])
+        yield found("loose_block", project, language, chain[0])
     for block in project.within(chain, enabled=True):
         yield None
         definition = definitions.get(block.type)
         if definition is None:
-            yield _unknown(page, block)
+            unknown = "unknown_own_block" if procedure_of(block.type) else "unknown_block"
+            yield found(unknown, project, language, block.id, type=block.type)
             continue
         if definition.page != kind:
-            yield _on_wrong_page(page, block, definition)
+            right = Text(definition.page.title())
+            yield found("wrong_page", project, language, block.id, page=right)
         for key, slot in definition.keys(block.groups):
             plugged = project.blocks.get(block.inputs.get(key, ""))
             if slot.kind.name == "body" or (plugged is not None and not plugged.disabled):
                 continue
             wrong = _why_not_filled(project, language, block, definition, key, slot)
             if wrong is not None:
-                yield _not_filled(project, language, page, block, wrong)
+                yield _wrong_here(project, language, block, ("error", *wrong))
 
 
-def _loose(project: Project, language: Language, page: str, first: str) -> Diagnostic:
-    return Diagnostic(
-        "info",
-        "loose_block",
-        page,
-        first,
-        text_of(
-            "“{block}” is under no “when” block and will not run.",
-            block=sentence(project, language, first),
-        ),
-        ("Drag it under a “when” block, or leave it here for later.",),
-    )
-
-
-def _on_wrong_page(page: str, block: Block, definition: Definition) -> Diagnostic:
-    right = Text(definition.page.title())
-    return Diagnostic(
-        "error",
-        "wrong_page",
-        page,
-        block.id,
-        text_of("This block belongs on the page {page}.", page=right),
-        (text_of("Move it to the page {page}.", page=right),),
-    )
-
-
-def _not_filled(
-    project: Project, language: Language, page: str, block: Block, wrong: _Wrong
+def _wrong_here(
+    project: Project, language: Language, block: Block, wrong: _Misplaced
 ) -> Diagnostic:
-    kind, reason, remedy = wrong
-    told = sentence(project, language, block.id)
-    words = text_of("“{told}”: {reason}", told=told, reason=reason)
-    return Diagnostic("error", kind, page, block.id, words, (remedy,))
-
-
-def _unknown(page: str, block: Block) -> Diagnostic:
-    if procedure_of(block.type):
-        return Diagnostic(
-            "error",
-            "unknown_own_block",
-            page,
-            block.id,
-            "This block belongs to an own block that is not like this any more.",
-            ("Take it out, or put another block in its place.",),
-        )
-    return Diagnostic(
-        "error",
-        "unknown_block",
-        page,
-        block.id,
-        text_of(
-            "This version does not know the block “{type}”. It is kept as it is.", type=block.type
-        ),
-        ("Update NEP Studio.", "Is a block pack missing?", "Or take the block out."),
-    )
+    severity, kind, reason, remedy = wrong
+    said = sentence(project, language, block.id)
+    words = text_of("“{block}”: {reason}", block=said, reason=reason)
+    return Diagnostic(severity, kind, project.page_of(block.id), block.id, words, (remedy,))
 
 
 _Wrong = tuple[str, Text, str]
@@ -105,23 +59,15 @@ _Misplaced = tuple[Severity, str, Text, str]
 
 
 def _why_not_filled(
-    project: Project,
-    language: Language,
-    block: Block,
-    definition: Definition,
-    key: str,
-    slot: Slot,
+    project: Project, language: Language, block: Block, definition: Definition, key: str, slot: Slot
 ) -> _Wrong | None:
     """The kind, the sentence and the checklist of what is wrong with a slot, or None."""
     value, kind = definition.value(block, key), slot.kind
     if kind.missing is not None and not (kind.typed and str(value).strip()):
         return ("empty_slot", kind.missing, kind.advice)
     if kind.name == "variable" and project.variable(str(value)) is None:
-        return (
-            "no_variable",
-            Text("no variable is chosen."),
-            "Choose a variable, or make a new one.",
-        )
+        remedy = "Choose a variable, or make a new one."
+        return ("no_variable", Text("no variable is chosen."), remedy)
     reason = language.why_not_choice(slot, value, block, key)
     if reason is not None:
         return ("unknown_choice", reason, "Choose another one.")
@@ -133,22 +79,16 @@ def _why_not_filled(
 def _why_not_number(definition: Definition, slot: Slot, value: FieldValue | None) -> _Wrong | None:
     """What is wrong with a number as it is typed, for what it is meant."""
     if slot.kind.name == "duration" and number_of(value) < 0:
-        return (
-            "negative",
-            Text("a time cannot be less than 0 seconds."),
-            "Write a time of 0 or more.",
-        )
+        reason = Text("a time cannot be less than 0 seconds.")
+        return ("negative", reason, "Write a time of 0 or more.")
     if "loop" not in definition.flags or slot.kind.name != "number":
         return None
     number = number_of(value)
     if slot.name == "times" and number < 0:
         return ("negative", Text("this cannot be done less than 0 times."), "Write 0 or more.")
     if slot.name == "step" and int(number) == 0:
-        return (
-            "no_step",
-            Text("counting in steps of 0 never ends."),
-            "Write a whole number but 0.",
-        )
+        reason = Text("counting in steps of 0 never ends.")
+        return ("no_step", reason, "Write a whole number but 0.")
     return None
 
 
@@ -178,11 +118,7 @@ def check_inside(project: Project, language: Language, chain: list[str]) -> Foun
         if block.disabled or definition is None:
             continue
         if (wrong := _why_not_there(block, definition, place)) is not None:
-            severity, kind, reason, remedy = wrong
-            said = sentence(project, language, block.id)
-            words = text_of("“{block}”: {reason}", block=said, reason=reason)
-            page = project.page_of(block.id)
-            yield Diagnostic(severity, kind, page, block.id, words, (remedy,))
+            yield _wrong_here(project, language, block, wrong)
         if block.inputs or block.bodies:
             inner = _inner(definition, place)
             waiting += [(child, inner) for child in block.children()]
@@ -228,91 +164,31 @@ def check_own_blocks(project: Project, language: Language, running: Iterable[lis
     """Problems of own blocks; ``running`` are the chains that become code."""
     headers: dict[str, str] = {}
     calls: dict[str, dict[str, str]] = {}
+
+    def found_here(kind: str, procedure: str, block: str) -> Diagnostic:
+        own_block = title(project.procedures[procedure])
+        return found(kind, project, language, block, own_block=own_block)
+
     for chain in running:
         header = project.blocks[chain[0]]
         owner = procedure_of(header.type) if header.type.startswith(DEFINE) else ""
-        blocks = list(project.within(chain, enabled=True))
-        called = calls.setdefault(owner, {})
-        for block in blocks:
+        gives_back, called = False, calls.setdefault(owner, {})
+        for block in project.within(chain, enabled=True):
             yield None
+            gives_back |= block.type == RETURN
             if block.type.startswith(CALL):
                 called.setdefault(procedure_of(block.type), block.id)
-        if not owner:
-            continue
-        if headers.setdefault(owner, header.id) != header.id:
-            yield (
-                Diagnostic(
-                    "error",
-                    "defined_twice",
-                    project.page_of(header.id),
-                    header.id,
-                    text_of(
-                        "The block “{own_block}” is defined twice.",
-                        own_block=_name(project, procedure_of(header.type)),
-                    ),
-                    ("Take one of the two definitions out.",),
-                )
-            )
-        if project.procedures[owner].gives_value and not _gives_back(blocks):
-            yield _gives_nothing(project, header)
-    yield from _undefined(project, headers, calls)
-    yield from _circles(project, headers, calls)
-
-
-def _gives_back(blocks: list[Block]) -> bool:
-    return any(block.type == RETURN for block in blocks)
-
-
-def _gives_nothing(project: Project, header: Block) -> Diagnostic:
-    return Diagnostic(
-        "warning",
-        "gives_nothing",
-        project.page_of(header.id),
-        header.id,
-        text_of(
-            "“{own_block}” gives a value, but there is no “give back” block in it.",
-            own_block=_name(project, procedure_of(header.type)),
-        ),
-        ("Put “give back” at its end.", "Or let the block give no value."),
-    )
-
-
-def _undefined(
-    project: Project, headers: dict[str, str], calls: dict[str, dict[str, str]]
-) -> Iterator[Diagnostic]:
+        if owner and headers.setdefault(owner, header.id) != header.id:
+            yield found_here("defined_twice", owner, header.id)
+        if owner and project.procedures[owner].gives_value and not gives_back:
+            yield found_here("gives_nothing", owner, header.id)
     missing = {p: block for called in calls.values() for p, block in called.items()}
-    for procedure, block in missing.items():
+    for procedure, block_id in missing.items():
         if procedure in project.procedures and procedure not in headers:
-            yield Diagnostic(
-                "error",
-                "no_definition",
-                project.page_of(block),
-                block,
-                text_of(
-                    "Nothing says what “{own_block}” does: its “define” block is on no page, or it "
-                    "is switched off.",
-                    own_block=_name(project, procedure),
-                ),
-                ("Put its “define” block onto a page again.", "Or take this block out."),
-            )
-
-
-def _circles(
-    project: Project, headers: dict[str, str], calls: dict[str, dict[str, str]]
-) -> Iterator[Diagnostic]:
-    for procedure, header in headers.items():
+            yield found_here("no_definition", procedure, block_id)
+    for procedure, header_id in headers.items():
         if _reaches(procedure, calls):
-            yield Diagnostic(
-                "info",
-                "calls_itself",
-                project.page_of(header),
-                header,
-                text_of(
-                    "“{own_block}” calls itself, at once or through another block.",
-                    own_block=_name(project, procedure),
-                ),
-                ("Make sure that it comes to an end: some way through it must not call it.",),
-            )
+            yield found_here("calls_itself", procedure, header_id)
 
 
 def _reaches(procedure: str, calls: dict[str, dict[str, str]]) -> bool:
@@ -326,7 +202,3 @@ def _reaches(procedure: str, calls: dict[str, dict[str, str]]) -> bool:
             seen.add(called)
             waiting += calls.get(called, ())
     return False
-
-
-def _name(project: Project, procedure: str) -> str:
-    return title(project.procedures[procedure])

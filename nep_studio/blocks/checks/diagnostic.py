@@ -4,9 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
-from typing import Literal, get_args
+from typing import Any, Literal, get_args
 
-from faults import Words
+from faults import Words, fault_of
+
+from ..language import Language
+from ..program import Project
+from ..text import sentence
 
 Severity = Literal["error", "warning", "info"]
 SEVERITIES: tuple[Severity, ...] = get_args(Severity)
@@ -41,3 +45,128 @@ class Diagnostic:
 
 Found = Iterator[Diagnostic | None]
 """What a check finds, one after the other; None wherever it may rest."""
+
+
+@dataclass(frozen=True, slots=True)
+class Sort:
+    """What all diagnostics of a sort have in common; ``{block}`` is what their block says."""
+
+    severity: Severity
+    sentence: str
+    checklist: tuple[str, ...]
+
+
+SORTS = {
+    "unknown_block": Sort(
+        "error",
+        "This version does not know the block “{type}”. It is kept as it is.",
+        ("Update NEP Studio.", "Is a block pack missing?", "Or take the block out."),
+    ),
+    "unknown_own_block": Sort(
+        "error",
+        "This block belongs to an own block that is not like this any more.",
+        ("Take it out, or put another block in its place.",),
+    ),
+    "wrong_page": Sort(
+        "error", "This block belongs on the page {page}.", ("Move it to the page {page}.",)
+    ),
+    "loose_block": Sort(
+        "info",
+        "“{block}” is under no “when” block and will not run.",
+        ("Drag it under a “when” block, or leave it here for later.",),
+    ),
+    "same_trigger": Sort(
+        "warning",
+        "Two rules begin with “{block}”. Both will run.",
+        ("Put the blocks of both rules under one.", "Or let one wait for something else."),
+    ),
+    # own blocks
+    "defined_twice": Sort(
+        "error",
+        "The block “{own_block}” is defined twice.",
+        ("Take one of the two definitions out.",),
+    ),
+    "gives_nothing": Sort(
+        "warning",
+        "“{own_block}” gives a value, but there is no “give back” block in it.",
+        ("Put “give back” at its end.", "Or let the block give no value."),
+    ),
+    "no_definition": Sort(
+        "error",
+        "Nothing says what “{own_block}” does: its “define” block is on no page, or it "
+        "is switched off.",
+        ("Put its “define” block onto a page again.", "Or take this block out."),
+    ),
+    "calls_itself": Sort(
+        "info",
+        "“{own_block}” calls itself, at once or through another block.",
+        ("Make sure that it comes to an end: some way through it must not call it.",),
+    ),
+    # how it runs
+    "no_pause": Sort(
+        "warning",
+        "“{block}” never pauses: the computer would do nothing else.",
+        ("Put a “wait” block inside.", "Or let the robot do something inside."),
+    ),
+    "never_reached": Sort(
+        "warning",
+        "“{block}” is never reached: it comes after “{block_2}”.",
+        ("Move it above, or take it out.",),
+    ),
+    "not_standing": Sort(
+        "warning",
+        "{name} cannot walk after the posture “{label}”.",
+        ("Let the robot stand first.",),
+    ),
+    "too_deep": Sort(
+        "error",
+        "Blocks are nested too deep here: {deepest_loop} loops, {deepest_indent} blocks or "
+        "{deepest_value} values at most.",
+        ("Take the inner blocks out into a rule of their own, or into a variable.",),
+    ),
+    # robots and nodes
+    "same_name": Sort(
+        "error", "Two robots or nodes are called “{name}”.", ("Give each a name of its own.",)
+    ),
+    "robot_lacks": Sort(
+        "error",
+        "“{block}”: “{choice}” is not there for {robots}.",
+        ("Choose another one.", "Or choose another robot in this block."),
+    ),
+    "needs_real_robot": Sort(
+        "warning",
+        "“{block}” needs a real robot: the program would stop here with the robot on this screen.",
+        (
+            "Give the robot the address of a real one, on the page Robots.",
+            "Or switch this block off for now.",
+        ),
+    ),
+    "gesture_unrecognised": Sort(
+        "warning",
+        "No node of the Nodes page recognises the gesture “{gesture}”.",
+        ("Launch a gesture node for it on the Nodes page.",),
+    ),
+    "gesture_untrained": Sort(
+        "warning",
+        "The gesture “{title}” is not learned yet.",
+        ("Record it five times in the panel Gestures.", "Press Train there."),
+    ),
+}
+"""By ``kind``, what is always told in the same words."""
+
+
+def found(
+    kind: str,
+    project: Project,
+    language: Language,
+    block: str,
+    fix: Fix | None = None,
+    **values: Any,
+) -> Diagnostic:
+    """The diagnostic of a sort at a block; ``values`` fill the places of its sentence."""
+    sort = SORTS[kind]
+    if "{block}" in sort.sentence:
+        values["block"] = sentence(project, language, block)
+    told = fault_of(sort.sentence, checklist=sort.checklist, **values)
+    page = project.page_of(block)
+    return Diagnostic(sort.severity, kind, page, block, told.sentence, told.checklist, fix)

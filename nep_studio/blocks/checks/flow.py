@@ -5,7 +5,6 @@ from __future__ import annotations
 from itertools import pairwise
 from typing import NamedTuple
 
-from faults import text_of
 from nep_studio.blocks.definitions import Definition
 from nep_studio.blocks.generate.expressions import DEEPEST_VALUE, value_cost
 from nep_studio.blocks.generate.rules import DEEPEST_INDENT, DEEPEST_LOOP
@@ -13,7 +12,7 @@ from nep_studio.blocks.language import Language
 from nep_studio.blocks.program import ALL_ROBOTS, Block, Project
 from nep_studio.blocks.text import sentence
 
-from .diagnostic import Diagnostic, Fix, Found
+from .diagnostic import Fix, Found, found
 
 _POSTURES = {"stands_up": "posture_stand", "rests": "posture_rest"}
 """The postures after blocks with such a flag."""
@@ -41,18 +40,8 @@ def _loops_without_pause(project: Project, language: Language, blocks: list[Bloc
         if not goes_on or not pauses.isdisjoint(block.children()):
             pauses.add(block.id)
         elif definition is not None and "needs_pause" in definition.flags:
-            yield Diagnostic(
-                "warning",
-                "no_pause",
-                project.page_of(block.id),
-                block.id,
-                text_of(
-                    "“{block}” never pauses: the computer would do nothing else.",
-                    block=sentence(project, language, block.id),
-                ),
-                ("Put a “wait” block inside.", "Or let the robot do something inside."),
-                Fix("add_wait", "Add a pause", {"block": block.id, "slot": "do"}),
-            )
+            fix = Fix("add_wait", "Add a pause", {"block": block.id, "slot": "do"})
+            yield found("no_pause", project, language, block.id, fix)
 
 
 def _never_reached(
@@ -64,18 +53,8 @@ def _never_reached(
         for upper, lower in pairwise(enabled):
             definition = language.definitions.get(upper.type)
             if definition is not None and definition.is_last:
-                yield Diagnostic(
-                    "warning",
-                    "never_reached",
-                    project.page_of(lower.id),
-                    lower.id,
-                    text_of(
-                        "“{block}” is never reached: it comes after “{block_2}”.",
-                        block=sentence(project, language, lower.id),
-                        block_2=sentence(project, language, upper.id),
-                    ),
-                    ("Move it above, or take it out.",),
-                )
+                before = sentence(project, language, upper.id)
+                yield found("never_reached", project, language, lower.id, block_2=before)
 
 
 def _walking_unready(project: Project, language: Language, blocks: list[Block]) -> Found:
@@ -99,15 +78,8 @@ def _walking_unready(project: Project, language: Language, blocks: list[Block]) 
         if posture is not None and posture not in language.standing:
             label = language.choices.get("postures", {}).get(posture, posture)
             name = "A robot" if robot == ALL_ROBOTS else robot
-            yield Diagnostic(
-                "warning",
-                "not_standing",
-                project.page_of(block.id),
-                block.id,
-                text_of("{name} cannot walk after the posture “{label}”.", name=name, label=label),
-                ("Let the robot stand first.",),
-                Fix("stand_first", "Stand first", {"block": block.id, "robot": robot}),
-            )
+            fix = Fix("stand_first", "Stand first", {"block": block.id, "robot": robot})
+            yield found("not_standing", project, language, block.id, fix, name=name, label=label)
 
 
 # Checks of what Python itself cannot take: loops in loops in loops, values in values.
@@ -135,19 +107,14 @@ def check_limits(project: Project, language: Language, chain: list[str]) -> Foun
         if inside is not None:
             waiting += [(child, inside) for child in block.children()]
             continue
-        yield Diagnostic(
-            "error",
+        yield found(
             "too_deep",
-            project.page_of(block_id),
+            project,
+            language,
             block_id,
-            text_of(
-                "Blocks are nested too deep here: {deepest_loop} loops, {deepest_indent} "
-                "blocks or {deepest_value} values at most.",
-                deepest_loop=DEEPEST_LOOP,
-                deepest_indent=DEEPEST_INDENT,
-                deepest_value=DEEPEST_VALUE,
-            ),
-            ("Take the inner blocks out into a rule of their own, or into a variable.",),
+            deepest_loop=DEEPEST_LOOP,
+            deepest_indent=DEEPEST_INDENT,
+            deepest_value=DEEPEST_VALUE,
         )
 
 

@@ -151,7 +151,7 @@ class AddNote(Edit, frozen=True):
         _require_page(project, self.note.page)
         project.notes[self.note.id] = _in_floats(self.note)
         project.id_seen(self.note.id)
-        project.touch_note(self.note.id)
+        project.changes.notes.add(self.note.id)
         return RemoveNote(self.note.id)
 
 
@@ -165,7 +165,7 @@ class RemoveNote(Edit, frozen=True):
         """Delete the note."""
         old = _require_note(project, self.note)
         del project.notes[self.note]
-        project.touch_note(self.note)
+        project.changes.notes.add(self.note)
         return AddNote(old)
 
 
@@ -180,7 +180,7 @@ class ChangeNote(Edit, frozen=True):
         old = _require_note(project, self.note.id)
         _require_page(project, self.note.page)
         project.notes[self.note.id] = _in_floats(self.note)
-        project.touch_note(self.note.id)
+        project.changes.notes.add(self.note.id)
         return ChangeNote(old)
 
 
@@ -222,18 +222,8 @@ def _require_page(project: Project, page: str) -> None:
 # An edit of what a project keeps besides its program, such as the cues of its operator.
 
 FILE_KEYS = frozenset(
-    (
-        "format",
-        "version",
-        "name",
-        "pages",
-        "blocks",
-        "variables",
-        "procedures",
-        "notes",
-        "page_order",
-    )
-)
+    ("format", "version", "name", "pages", "blocks", "variables", "procedures", "notes")
+) | {"page_order"}
 """The keys of the program itself, which nothing else may be kept under."""
 
 LONGEST_KEY = 64
@@ -270,7 +260,8 @@ class SetExtra(Edit, frozen=True):
             project.extra.pop(self.key, None)
         else:
             project.extra[self.key] = self.value
-        project.touch_extra()
+        project.extra_revision += 1
+        project.changes.whole = True
         project.changes.kept.add(self.key)
         return old
 

@@ -38,7 +38,7 @@ class RenameProject(Edit, frozen=True):
     def apply(self, project: Project) -> RenameProject:
         """Rename the project."""
         old, project.name = project.name, self.name
-        project.touch_whole()
+        project.changes.whole = True
         return RenameProject(old)
 
 
@@ -58,7 +58,7 @@ class AddVariable(Edit, frozen=True):
             raise EditRefused("There is no such position in the list of variables.")
         project.variables.insert(self.position, Variable(self.variable, self.name))
         project.id_seen(self.variable)
-        project.touch_whole()
+        project.changes.whole = True
         return RemoveVariable(self.variable)
 
 
@@ -73,7 +73,7 @@ class RemoveVariable(Edit, frozen=True):
         variable = _require_variable(project, self.variable)
         position = project.variables.index(variable)
         del project.variables[position]
-        project.touch_whole()
+        project.changes.whole = True
         return AddVariable(variable.id, variable.name, position)
 
 
@@ -88,7 +88,7 @@ class RenameVariable(Edit, frozen=True):
         """Rename the variable."""
         variable = _require_variable(project, self.variable)
         old, variable.name = variable.name, self.name
-        project.touch_whole()
+        project.changes.whole = True
         return RenameVariable(self.variable, old)
 
 
@@ -118,7 +118,7 @@ class AddPage(Edit, frozen=True):
         if self.title:
             project.page_titles[self.page] = self.title
         project.id_seen(self.page)
-        project.touch_whole()
+        project.changes.whole = True
         return RemovePage(self.page)
 
 
@@ -137,7 +137,7 @@ class RemovePage(Edit, frozen=True):
             raise EditRefused("There is something on this page: empty it first.")
         del project.pages[self.page]
         title = project.page_titles.pop(self.page, "")
-        project.touch_whole()
+        project.changes.whole = True
         return AddPage(self.page, title, position)
 
 
@@ -154,7 +154,7 @@ class RenamePage(Edit, frozen=True):
         old = project.page_titles.pop(self.page, "")
         if self.title:
             project.page_titles[self.page] = self.title
-        project.touch_whole()
+        project.changes.whole = True
         return RenamePage(self.page, old)
 
 
@@ -171,7 +171,7 @@ class MovePage(Edit, frozen=True):
         if not 0 <= self.position < len(project.pages):
             raise EditRefused("There is no such position in the list of pages.")
         _put(project, self.page, project.pages.pop(self.page), self.position)
-        project.touch_whole()
+        project.changes.whole = True
         return MovePage(self.page, old)
 
 

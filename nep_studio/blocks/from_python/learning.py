@@ -16,17 +16,10 @@ from dataclasses import dataclass, field
 from faults import Words, text_of
 from nep_studio.blocks.definitions import Definition, Slot
 from nep_studio.blocks.errors import BlocksError, CodeRefused
-from nep_studio.blocks.generate.expressions import (
-    Assignment,
-    Body,
-    Expressions,
-    Function,
-    Gap,
-    Piece,
-    show,
-)
+from nep_studio.blocks.generate.expressions import Body, Expressions, Function, Piece, show
+from nep_studio.blocks.generate.generators import REPORTERS, STATEMENTS
 from nep_studio.blocks.generate.names import ProgramNames
-from nep_studio.blocks.generate.rules import HATS, REPORTERS, STATEMENTS
+from nep_studio.blocks.generate.rules import HATS
 from nep_studio.blocks.language import Language
 from nep_studio.blocks.procedures import procedure_of
 from nep_studio.blocks.program import ALL_ROBOTS, Block, Project, split_slot
@@ -34,48 +27,21 @@ from nep_studio.blocks.slots import FieldValue, constant
 
 # Names and numbers that stand for slots in a learned piece of Python, and how they are told.
 
-_SLOT, _BODY, _PART, _VARIABLE = "SLOT_", "BODY_", "PART_", "VARIABLE_"
-MARKS = (_SLOT, _BODY, _PART, _VARIABLE)
+SLOT, BODY, PART, _VARIABLE = "SLOT_", "BODY_", "PART_", "VARIABLE_"
+VARIABLE_NAME = f"{_VARIABLE}variable"
+_MARKS = (SLOT, BODY, PART, _VARIABLE)
 _FIRST_NUMBER, _STEP, _REACH = 7_000_000, 1000, 20
 _WORD = re.compile(r"qslotq([a-z0-9]+?)q")
 
 
-def slot_name(key: str) -> str:
-    """A name that stands for what is in a slot."""
-    return _SLOT + key.replace(".", "_N")
+def mark(sort: str, key: str) -> str:
+    """A name that stands for a slot, for the blocks in a body, or for the name of a function."""
+    return sort + key.replace(".", "_N")
 
 
-def body_name(key: str) -> str:
-    """A name that stands for the blocks in a body."""
-    return _BODY + key.replace(".", "_N")
-
-
-def part_name(number: int) -> str:
-    """A name that stands for the name of a function."""
-    return f"{_PART}{number}"
-
-
-VARIABLE_NAME = f"{_VARIABLE}variable"
-
-
-def slot_of(name: str) -> str:
-    """The slot that a name stands for, or an empty text."""
-    return _key(name, _SLOT)
-
-
-def body_of(name: str) -> str:
-    """The body that a name stands for, or an empty text."""
-    return _key(name, _BODY)
-
-
-def is_part(name: str) -> bool:
-    """Whether a name stands for the name of a function."""
-    return name.startswith(_PART)
-
-
-def number_for(position: int) -> int:
-    """A number that stands for a whole number typed into slot number ``position``."""
-    return _FIRST_NUMBER + _STEP * position
+def marked(sort: str, name: str) -> str:
+    """The slot, body or function of this sort that a name stands for, or an empty text."""
+    return name.removeprefix(sort).replace("_N", ".") if name.startswith(sort) else ""
 
 
 def position_of(number: object) -> tuple[int, int] | None:
@@ -86,11 +52,6 @@ def position_of(number: object) -> tuple[int, int] | None:
     return (position, more - _REACH) if more <= 2 * _REACH else None
 
 
-def word_for(position: int) -> str:
-    """A word that stands for what is typed into slot number ``position``."""
-    return f"qslotq{position}q"
-
-
 def word_pattern(text: str) -> tuple[re.Pattern[str], list[int]] | None:
     """How a text with such words in it is matched, and which positions they have; or None."""
     positions = [int(number) for number in _WORD.findall(text)]
@@ -98,10 +59,6 @@ def word_pattern(text: str) -> tuple[re.Pattern[str], list[int]] | None:
         return None
     parts = [re.escape(part) for part in re.split(r"qslotq[a-z0-9]+?q", text)]
     return re.compile("(.*)".join(parts), re.DOTALL), positions
-
-
-def _key(name: str, start: str) -> str:
-    return name.removeprefix(start).replace("_N", ".") if name.startswith(start) else ""
 
 
 # Makes the Python of a new block with markers in its slots.
@@ -148,8 +105,8 @@ class Learner(Expressions):
         if key == self._plain:
             return constant(self.definition(block).defaults[slot.name])
         if key in self._typed:
-            return ast.Constant(number_for(self._positions[key]))
-        return ast.Name(slot_name(key))
+            return ast.Constant(_FIRST_NUMBER + _STEP * self._positions[key])
+        return ast.Name(mark(SLOT, key))
 
     def choice(self, block: Block, key: str) -> str:
         """The choice that this variant is made with."""
@@ -168,23 +125,20 @@ class Learner(Expressions):
     def part_name(self) -> str:
         """A marker for the name of a function."""
         self._functions += 1
-        return part_name(self._functions)
+        return mark(PART, str(self._functions))
 
     def _slot(self, block: Block, key: str) -> Slot:
         return self.definition(block).slots[split_slot(key)[0]]
 
     def _block(self, definition: Definition, groups: Mapping[str, int]) -> Block:
         """A new block whose texts are marker words."""
-        block = definition.new_block("b1")
-        block.groups = dict(groups)
-        block.fields = {
-            key: word_for(self._positions[key])
+        block = definition.new_block("b1", groups)
+        block.fields |= {
+            key: f"qslotq{self._positions[key]}q"
             for key, slot in definition.keys(groups)
             if slot.kind.takes_any_words and not slot.group
-        } | dict(self._fields_chosen)
-        for key, slot in definition.keys(groups):
-            if slot.name in definition.defaults:
-                block.fields.setdefault(key, definition.defaults[slot.name])
+        }
+        block.fields |= self._fields_chosen
         return block
 
 
@@ -196,14 +150,11 @@ def _lines(pieces: Sequence[Piece]) -> Iterator[str]:
     for piece in pieces:
         if isinstance(piece, str):
             yield piece
-        elif isinstance(piece, Assignment):
-            yield piece.line
-        elif isinstance(piece, Body):
-            yield f"    {body_name(piece.slot)}"
-        elif isinstance(piece, Function):
-            yield f"def {piece.name}():"
-            yield f"    {body_name(piece.slot)}"
-        elif not isinstance(piece, Gap):
+        elif isinstance(piece, Body | Function):
+            if isinstance(piece, Function):
+                yield f"def {piece.name}():"
+            yield f"    {mark(BODY, piece.slot)}"
+        else:
             yield str(getattr(piece, "line", ""))
 
 
@@ -295,14 +246,10 @@ def _order(pattern: Pattern) -> tuple[bool, int, int, int]:
     then those that take less: a gesture is a state too. Whatever robot tells of it: a state.
     """
     is_anybody = ALL_ROBOTS in pattern.fields.values()
-    slots = pattern.definition.slots.values()
     fixed = sum(_is_plain(node) for nodes in pattern.nodes for node in ast.walk(nodes))
-    return (
-        is_anybody,
-        -pattern.size,
-        fixed,
-        sum(slot.kind.name in ("state", "text", "any") for slot in slots),
-    )
+    slots = pattern.definition.slots.values()
+    takes_more = sum(slot.kind.name in ("state", "text", "any") for slot in slots)
+    return is_anybody, -pattern.size, fixed, takes_more
 
 
 def _patterns(definition: Definition, language: Language) -> Iterator[Pattern]:
@@ -324,12 +271,10 @@ def _patterns(definition: Definition, language: Language) -> Iterator[Pattern]:
 
 
 def _group_counts(definition: Definition) -> Iterator[dict[str, int]]:
-    names = list(definition.groups)
-    ranges = [
-        range(definition.minimum[name], definition.groups[name].maximum + 1) for name in names
-    ]
-    for counts in itertools.product(*ranges):
-        yield dict(zip(names, counts, strict=True))
+    minimum, groups = definition.minimum, definition.groups
+    ranges = {name: range(minimum[name], group.maximum + 1) for name, group in groups.items()}
+    for counts in itertools.product(*ranges.values()):
+        yield dict(zip(ranges, counts, strict=True))
 
 
 def _choices(
@@ -369,7 +314,7 @@ def _variants(definition: Definition, keys: Sequence[str]) -> Iterator[tuple[fro
 
 def _says(node: ast.AST) -> bool:
     """Whether a node is a part of the Python itself, neither a marker nor a note of ast."""
-    if isinstance(node, ast.Name) and node.id.startswith(MARKS):
+    if isinstance(node, ast.Name) and node.id.startswith(_MARKS):
         return False
     return not isinstance(node, ast.expr_context) and not _is_plain(node)
 
@@ -395,13 +340,7 @@ class CodeUnread(BlocksError):
     title = "This Python cannot become blocks"
 
     def __init__(
-        self,
-        sentence: Words,
-        line: int,
-        /,
-        *,
-        checklist: Sequence[Words] = (),
-        **values: object,
+        self, sentence: Words, line: int, /, *, checklist: Sequence[Words] = (), **values: object
     ) -> None:
         said = text_of(sentence, **values)
         super().__init__("Line {line}: {sentence}", checklist=checklist, line=line, sentence=said)
@@ -444,17 +383,8 @@ def blocks_of(
 
 
 def _block(made: Made, ids: dict[int, str], language: Language) -> Block:
-    definition = language.definitions[made.type]
-    block = definition.new_block(ids[id(made)])
-    block.groups = {**block.groups, **made.groups}
-    keys = {key for key, _ in definition.keys(block.groups)}
-    block.fields = {
-        **{key: value for key, value in block.fields.items() if key in keys},
-        **made.fields,
-    }
-    for key, slot in definition.keys(block.groups):
-        if key not in block.fields and slot.name in definition.defaults:
-            block.fields[key] = definition.defaults[slot.name]
+    block = language.definitions[made.type].new_block(ids[id(made)], made.groups)
+    block.fields |= made.fields
     block.inputs = {key: ids[id(inner)] for key, inner in made.inputs.items()}
     block.bodies = {
         key: [ids[id(inner)] for inner in chain] for key, chain in made.bodies.items() if chain

@@ -21,7 +21,7 @@ from nep_studio.blocks.procedures import DEFINE, parameters
 from nep_studio.blocks.program import Project
 
 from .learning import CodeUnread, Made, beginning, blocks_of, learned
-from .values import SourceNames, ValueReader, match, names_in
+from .values import HEADERS, SourceNames, ValueReader, match, names_in
 
 # The text of a Python file by lines, with its comments, and the tree of it.
 
@@ -117,8 +117,7 @@ def read_source(text: str) -> Source:
         )
     text = text.replace("\r\n", "\n").replace("\r", "\n")
     try:
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore")
+        with warnings.catch_warnings(action="ignore"):
             tree = ast.parse(text)
         comments, alone = _comments(text)
     except SyntaxError as error:
@@ -183,7 +182,7 @@ class StatementReader:
         """
         made: list[Made] = []
         code: list[ast.stmt] = []
-        begin, left = after, [node for node in nodes if not isinstance(node, ast.Global)]
+        begin, left = after, _without_global(nodes)
         while left:
             found = self._statement(left, begin)
             is_end = found is None or len(left) == found[1]
@@ -200,9 +199,8 @@ class StatementReader:
         said = self._source.comments_between(begin + 1, until, margin)
         note = self.values.type_of("note")
         if said and note:
-            made.append(
-                Made(note, {"text": "\n".join(said)}, text="\n".join(f"# {line}" for line in said))
-            )
+            text = "\n".join(f"# {line}" for line in said)
+            made.append(Made(note, {"text": "\n".join(said)}, text=text))
         return made
 
     def rule(self, node: ast.FunctionDef, after: int, *, as_code: bool = False) -> list[Made]:
@@ -292,7 +290,6 @@ def _without_global(body: Sequence[ast.stmt]) -> list[ast.stmt]:
     return [node for node in body if not isinstance(node, ast.Global)]
 
 
-_HEADERS = ("Robot", "Behavior")
 _BETWEEN = 120.0
 
 
@@ -408,7 +405,7 @@ def _is_frame(node: ast.stmt) -> bool:
         case ast.Import(names=names):
             return all(name.name in MODULES and not name.asname for name in names)
         case ast.Assign(targets=[ast.Name()], value=ast.Call(func=ast.Name(id=made))):
-            return made in _HEADERS
+            return made in HEADERS
         case ast.Assign(targets=[ast.Name()], value=ast.Constant() | ast.List(elts=[])):
             return True
         case ast.Expr(value=ast.Call(func=ast.Attribute(value=ast.Name(id="behavior"), attr=name))):

@@ -50,7 +50,7 @@ class ChainUpdater:
         project = self._editor.project
         stack = project.stack_of(first)
         hat = project.blocks[first]
-        # The lines of a hat, to the one that begins the function
+        # the lines of the hat, to the one that begins the function
         lines = [self._lines[number - 1] for number in self._code.lines_of(first)]
         end = next((n for n, line in enumerate(lines, 1) if line.startswith("def ")), 0)
         if "\n".join(lines[:end]) == wanted[0].text:
@@ -66,7 +66,8 @@ class ChainUpdater:
             stack = project.stack_of(roots[0])
         else:
             self._change(hat, wanted[0])
-        self._update(stack.body[1:], wanted[1:], partial(_below_hat, stack.id))
+        below = stack.id
+        self._update(stack.body[1:], wanted[1:], lambda index: InStack(below, index + 1))
         return stack.body[0]
 
     def _update(
@@ -99,7 +100,8 @@ class ChainUpdater:
             self._change(block, made)
             return
         chain = chain_around(self._editor.project, block_id)
-        index = chain.index(block_id) - _first_index(place(0))
+        first = place(0)
+        index = chain.index(block_id) - (first.index if isinstance(first, InStack | InBody) else 0)
         self._editor.apply(DeleteBlocks(block_id, 1))
         self._create([made], place(index))
 
@@ -122,10 +124,9 @@ class ChainUpdater:
             if key in made.inputs:
                 self._create([made.inputs[key]], InInput(block.id, key))
 
-    def _create(self, chain: Sequence[Made], place: Place) -> int:
+    def _create(self, chain: Sequence[Made], place: Place) -> None:
         roots, blocks = blocks_of(self._editor.project, self._editor.language, chain)
         self._editor.apply(CreateBlocks(roots, blocks, place))
-        return len(roots)
 
     def _text(self, block: str) -> str:
         """The lines that a block makes with all inside it, without their margin."""
@@ -133,14 +134,6 @@ class ChainUpdater:
             return ""
         first, last = self._numbers[block]
         return textwrap.dedent("\n".join(self._lines[first - 1 : last])).rstrip()
-
-
-def _below_hat(stack: str, index: int) -> InStack:
-    return InStack(stack, index + 1)
-
-
-def _first_index(place: Place) -> int:
-    return place.index if isinstance(place, InStack | InBody) else 0
 
 
 @dataclass(frozen=True, slots=True)
@@ -202,17 +195,17 @@ def _update(editor: Editor, source: Source, as_code: set[str], anew: bool) -> di
     written = _written(editor.project, code)
     rules = read_rules(editor, source, as_code, [] if anew else [w.text for w in written])
     left = {stack.stack: stack for stack in written}
-    same = {id(rule): _take(left, lambda w, r=rule: w.text == r.text) for rule in rules}
+    same = [_take(left, (w for w in left.values() if w.text == rule.text)) for rule in rules]
     firsts = []
-    for rule in rules:
-        known = same[id(rule)]
-        if known is None:
-            known = _take(left, lambda w, r=rule: w.function == r.function.name)
-            if known is None and len(rules) == len(written):
-                known = _take(left, lambda w, r=rule: _is_nth(written, w, rules, r))
-            firsts.append(_change(editor, code, rule, known, anew))
-        else:
+    for number, (rule, known) in enumerate(zip(rules, same, strict=True)):
+        if known is not None:
             firsts.append(editor.project.stacks[known.stack].body[0])
+            continue
+        name = rule.function.name
+        known = _take(left, (w for w in left.values() if w.function == name))
+        if known is None and len(rules) == len(written):  # it has got another name
+            known = left.pop(written[number].stack, None)
+        firsts.append(_change(editor, code, rule, known, anew))
     for gone in left.values():
         stack = editor.project.stacks[gone.stack]
         editor.apply(DeleteBlocks(stack.body[0], len(stack.body)))
@@ -247,17 +240,9 @@ def _put_in_order(editor: Editor, firsts: Sequence[str]) -> None:
             editor.apply(MoveBlocks(first, len(stack.body), place))
 
 
-def _take(left: dict[str, _Written], fits: object) -> _Written | None:
-    assert callable(fits)
-    found = next((written for written in left.values() if fits(written)), None)
+def _take(left: dict[str, _Written], fitting: Iterator[_Written]) -> _Written | None:
+    found = next(fitting, None)
     return left.pop(found.stack) if found is not None else None
-
-
-def _is_nth(
-    written: Sequence[_Written], one: _Written, rules: Sequence[ReadRule], rule: ReadRule
-) -> bool:
-    """Whether a rule stands where a stack stood: it has got another name."""
-    return written.index(one) == next(n for n, it in enumerate(rules) if it is rule)
 
 
 def _code(editor: Editor) -> Code:
@@ -270,28 +255,18 @@ def _code(editor: Editor) -> Code:
 
 def _written(project: Project, code: Code) -> list[_Written]:
     """The stacks that make functions now, in the order of the code."""
-    lines = code.text.splitlines()
-    found = []
-    for stack, first, last in _spans(project, code):
-        text = textwrap.dedent("\n".join(lines[first - 1 : last])).rstrip()
-        name = next((n for n in map(_function_name, lines[first - 1 : last]) if n), "")
-        found.append(_Written(stack, name, text))
-    return found
-
-
-def _spans(project: Project, code: Code) -> Iterator[tuple[str, int, int]]:
-    """The stacks of the behaviour with their first and last lines."""
     spans: dict[str, tuple[int, int]] = {}
     for number, block in enumerate(code.blocks, start=1):
         if block and project.kind_of_page(project.page_of(block)) == "behaviour":
             stack = project.stack_of(block).id
             spans[stack] = (spans.get(stack, (number, 0))[0], number)
+    found, every = [], code.text.splitlines()
     for stack, (first, last) in spans.items():
-        yield stack, first, last
-
-
-def _function_name(line: str) -> str:
-    return line[4:].partition("(")[0] if line.startswith("def ") else ""
+        lines = every[first - 1 : last]
+        headers = (line[4:].partition("(")[0] for line in lines if line.startswith("def "))
+        text = textwrap.dedent("\n".join(lines)).rstrip()
+        found.append(_Written(stack, next(headers, ""), text))
+    return found
 
 
 def _functions_that_differ(
@@ -314,25 +289,19 @@ def _functions_that_differ(
     }
 
 
-def _plain(function: ast.FunctionDef) -> str:
-    """A function as text without what the generator writes by itself: its name, its globals."""
-    nodes: list[ast.AST] = [*function.decorator_list, *_bodies(function.body)]
-    dump = " ".join(ast.dump(node) for node in nodes)
-    return dump if function.decorator_list else f"{function.name} {dump}"
+def _plain(function: ast.FunctionDef) -> tuple[object, ...]:
+    """A function without what the generator writes by itself: the name of a rule, global lines."""
+    name = "" if function.decorator_list else function.name
+    return name, _told(function.decorator_list), _told(function.body)
 
 
-def _bodies(body: Sequence[ast.stmt]) -> list[ast.stmt]:
-    kept = [_Plain().visit(node) for node in body if not isinstance(node, ast.Global)]
-    return kept
-
-
-class _Plain(ast.NodeTransformer):
-    """Takes out the global lines of inner functions."""
-
-    def visit_FunctionDef(self, node: ast.FunctionDef) -> ast.AST:
-        """Take the global lines out of an inner function; its name is the generator's affair."""
-        body = [self.visit(inner) for inner in node.body if not isinstance(inner, ast.Global)]
-        return ast.FunctionDef(node.name, node.args, body, node.decorator_list, node.returns)
+def _told(node: object) -> object:
+    """A tree as something to compare."""
+    if isinstance(node, list):
+        return [_told(one) for one in node if not isinstance(one, ast.Global)]
+    if isinstance(node, ast.AST):
+        return (type(node), *[_told(getattr(node, name, None)) for name in node._fields])
+    return type(node), node
 
 
 def _line_of(source: Source, name: str) -> int:

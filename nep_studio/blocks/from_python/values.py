@@ -5,37 +5,40 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
+from functools import partial
 
 from nep_studio.blocks.code_text import CodeTextRefused, read_value
 from nep_studio.blocks.definitions import Definition, Slot
 from nep_studio.blocks.edits.content import AddProcedure
-from nep_studio.blocks.edits.placing import CreateBlocks
 from nep_studio.blocks.edits.project import RenameProject
 from nep_studio.blocks.language import Language
 from nep_studio.blocks.procedures import CALL, PARAMETER, parameters, words
 from nep_studio.blocks.program import split_slot
-from nep_studio.blocks.slots import TEXT_RESULTS, FieldValue
+from nep_studio.blocks.slots import TEXT_RESULTS, FieldValue, constant
 
 from ..deployment import names_used, robot_entries
 from ..editor import Editor
+from ..generate.expressions import known_whole
 from ..generate.names import RESERVED, python_name
-from ..places import InStack
+from ..operations.fixes import append_entry
 from ..program import ALL_ROBOTS, ROBOT_BLOCK, Parameter, Procedure
 from .learning import (
+    BODY,
+    PART,
+    SLOT,
     VARIABLE_NAME,
     CodeUnread,
     Made,
     Pattern,
     beginning,
-    body_of,
-    is_part,
     learned,
+    marked,
     position_of,
-    slot_of,
     word_pattern,
 )
 
-_HEADERS = ("Robot", "Behavior")
+HEADERS = ("Robot", "Behavior")
+"""What the lines before the functions make."""
 
 
 @dataclass(slots=True)
@@ -59,7 +62,7 @@ def names_in(editor: Editor, tree: ast.Module) -> SourceNames:
         match node:
             case ast.Assign(
                 targets=[ast.Name(id=name)], value=ast.Call(func=ast.Name(id=made))
-            ) if made in _HEADERS:
+            ) if made in HEADERS:
                 _note(editor, names, name, made, node)
             case ast.FunctionDef(decorator_list=[]):
                 _note_procedure(editor, names, node)
@@ -138,17 +141,8 @@ def _note(editor: Editor, names: SourceNames, name: str, made: str, node: ast.As
 
 
 def _add_robot(editor: Editor, name: str) -> None:
-    if any(e.name == name for e in robot_entries(editor.project, editor.language)):
-        return
-    block = editor.language.definitions[ROBOT_BLOCK].new_block(editor.project.new_id("b"))
-    block.fields["name"] = name
-    stacks = editor.project.pages["robots"]
-    place = (
-        InStack(stacks[-1].id, len(stacks[-1].body))
-        if stacks
-        else editor.new_stack("robots", 40, 40)
-    )
-    editor.apply(CreateBlocks((block.id,), (block,), place))
+    if all(e.name != name for e in robot_entries(editor.project, editor.language)):
+        append_entry(editor, "robots", ROBOT_BLOCK, {"name": name})
 
 
 def _note_procedure(editor: Editor, names: SourceNames, node: ast.FunctionDef) -> None:
@@ -159,7 +153,8 @@ def _note_procedure(editor: Editor, names: SourceNames, node: ast.FunctionDef) -
             node.lineno,
             checklist=("Write its parameters as plain names, with commas between them.",),
         )
-    wanted, gives_value = [argument.arg for argument in given.args], _gives_value(node)
+    wanted = [argument.arg for argument in given.args]
+    gives_value = any(isinstance(n, ast.Return) and n.value is not None for n in ast.walk(node))
     known = names.procedures.get(node.name)
     if known is not None and len(parameters(known)) == len(wanted):
         return
@@ -169,10 +164,6 @@ def _note_procedure(editor: Editor, names: SourceNames, node: ast.FunctionDef) -
     )
     editor.apply(AddProcedure(procedure, len(editor.project.procedures)))
     names.procedures[node.name] = procedure
-
-
-def _gives_value(function: ast.FunctionDef) -> bool:
-    return any(isinstance(n, ast.Return) and n.value is not None for n in ast.walk(function))
 
 
 def _shared(tree: ast.Module) -> Iterator[str]:
@@ -188,52 +179,46 @@ def _shared(tree: ast.Module) -> Iterator[str]:
             case ast.AugAssign(target=ast.Name(id=name)):
                 yield name
             case ast.Assign(targets=[ast.Name(id=name)], value=value) if not (
-                isinstance(value, ast.Call) and getattr(value.func, "id", "") in _HEADERS
+                isinstance(value, ast.Call) and getattr(value.func, "id", "") in HEADERS
             ):
                 yield name
             case ast.For(target=ast.Name(id=name)) if name != "_":
                 yield name
 
 
-# Read expressions: what goes into the field of a slot, and which block is plugged into it.
-
 # Match Python with a learned pattern: what stands where the markers are.
 
 _UNSAID = frozenset({"ctx", "type_comment", "kind", "type_ignores", "type_params"})
 
 
+def match(pattern: Pattern, nodes: Sequence[ast.AST]) -> Found | None:
+    """What a pattern finds in as many nodes as it has, or None when they differ."""
+    found = Found(pattern.keys)
+    return found if found.lists(pattern.nodes, nodes) else None
+
+
 @dataclass(slots=True)
 class Found:
-    """What stands where the markers of a pattern are."""
+    """What stands where the markers of a pattern are; ``keys`` are its slots by position."""
 
+    keys: tuple[str, ...]
     slots: dict[str, ast.expr] = field(default_factory=dict)
     words: dict[str, str] = field(default_factory=dict)
     bodies: dict[str, list[ast.stmt]] = field(default_factory=dict)
     parts: dict[str, str] = field(default_factory=dict)
     variable: str = ""
 
-
-def match(pattern: Pattern, nodes: Sequence[ast.AST]) -> Found | None:
-    """What a pattern finds in as many nodes as it has, or None when they differ."""
-    found = Found()
-    matcher = _Matcher(pattern, found)
-    return found if matcher.lists(pattern.nodes, nodes) else None
-
-
-class _Matcher:
-    def __init__(self, pattern: Pattern, found: Found) -> None:
-        self._keys = pattern.keys
-        self._found = found
-
     def lists(self, wanted: Sequence[object], there: Sequence[object]) -> bool:
+        """Whether nodes are as wanted, each in its turn."""
         if len(wanted) == 1 and isinstance(wanted[0], ast.Expr):
             name = wanted[0].value
-            if isinstance(name, ast.Name) and (body := body_of(name.id)):
-                self._found.bodies[body] = list(there)  # type: ignore[arg-type]
+            if isinstance(name, ast.Name) and (body := marked(BODY, name.id)):
+                self.bodies[body] = list(there)  # type: ignore[arg-type]
                 return bool(there)
         return len(wanted) == len(there) and all(map(self.one, wanted, there))
 
     def one(self, wanted: object, there: object) -> bool:
+        """Whether a node is as wanted; notes what stands where the markers are."""
         if isinstance(wanted, ast.Name):
             return self._name(wanted.id, there)
         if isinstance(wanted, ast.Constant):
@@ -248,7 +233,11 @@ class _Matcher:
             return wanted == there
         if isinstance(wanted, ast.FunctionDef) and isinstance(there, ast.FunctionDef):
             plain = not (there.decorator_list or there.returns or there.args.args)
-            return plain and self._part(wanted.name, there.name) and self._body(wanted, there)
+            return (
+                plain
+                and self._part(wanted.name, there.name)
+                and self.lists(wanted.body, there.body)
+            )
         if isinstance(wanted, ast.If) and _is_elif(wanted) != _is_elif(there):
             return False
         return all(
@@ -257,35 +246,30 @@ class _Matcher:
             if name not in _UNSAID
         )
 
-    def _body(self, wanted: ast.FunctionDef, there: ast.FunctionDef) -> bool:
-        return self.lists(wanted.body, there.body)
-
     def _name(self, wanted: str, there: object) -> bool:
-        if key := slot_of(wanted):
+        if key := marked(SLOT, wanted):
             return isinstance(there, ast.expr) and self._slot(key, there)
         if not isinstance(there, ast.Name):
             return False
         if wanted == VARIABLE_NAME:
-            is_same = self._found.variable in ("", there.id)
-            self._found.variable = there.id
+            is_same = self.variable in ("", there.id)
+            self.variable = there.id
             return is_same
-        return self._part(wanted, there.id) if is_part(wanted) else wanted == there.id
+        return self._part(wanted, there.id) if marked(PART, wanted) else wanted == there.id
 
     def _part(self, wanted: str, there: str) -> bool:
-        return self._found.parts.setdefault(wanted, there) == there
+        return self.parts.setdefault(wanted, there) == there
 
     def _slot(self, key: str, there: ast.expr) -> bool:
-        known = self._found.slots.setdefault(key, there)
+        known = self.slots.setdefault(key, there)
         return known is there or ast.dump(known) == ast.dump(there)
 
     def _constant(self, wanted: object, there: object) -> bool:
         marker = position_of(wanted)
         if marker is not None:
             position, added = marker
-            number = _whole_number(there)
-            if number is None:
-                return False
-            return self._slot(self._keys[position], _constant_node(number - added))
+            number = known_whole(there) if isinstance(there, ast.expr) else None
+            return number is not None and self._slot(self.keys[position], constant(number - added))
         if not isinstance(there, ast.Constant):
             return False
         words = word_pattern(wanted) if isinstance(wanted, str) else None
@@ -295,7 +279,7 @@ class _Matcher:
         if matched is None:
             return False
         for position, word in zip(words[1], matched.groups(), strict=True):
-            if self._found.words.setdefault(self._keys[position], word) != word:
+            if self.words.setdefault(self.keys[position], word) != word:
                 return False
         return True
 
@@ -304,7 +288,7 @@ def _whole_slot(node: ast.Call) -> str:
     """The slot in ``int(slot)``, which is written only where the slot may give a fraction."""
     match node:
         case ast.Call(func=ast.Name(id="int"), args=[ast.Name(id=name)], keywords=[]):
-            return slot_of(name)
+            return marked(SLOT, name)
     return ""
 
 
@@ -323,20 +307,7 @@ def _is_elif(node: object) -> bool:
     return isinstance(inner, ast.If) and inner.col_offset == node.col_offset
 
 
-def _whole_number(node: object) -> int | None:
-    if isinstance(node, ast.UnaryOp) and isinstance(node.op, ast.USub):
-        inner = _whole_number(node.operand)
-        return None if inner is None else -inner
-    if isinstance(node, ast.Constant) and type(node.value) is int:
-        return node.value
-    return None
-
-
-def _constant_node(number: int) -> ast.expr:
-    if number < 0:
-        return ast.UnaryOp(ast.USub(), ast.Constant(-number))
-    return ast.Constant(number)
-
+# Read expressions: what goes into the field of a slot, and which block is plugged into it.
 
 _DEEPEST = 150
 
@@ -357,7 +328,7 @@ class ValueReader:
             if definition.call is not None:
                 self._by_call.setdefault(definition.call.name, []).append(definition)
         for definitions in self._by_call.values():  # what says more goes before what says less
-            definitions.sort(key=_count_of_constants, reverse=True)
+            definitions.sort(key=lambda d: len(d.call.constants) if d.call else 0, reverse=True)
 
     def type_of(self, generator: str) -> str:
         """The type of the block that a generator makes, or an empty text."""
@@ -410,10 +381,8 @@ class ValueReader:
             if self._depth > _DEEPEST:
                 return []
             self._depth += 1
-            known = self._known[id(node)] = (
-                node,
-                list(self._blocks(node)),
-            )  # so its id stays its own
+            found = list(self._blocks(node))
+            known = self._known[id(node)] = node, found  # kept, so that its id stays its own
             self._depth -= 1
         return known[1]
 
@@ -423,16 +392,15 @@ class ValueReader:
         assert wanted is not None
         made = Made(definition.id)
         if wanted.on:
-            if not isinstance(node.func, ast.Attribute):
-                return None
-            if not self.fill(made, wanted.on, node.func.value):
+            func = node.func
+            if not (isinstance(func, ast.Attribute) and self.fill(made, wanted.on, func.value)):
                 return None
         elif not isinstance(node.func, ast.Name):
             return None
         given = {keyword.arg: keyword.value for keyword in node.keywords}
-        for keyword, constant in wanted.constants.items():
+        for keyword, usual in wanted.constants.items():
             value = _constant(given.pop(keyword, ast.Pass()))
-            if value != constant or type(value) is not type(constant):
+            if value != usual or type(value) is not type(usual):
                 return None
         required = {name for name, key in wanted.keywords.items() if key not in wanted.optional}
         if len(node.args) != len(wanted.arguments) or not required <= given.keys():
@@ -441,9 +409,8 @@ class ValueReader:
             node.keywords
         ):
             return None
-        for key, argument in zip(wanted.arguments, node.args, strict=True):
-            if not self.fill(made, key, argument):
-                return None
+        if not all(map(partial(self.fill, made), wanted.arguments, node.args)):
+            return None
         for name, argument in given.items():
             key = wanted.keywords[str(name)]
             if not self.fill(made, key, argument):
@@ -533,10 +500,6 @@ class ValueReader:
             return self.names.variables.get(node.id) if kind == "variable" else None
         value = _constant(node)
         return None if value is None else slot.kind.from_python(value)
-
-
-def _count_of_constants(definition: Definition) -> int:
-    return len(definition.call.constants) if definition.call is not None else 0
 
 
 def _constant(node: ast.AST) -> str | int | float | bool | None:

@@ -6,9 +6,11 @@ import ast
 import math
 from collections import defaultdict
 from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass
 
 from nep_studio.blocks.arithmetic import ArithmeticRefused, calculate
+from nep_studio.blocks.code_text import CodeTextRefused
 from nep_studio.blocks.definitions import Call, Definition
 from nep_studio.blocks.errors import CodeRefused
 from nep_studio.blocks.language import Language
@@ -95,6 +97,17 @@ _COSTS = {"list.find": 10}
 ValueGenerator = Callable[["Expressions", Block], ast.expr]
 
 
+@contextmanager
+def refusing(block: Block) -> Iterator[None]:
+    """Refuse a block in which something is written that cannot be read."""
+    try:
+        yield
+    except (ArithmeticRefused, CodeTextRefused) as refused:
+        raise CodeRefused(
+            refused.sentence, block=block.id, checklist=("Correct what is written in this block.",)
+        ) from refused
+
+
 class Expressions:
     """Makes the expression trees of one stack, and notes what they need to be there."""
 
@@ -156,14 +169,8 @@ class Expressions:
             return ast.Constant(self.choice(block, key))
         if not kind.is_number or not isinstance(value, str):
             return kind.to_python(value)
-        try:
+        with refusing(block):
             arithmetic = calculate(value)
-        except ArithmeticRefused as refused:
-            raise CodeRefused(
-                refused.sentence,
-                block=block.id,
-                checklist=("Correct what is written in this block.",),
-            ) from refused
         if arithmetic.needs_math:
             self.modules.add("math")
         return arithmetic.node
@@ -184,6 +191,10 @@ class Expressions:
             raise CodeRefused(reason, block=block.id, checklist=("Choose another one.",))
         return str(value)
 
+    def text(self, block: Block, key: str) -> str:
+        """What the field of a slot holds, as a text."""
+        return str(self.definition(block).value(block, key))
+
     def slots(self, block: Block, first: str, group: str) -> list[ast.expr]:
         """What is in the slot of each part of a group."""
         count = block.groups.get(group, 0)
@@ -201,9 +212,8 @@ class Expressions:
                 checklist=("Set a variable to a part of this, and use the variable here.",),
                 deepest_value=DEEPEST_VALUE,
             )
-        node: ast.expr
         if definition.call is not None:
-            node = self.call(block, definition.call)
+            node: ast.expr = self.call(block, definition.call)
         else:
             node = self.reporters[definition.generator](self, block)
         self._depth -= cost
@@ -226,16 +236,6 @@ class Expressions:
         """A call of a function of nep_core, which is noted for the import."""
         self.api.add(name)
         return call(name, *arguments, **keywords)
-
-    def module_value(self, module: str, name: str) -> ast.expr:
-        """A value of a module of the standard library, noted for the import."""
-        self.modules.add(module)
-        return ast.Attribute(ast.Name(module), name)
-
-    def module_call(self, module: str, name: str, *arguments: ast.expr) -> ast.Call:
-        """A call of a function of a module of the standard library, noted for the import."""
-        self.modules.add(module)
-        return method_call(ast.Name(module), name, list(arguments), {})
 
     def variable(self, block: Block) -> str:
         """The Python name of the variable that a block is about."""

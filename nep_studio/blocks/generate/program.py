@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import ast
-from collections.abc import Sequence
-from dataclasses import dataclass, field
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 
 from nep_studio.blocks.deployment import RobotEntry, chains, node_entries, robot_entries
 from nep_studio.blocks.errors import CodeRefused
@@ -15,8 +15,9 @@ from nep_studio.blocks.slices import Steps, at_once
 from nep_studio.blocks.slots import Setting, constant
 
 from .expressions import Expressions, call, literal, method_call, show
+from .generators import REPORTERS
 from .names import NameTable, ProgramNames
-from .rules import HATS, REPORTERS, RuleWriter
+from .rules import HATS, Line, RuleWriter
 from .source_map import Code
 
 
@@ -25,24 +26,11 @@ class _Rule:
     """A written rule, what it was written for, and what it needs to be there."""
 
     made_for: tuple[object, ...]
-    lines: list[str]
-    blocks: list[str]
+    lines: list[Line]
     api: frozenset[str]
     modules: frozenset[str]
     robots: frozenset[str]
     variables: dict[str, frozenset[str]]
-
-
-@dataclass(slots=True)
-class _Page:
-    """Lines with the block of each."""
-
-    lines: list[str] = field(default_factory=list)
-    blocks: list[str] = field(default_factory=list)
-
-    def add(self, lines: Sequence[str], blocks: Sequence[str] = ()) -> None:
-        self.lines.extend(lines)
-        self.blocks.extend(blocks or [""] * len(lines))
 
 
 class ProgramGenerator:
@@ -119,7 +107,6 @@ class ProgramGenerator:
         return _Rule(
             made_for,
             writer.lines,
-            writer.blocks,
             frozenset(code.api),
             frozenset(code.modules),
             frozenset(code.robots),
@@ -170,24 +157,19 @@ class ProgramGenerator:
         for rule in rules:
             for variable, kinds in rule.variables.items():
                 begins.setdefault(variable, set()).update(kinds)
-        page = _Page()
         robots = self._robot_lines(names, used)
         if robots:
             api.add("Robot")
-        page.add([_docstring(self._project.name), *(f"import {name}" for name in sorted(modules))])
-        page.add([f"from nep_core import {', '.join(sorted(api))}", ""])
-        page.add([line for line, _ in robots], [block for _, block in robots])
-        behavior = call("Behavior", ast.Constant(self._project.name))
-        page.add([f"behavior = {show(behavior)}"])
-        page.add(
-            [f"{name} = {_first(begins[v])}" for v, name in names.variables.items() if v in begins]
-        )
+        head = [_docstring(self._project.name), *(f"import {name}" for name in sorted(modules))]
+        head += [f"from nep_core import {', '.join(sorted(api))}", ""]
+        behavior = show(call("Behavior", ast.Constant(self._project.name)))
+        variables = {name: begins[v] for v, name in names.variables.items() if v in begins}
+        globals_ = [f"{name} = {_first(kinds)}" for name, kinds in variables.items()]
+        page = [*_unmade(head), *robots, *_unmade([f"behavior = {behavior}", *globals_])]
         for rule in rules:
-            page.add(["", ""])
-            page.add(rule.lines, rule.blocks)
-        page.add(["", "", "behavior.run()"] if rules else ["", "behavior.run()"])
-        text = "\n".join(page.lines) + "\n"
-        return Code(text, tuple(page.blocks), dict(names.variables))
+            page += [*_unmade(["", ""]), *rule.lines]
+        page += _unmade(["", "", "behavior.run()"] if rules else ["", "behavior.run()"])
+        return _code(page, names.variables)
 
     def _robot_lines(self, names: ProgramNames, used: set[str]) -> list[tuple[str, str]]:
         """A line for each robot that the rules use, with its block on the Robots page."""
@@ -209,6 +191,16 @@ def generate_program(project: Project, language: Language) -> Code:
     return ProgramGenerator(project, language).generate()
 
 
+def _unmade(lines: Sequence[str]) -> list[Line]:
+    """Lines that no block made."""
+    return [(line, "") for line in lines]
+
+
+def _code(page: Sequence[Line], variables: Mapping[str, str]) -> Code:
+    text = "".join(f"{line}\n" for line, _ in page)
+    return Code(text, tuple(block for _, block in page), dict(variables))
+
+
 def _first(kinds: set[str]) -> str:
     """What a variable holds before anything is put into it."""
     return "[]" if "list" in kinds else '""' if "text" in kinds else "0"
@@ -226,15 +218,13 @@ def _docstring(name: str) -> str:
 
 def generate_launch(project: Project, language: Language) -> Code:
     """The Python that starts the robots and the nodes of a project."""
-    lines = ["from nep_core import Launcher", "", "launcher = Launcher()"]
-    blocks = [""] * len(lines)
+    page = _unmade(["from nep_core import Launcher", "", "launcher = Launcher()"])
     for robot in robot_entries(project, language):
-        lines.append(_start(language.profile.node, robot.name, _robot_settings(robot)))
-        blocks.append(robot.block_id)
+        start = _start(language.profile.node, robot.name, _robot_settings(robot))
+        page.append((start, robot.block_id))
     for node in node_entries(project, language):
-        lines.append(_start(node.node, node.name, dict(node.parameters)))
-        blocks.append(node.block_id)
-    return Code("\n".join(lines) + "\n", tuple(blocks))
+        page.append((_start(node.node, node.name, dict(node.parameters)), node.block_id))
+    return _code(page, {})
 
 
 def _robot_settings(robot: RobotEntry) -> dict[str, Setting]:

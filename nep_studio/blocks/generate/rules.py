@@ -14,7 +14,6 @@ from nep_studio.blocks.slots import constant
 
 from ..code_text import CodeTextRefused, compile_quietly
 from ..errors import CodeRefused
-from . import reporters, statements
 from .expressions import (
     Assignment,
     Body,
@@ -24,15 +23,14 @@ from .expressions import (
     GiveBack,
     Leave,
     Piece,
-    StatementGenerator,
-    ValueGenerator,
     Written,
     comment_lines,
+    compare,
     method_call,
     show,
 )
+from .generators import REPORTERS, STATEMENTS
 from .names import FUNCTIONS
-from .reporters import ROBOT_REPORTERS, ROBOT_STATEMENTS, field_text
 
 
 @dataclass(frozen=True, slots=True)
@@ -50,19 +48,6 @@ class Hat:
 HatGenerator = Callable[[Expressions, Block], Hat]
 
 
-def _when_started(code: Expressions, block: Block) -> Hat:
-    return Hat(ast.Attribute(ast.Name("behavior"), "when_started"), "when_started")
-
-
-def _when(code: Expressions, block: Block, key: str) -> Hat:
-    state = code.slot(block, key)
-    again = code.choice(block, "again")
-    keywords: dict[str, ast.expr] = {} if again == "ignore" else {"again": ast.Constant(again)}
-    decorator = method_call(ast.Name("behavior"), "when", [state], keywords)
-    word = str(code.definition(block).value(block, key))
-    return Hat(decorator, f"when_{key}_{word}" if key == "gesture" else f"when_{word}")
-
-
 def _own_define(code: Expressions, block: Block) -> Hat:
     procedure = code.project.procedures[procedure_of(block.type)]
     given = [f"{procedure.id}.{parameter.id}" for parameter in parameters(procedure)]
@@ -70,28 +55,45 @@ def _own_define(code: Expressions, block: Block) -> Hat:
     return Hat(None, code.names.procedures[procedure.id], tuple(arguments))
 
 
-EVENT_HATS: dict[str, HatGenerator] = {
-    "when_started": _when_started,
-    "when_gesture": lambda code, block: _when(code, block, "gesture"),
-    "when_human_state": lambda code, block: _when(code, block, "state"),
-    "own_define": _own_define,
-}
-
-
-# The generator functions of hats about robots and goals.
+# The generator functions of hats.
 
 _SIDES: dict[str, ast.cmpop] = {"over": ast.Gt(), "under": ast.Lt()}
 _NO_ARGUMENTS = ast.arguments([], [], None, [], [], None, [])
 
 
-def _touched(code: Expressions, block: Block) -> Hat:
-    return _goal_when(code, block, f"touched_{code.choice(block, 'part')}")
+def _hat(name: str, method: str, *arguments: ast.expr, **options: ast.expr) -> Hat:
+    """A rule that begins with a method of the behaviour."""
+    return Hat(method_call(ast.Name("behavior"), method, list(arguments), options), name)
+
+
+def _again(code: Expressions, block: Block) -> dict[str, ast.expr]:
+    again = code.choice(block, "again")
+    return {} if again == "ignore" else {"again": ast.Constant(again)}
+
+
+def _with_source(code: Expressions, block: Block) -> dict[str, ast.expr]:
+    """What to do again, and the robot that must tell of a state, where the hat names one."""
+    options = _again(code, block)
+    if "robot" in code.definition(block).slots:
+        robot = code.text(block, "robot")
+        return options if robot == ALL_ROBOTS else {**options, "source": constant(robot)}
+    return options
+
+
+def _when(code: Expressions, block: Block, key: str, name: str = "when") -> Hat:
+    state = code.slot(block, key)
+    return _hat(f"{name}_{code.text(block, key)}", "when", state, **_again(code, block))
+
+
+def _when_state(code: Expressions, block: Block, sort: str, key: str) -> Hat:
+    """A rule for a state of a sort, such as “touched”, that is told by the choice in a slot."""
+    state = f"{sort}_{code.choice(block, key)}"
+    return _hat(f"when_{state}", "when", ast.Constant(state), **_with_source(code, block))
 
 
 def _heard(code: Expressions, block: Block) -> Hat:
-    word = code.slot(block, "word")
-    name = f"when_heard_{field_text(code, block, 'word')}"
-    return Hat(_behavior("when_heard", [word], _again(code, block)), name)
+    name = f"when_heard_{code.text(block, 'word')}"
+    return _hat(name, "when_heard", code.slot(block, "word"), **_again(code, block))
 
 
 def _noticed(code: Expressions, block: Block, thing: str, key: str = "") -> Hat:
@@ -100,30 +102,16 @@ def _noticed(code: Expressions, block: Block, thing: str, key: str = "") -> Hat:
     words = ["when", thing]
     if key:
         arguments.append(code.slot(block, key))
-        words.append(field_text(code, block, key))
-    options = _again(code, block) | _source(code, block)
-    return Hat(_behavior("when_noticed", arguments, options), "_".join(words))
-
-
-def _person(code: Expressions, block: Block) -> Hat:
-    return _goal_when(code, block, f"person_{code.choice(block, 'distance')}")
-
-
-def _emotion(code: Expressions, block: Block) -> Hat:
-    return _goal_when(code, block, f"emotion_{code.choice(block, 'emotion')}")
+        words.append(code.text(block, key))
+    return _hat("_".join(words), "when_noticed", *arguments, **_with_source(code, block))
 
 
 def _sensor(code: Expressions, block: Block) -> Hat:
     name = code.choice(block, "sensor")
-    value = method_call(code.slot(block, "robot"), "sensor", [ast.Constant(name)], {})
-    side = _SIDES[code.choice(block, "side")]
-    test = ast.Lambda(_NO_ARGUMENTS, ast.Compare(value, [side], [code.slot(block, "value")]))
-    decorator = _behavior("when_true", [test], _again(code, block))
-    return Hat(decorator, f"when_{name}_is_{code.choice(block, 'side')}")
-
-
-def _idle(code: Expressions, block: Block) -> Hat:
-    return Hat(_behavior("when_idle", [code.slot(block, "seconds")], {}), "when_idle")
+    value = method_call(code.slot(block, "robot"), "sensor", [ast.Constant(name)])
+    side = code.choice(block, "side")
+    test = ast.Lambda(_NO_ARGUMENTS, compare(value, _SIDES[side], code.slot(block, "value")))
+    return _hat(f"when_{name}_is_{side}", "when_true", test, **_again(code, block))
 
 
 def _goal(code: Expressions, block: Block) -> Hat:
@@ -134,58 +122,34 @@ def _goal(code: Expressions, block: Block) -> Hat:
         options["stop"] = code.slot(block, "stop_state.1")
     if (interrupted := code.choice(block, "interrupted")) != "again":
         options["interrupted"] = ast.Constant(interrupted)
-    decorator = _behavior("goal", [code.slot(block, "name")], options)
-    return Hat(decorator, f"goal_{field_text(code, block, 'name')}")
+    return _hat(f"goal_{code.text(block, 'name')}", "goal", code.slot(block, "name"), **options)
 
 
 def _when_goal(code: Expressions, block: Block) -> Hat:
     event = code.choice(block, "event")
-    decorator = _behavior("when_goal", [code.slot(block, "name"), ast.Constant(event)], {})
-    return Hat(decorator, f"when_{field_text(code, block, 'name')}_{event}")
+    name = f"when_{code.text(block, 'name')}_{event}"
+    return _hat(name, "when_goal", code.slot(block, "name"), ast.Constant(event))
 
 
-def _goal_when(code: Expressions, block: Block, state: str) -> Hat:
-    options = _again(code, block) | _source(code, block)
-    return Hat(_behavior("when", [ast.Constant(state)], options), f"when_{state}")
-
-
-def _source(code: Expressions, block: Block) -> dict[str, ast.expr]:
-    """The robot that must tell of a state, where the hat names one."""
-    if "robot" not in code.definition(block).slots:
-        return {}
-    robot = field_text(code, block, "robot")
-    return {} if robot == ALL_ROBOTS else {"source": constant(robot)}
-
-
-def _again(code: Expressions, block: Block) -> dict[str, ast.expr]:
-    again = code.choice(block, "again")
-    return {} if again == "ignore" else {"again": ast.Constant(again)}
-
-
-def _behavior(method: str, arguments: list[ast.expr], options: dict[str, ast.expr]) -> ast.expr:
-    return method_call(ast.Name("behavior"), method, arguments, options)
-
-
-GOAL_HATS: dict[str, HatGenerator] = {
-    "when_touched": _touched,
+HATS: dict[str, HatGenerator] = {
+    "when_started": lambda code, block: Hat(
+        ast.Attribute(ast.Name("behavior"), "when_started"), "when_started"
+    ),
+    "when_gesture": lambda code, block: _when(code, block, "gesture", "when_gesture"),
+    "when_human_state": lambda code, block: _when(code, block, "state"),
+    "when_touched": lambda code, block: _when_state(code, block, "touched", "part"),
     "when_heard": _heard,
     "when_sees": lambda code, block: _noticed(code, block, code.choice(block, "thing")),
     "when_sees_face_of": lambda code, block: _noticed(code, block, "face", "name"),
     "when_sees_mark": lambda code, block: _noticed(code, block, "mark", "number"),
-    "when_person": _person,
-    "when_emotion": _emotion,
+    "when_person": lambda code, block: _when_state(code, block, "person", "distance"),
+    "when_emotion": lambda code, block: _when_state(code, block, "emotion", "emotion"),
     "when_sensor": _sensor,
-    "when_idle": _idle,
+    "when_idle": lambda code, block: _hat("when_idle", "when_idle", code.slot(block, "seconds")),
     "goal": _goal,
     "when_goal": _when_goal,
+    "own_define": _own_define,
 }
-
-
-# The generator functions that definitions may name.
-
-HATS: dict[str, HatGenerator] = {**EVENT_HATS, **GOAL_HATS}
-STATEMENTS: dict[str, StatementGenerator] = {**statements.STATEMENTS, **ROBOT_STATEMENTS}
-REPORTERS: dict[str, ValueGenerator] = {**reporters.REPORTERS, **ROBOT_REPORTERS}
 
 
 def generator_names() -> dict[str, frozenset[str]]:
@@ -235,13 +199,16 @@ class _Frame:
     opens: bool = False
 
 
+Line = tuple[str, str]
+"""A line of Python with the block that made it, or an empty text."""
+
+
 class RuleWriter:
-    """Writes one rule; ``blocks[i]`` is the block that made ``lines[i]``."""
+    """Writes one rule: its lines, each with the block that made it."""
 
     def __init__(self, code: Expressions) -> None:
-        self.lines: list[str] = []
-        self.blocks: list[str] = []
-        self.code = self._code = code
+        self.lines: list[Line] = []
+        self._code = code
         self._has_code_blocks = False
 
     def write(self, function_name: str, hat: Hat, stack: Sequence[str]) -> Iterator[None]:
@@ -260,8 +227,7 @@ class RuleWriter:
                 scope = frames.pop().scope
                 if frame.opens and scope.assigned:  # at the end of a function
                     line = f"{_MARGINS[scope.indent]}global {', '.join(sorted(scope.assigned))}"
-                    self.lines.insert(scope.line, line)
-                    self.blocks.insert(scope.line, scope.block)
+                    self.lines.insert(scope.line, (line, scope.block))
             elif isinstance(item, Block):
                 frames.append(self._block(frame, item))
             elif (inner := self._piece(frame, item)) is not None:
@@ -269,11 +235,11 @@ class RuleWriter:
         if self._has_code_blocks:
             # Code that a person wrote is right by itself, but perhaps not where it is
             try:
-                compile_quietly("\n".join(self.lines))
+                compile_quietly("\n".join(line for line, _ in self.lines))
             except CodeTextRefused as refused:
-                number = min(max(refused.line, 1), len(self.blocks))
+                _, block = self.lines[min(max(refused.line, 1), len(self.lines)) - 1]
                 raise CodeRefused(
-                    refused.sentence, block=self.blocks[number - 1], checklist=("Change the code.",)
+                    refused.sentence, block=block, checklist=("Change the code.",)
                 ) from refused
 
     def _block(self, chain: _Frame, block: Block) -> _Frame:
@@ -303,7 +269,7 @@ class RuleWriter:
             return None
         chain = self._code.project.blocks[frame.block].bodies.get(piece.slot, [])
         if isinstance(piece, Function):
-            if not self.lines[-1].endswith(":"):
+            if not self.lines[-1][0].endswith(":"):
                 self._line("", "")
             self._line(f"{margin}def {piece.name}():", frame.block)
             return self._function(chain, frame.block, frame.indent + 1)
@@ -368,8 +334,7 @@ class RuleWriter:
         return iter(blocks)
 
     def _line(self, line: str, block: str) -> None:
-        self.lines.append(line)
-        self.blocks.append(block)
+        self.lines.append((line, block))
 
     def _comment(self, block: Block, margin: str) -> None:
         """What a person wrote at a block; control characters could end the comment."""

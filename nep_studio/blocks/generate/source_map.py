@@ -69,7 +69,6 @@ class Code:
 # Finds the reporter block that made a call of the generated file, by the place of that call.
 
 _PLACE = re.compile(r"@(\d+):(\d+)-(\d+)")
-_MOST_STATEMENTS = 1000
 
 Place = tuple[int, int, int]
 """A line, from 1, and where in it a call begins and ends, in bytes, from 0."""
@@ -95,8 +94,6 @@ class ReporterPlaces:
         if statement is None or statement not in self._project.blocks:
             return None
         if statement not in self._known:
-            if len(self._known) >= _MOST_STATEMENTS:
-                self._known.clear()
             self._known[statement] = self._places(statement)
         return self._known[statement].get((line, begin, end))
 
@@ -118,12 +115,11 @@ class ReporterPlaces:
     def _reporters(self, block: Block) -> Iterator[tuple[str, str]]:
         """The called names and ids of the reporters in a block, in their order in its sentence."""
         definition = self._definitions.get(block.type)
-        slots = list(definition.slots) if definition is not None else []
-        in_order = sorted(
-            block.inputs,
-            key=lambda key: (split_slot(key)[1], _index(slots, split_slot(key)[0])),
-        )
-        for key in in_order:
+        if definition is None:
+            return
+        slots, keys = list(definition.slots), [(*split_slot(key), key) for key in block.inputs]
+        in_order = sorted((number, slots.index(name), key) for name, number, key in keys)
+        for _, _, key in in_order:
             plugged = self._project.blocks[block.inputs[key]]
             made = self._definitions.get(plugged.type)
             if plugged.disabled or made is None:
@@ -131,10 +127,6 @@ class ReporterPlaces:
             if made.call is not None:
                 yield made.call.name, plugged.id
             yield from self._reporters(plugged)
-
-
-def _index(slots: list[str], name: str) -> int:
-    return slots.index(name) if name in slots else len(slots)
 
 
 def _paired(places: list[Place], blocks: list[str]) -> Iterator[tuple[Place, str]]:

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from typing import NamedTuple
+
+from msgspec.structs import replace
 
 from nep_studio.blocks.edits.content import SetField
 
@@ -18,7 +20,7 @@ from ..own_animations import (
     own_animations,
     why_not_animation,
 )
-from ..program import Project
+from ..program import Block, Project
 
 _TABLES = frozenset(table for tables in TABLES.values() for table in tables)
 
@@ -32,17 +34,14 @@ class Use(NamedTuple):
 
 def animation_uses(editor: Editor, name: str) -> list[Use]:
     """The blocks that play an animation, in the order of their making."""
-    return [use for use, used in _all_uses(editor.project, editor.language) if used == name]
+    blocks = editor.project.blocks.values()
+    return [use for use, used in _uses_in(blocks, editor.language) if used == name]
 
 
 def use_of(editor: Editor, block_id: str) -> Use | None:
     """The field in which a block names an animation, or None when it has none."""
-    block = editor.project.blocks[block_id]
-    definition = editor.language.definitions.get(block.type)
-    if definition is None:
-        return None
-    keys = definition.keys(block.groups)
-    return next((Use(block_id, key) for key, slot in keys if slot.table in _TABLES), None)
+    uses = _uses_in([editor.project.blocks[block_id]], editor.language)
+    return next((use for use, _ in uses), None)
 
 
 def keep_animation(editor: Editor, animation: OwnAnimation, name: str = "") -> str:
@@ -61,19 +60,10 @@ def keep_animation(editor: Editor, animation: OwnAnimation, name: str = "") -> s
 def rename_animation(editor: Editor, name: str, title: str) -> str:
     """Give an animation another title, and the name that goes with it; its uses follow."""
     animation = _known(editor, name)
-    renamed = OwnAnimation(
-        title,
-        animation.joints,
-        animation.kind,
-        animation.description,
-        animation.starts_from,
-        animation.says,
-    )
-    others = _taken(editor) - {name}
-    new = free_name(title, others)
+    new = free_name(title, _taken(editor) - {name})
     with editor.transaction("rename a motion"):
         uses = animation_uses(editor, name)
-        keep_animation(editor, renamed, new)
+        keep_animation(editor, replace(animation, title=title), new)
         if new != name:
             for use in uses:
                 editor.apply(SetField(use.block, use.slot, new))
@@ -89,7 +79,7 @@ def delete_animation(editor: Editor, name: str) -> None:
 
 def take_along(target: Project, source: Project, language: Language) -> None:
     """Give a project of copied blocks the animations that they name, from where they were."""
-    used = {name for _, name in _all_uses(target, language)}
+    used = {name for _, name in _uses_in(target.blocks.values(), language)}
     for name, animation in own_animations(source).items():
         if name in used:
             keep(name, animation).apply(target)
@@ -125,9 +115,9 @@ def _taken(editor: Editor) -> set[str]:
     return names | own_animations(editor.project).keys()
 
 
-def _all_uses(project: Project, language: Language) -> Iterator[tuple[Use, object]]:
-    """Each field that names an animation, and the name in it."""
-    for block in project.blocks.values():
+def _uses_in(blocks: Iterable[Block], language: Language) -> Iterator[tuple[Use, object]]:
+    """Each field of blocks that names an animation, and the name in it."""
+    for block in blocks:
         definition = language.definitions.get(block.type)
         if definition is None:
             continue

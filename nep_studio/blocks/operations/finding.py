@@ -13,13 +13,14 @@ from nep_studio.blocks.definitions import Group
 from nep_studio.blocks.deployment import (
     GESTURE_NODE,
     NODE_BLOCK,
+    named_gestures,
     node_entries,
     robot_entries,
 )
 from nep_studio.blocks.editor import Editor
 from nep_studio.blocks.language import Language
 from nep_studio.blocks.procedures import header_of, parameter_of, procedure_of
-from nep_studio.blocks.program import ALL_ROBOTS, ROBOT_BLOCK, Block, Parent, Project
+from nep_studio.blocks.program import ALL_ROBOTS, ROBOT_BLOCK, Block, Project
 from nep_studio.blocks.slots import GESTURE_STATE, why_not_name
 from nep_studio.blocks.text import field_text, sentence
 
@@ -33,13 +34,7 @@ def find(project: Project, language: Language, text: str) -> tuple[str, ...]:
     words = folded(text).split()
     if not words:
         return ()
-    return tuple(
-        block.id
-        for stacks in project.pages.values()
-        for stack in stacks
-        for block in project.within(stack.body)
-        if _has(project, language, block, words)
-    )
+    return tuple(b.id for b in _all_blocks(project) if _has(project, language, b, words))
 
 
 def folded(text: str) -> str:
@@ -66,7 +61,7 @@ def _said(project: Project, language: Language, block: Block) -> Iterator[str]:
             yield from (words for words in inner if isinstance(words, str))
     for key, slot in definition.keys(block.groups):
         if key not in block.inputs and slot.kind.name != "body":
-            yield field_text(project, language, block, slot, definition.value(block, key))
+            yield field_text(project, language, block, slot, definition.value(block, key), key)
 
 
 # What blocks are about (a variable, a robot, a gesture): where it is used, where it is defined.
@@ -89,13 +84,7 @@ def subjects_of(project: Project, language: Language, block_id: str) -> tuple[Su
 
 def uses_of(project: Project, language: Language, subject: Subject) -> tuple[str, ...]:
     """The blocks that name a thing, in page order; the block that defines it is one of them."""
-    return tuple(
-        block.id
-        for stacks in project.pages.values()
-        for stack in stacks
-        for block in project.within(stack.body)
-        if subject in _subjects(language, block)
-    )
+    return tuple(b.id for b in _all_blocks(project) if subject in _subjects(language, b))
 
 
 def definition_of(project: Project, language: Language, subject: Subject) -> str | None:
@@ -117,10 +106,9 @@ def definition_of(project: Project, language: Language, subject: Subject) -> str
 
 def _gesture_node(project: Project, language: Language, gesture: str) -> str | None:
     nodes = [entry for entry in node_entries(project, language) if entry.node == GESTURE_NODE]
-    named = (entry for entry in nodes if entry.parameters.get("gesture") == gesture)
-    for_all = (entry for entry in nodes if not entry.parameters.get("gesture"))
-    entry = next(named, None) or next(for_all, None)
-    return entry.block_id if entry is not None else None
+    named = [entry.block_id for entry in nodes if gesture in named_gestures(entry.parameters)]
+    for_all = [entry.block_id for entry in nodes if not named_gestures(entry.parameters)]
+    return next(iter([*named, *for_all]), None)
 
 
 def _sets(language: Language, block: Block) -> bool:
@@ -132,7 +120,12 @@ def _subjects(language: Language, block: Block) -> Iterator[Subject]:
     definition = language.definitions.get(block.type)
     if definition is None:
         return
-    yield from _own_block(block)
+    # an own block, and before it the parameter that a block stands for
+    procedure, parameter = procedure_of(block.type), parameter_of(block.type)
+    if parameter:
+        yield Subject("parameter", f"{procedure}.{parameter}")
+    if procedure:
+        yield Subject("procedure", procedure)
     for key, slot in definition.keys(block.groups):
         value = definition.value(block, key)
         if not isinstance(value, str) or not value:
@@ -145,17 +138,8 @@ def _subjects(language: Language, block: Block) -> Iterator[Subject]:
         elif block.type == ROBOT_BLOCK and key == "name":
             yield Subject("robot", value)
     parameters = block.fields.get("parameters")
-    if block.type == NODE_BLOCK and isinstance(parameters, dict) and parameters.get("gesture"):
-        yield Subject("gesture", str(parameters["gesture"]))
-
-
-def _own_block(block: Block) -> Iterator[Subject]:
-    """An own block, and before it the parameter that a block stands for."""
-    procedure, parameter = procedure_of(block.type), parameter_of(block.type)
-    if parameter:
-        yield Subject("parameter", f"{procedure}.{parameter}")
-    if procedure:
-        yield Subject("procedure", procedure)
+    if block.type == NODE_BLOCK and isinstance(parameters, dict):
+        yield from (Subject("gesture", name) for name in named_gestures(parameters))
 
 
 def why_not_robot_name(editor: Editor, name: str) -> Text | None:
@@ -184,37 +168,26 @@ class Difference:
     sentence: str
     before: str = ""
 
-    def __str__(self) -> str:
-        if self.what == "changed" and self.before != self.sentence:
-            return f"changed: “{self.before}” is now “{self.sentence}”"
-        return f"{self.what}: “{self.sentence}”"
-
 
 def compare(old: Project, new: Project, language: Language) -> tuple[Difference, ...]:
     """The blocks that differ, as ids say which are the same; a block that moved with the one
     around it has not moved itself.
     """
-    return (*_in_new(old, new, language), *_removed(old, new, language))
-
-
-def _in_new(old: Project, new: Project, language: Language) -> Iterator[Difference]:
     moved = _moved(old, new)
+    found = []
     for block in _all_blocks(new):
-        said = sentence(new, language, block.id)
-        before = old.blocks.get(block.id)
+        said, before = sentence(new, language, block.id), old.blocks.get(block.id)
         if before is None:
-            yield Difference("added", block.id, said)
+            found.append(Difference("added", block.id, said))
             continue
         if block.id in moved:
-            yield Difference("moved", block.id, said)
+            found.append(Difference("moved", block.id, said))
         if _content(before) != _content(block):
-            yield Difference("changed", block.id, said, sentence(old, language, block.id))
-
-
-def _removed(old: Project, new: Project, language: Language) -> Iterator[Difference]:
-    for block in _all_blocks(old):
-        if block.id not in new.blocks:
-            yield Difference("removed", block.id, sentence(old, language, block.id))
+            was = sentence(old, language, block.id)
+            found.append(Difference("changed", block.id, said, was))
+    gone = [block.id for block in _all_blocks(old) if block.id not in new.blocks]
+    found += [Difference("removed", block, sentence(old, language, block)) for block in gone]
+    return tuple(found)
 
 
 def _all_blocks(project: Project) -> Iterator[Block]:
@@ -231,16 +204,12 @@ def _content(block: Block) -> tuple[object, ...]:
 def _moved(old: Project, new: Project) -> set[str]:
     """Blocks that are in another place, or in another order among those that stayed there."""
     both = old.blocks.keys() & new.blocks.keys()
-    moved = {block for block in both if _owner(old, block) != _owner(new, block)}
+    moved = {block for block in both if old.parents[block] != new.parents[block]}
     for parent in {new.parents[block] for block in both - moved}:
         before = [b for b in old.chain_of(parent) or () if b in both - moved]
         after = [b for b in new.chain_of(parent) or () if b in both - moved]
         moved |= _out_of_order(before, after)
     return moved
-
-
-def _owner(project: Project, block: str) -> Parent:
-    return project.parents[block]
 
 
 def _out_of_order(before: Sequence[str], after: Sequence[str]) -> set[str]:

@@ -5,8 +5,7 @@ from __future__ import annotations
 import itertools
 from collections.abc import Callable, Mapping
 
-from faults import Words
-from nep_studio.blocks.checks.diagnostic import Diagnostic, Fix
+from nep_studio.blocks.checks.diagnostic import Diagnostic
 from nep_studio.blocks.deployment import (
     GESTURE_NODE,
     NODE_BLOCK,
@@ -36,13 +35,8 @@ def apply_fix(editor: Editor, problem: Diagnostic) -> str:
         raise EditRefused(
             "The program cannot do this by itself.", checklist=problem.checklist or ()
         )
-    with editor.transaction(label_of(fix)):
+    with editor.transaction(fix.label):
         return FIXES[fix.name](editor, fix.data)
-
-
-def label_of(fix: Fix) -> Words:
-    """What the button of a fix says, and the step that undoes it."""
-    return fix.label
 
 
 def _add_robot(editor: Editor, data: Data) -> str:
@@ -64,11 +58,11 @@ def _add_wait(editor: Editor, data: Data) -> str:
     owner = editor.project.blocks.get(data["block"])
     if owner is None:
         raise EditRefused("This block is not there any more.")
-    end = InBody(owner.id, data["slot"], len(owner.bodies.get(data["slot"], [])))
-    begin = InBody(owner.id, data["slot"], 0)
+    place = InBody(owner.id, data["slot"], len(owner.bodies.get(data["slot"], [])))
     new = editor.language.definitions[WAIT].new_block(editor.project.new_id("b"))
-    fits = editor.why_not(CreateBlocks((new.id,), (new,), end)) is None
-    return editor.create(WAIT, end if fits else begin)
+    if editor.why_not(CreateBlocks((new.id,), (new,), place)) is not None:
+        place = InBody(owner.id, data["slot"], 0)
+    return editor.create(WAIT, place)
 
 
 def _stand_first(editor: Editor, data: Data) -> str:
@@ -83,23 +77,16 @@ def _stand_first(editor: Editor, data: Data) -> str:
 
 def _let_robot(editor: Editor, data: Data) -> str:
     """Let another robot do what a block asks."""
-    return _set(editor, data["block"], _robot_slot(editor, data["block"]), data["robot"])
+    block = editor.project.blocks.get(data["block"])
+    definition = editor.language.definitions.get(block.type) if block is not None else None
+    slots = definition.slots.values() if definition is not None else ()
+    robot = next((slot.name for slot in slots if slot.kind.name == "robot"), "")
+    return _choose(editor, {"block": data["block"], "slot": robot, "value": data["robot"]})
 
 
 def _choose(editor: Editor, data: Data) -> str:
-    return _set(editor, data["block"], data["slot"], data["value"])
-
-
-def _robot_slot(editor: Editor, block_id: str) -> str:
-    block = editor.project.blocks.get(block_id)
-    definition = editor.language.definitions.get(block.type) if block is not None else None
-    slots = definition.slots.values() if definition is not None else ()
-    return next((slot.name for slot in slots if slot.kind.name == "robot"), "")
-
-
-def _set(editor: Editor, block: str, slot: str, value: str) -> str:
-    editor.apply(SetField(block, slot, value))
-    return block
+    editor.apply(SetField(data["block"], data["slot"], data["value"]))
+    return data["block"]
 
 
 def append_entry(
@@ -146,7 +133,6 @@ FIXES: dict[str, Callable[[Editor, Data], str]] = {
 # Let a robot of the Robots page be the real one at an address, as one step.
 
 REAL = "naoqi"
-ROBOTS_PAGE = "robots"
 
 
 def use_real_robot(editor: Editor, name: str, address: str, label: str) -> str:
@@ -157,7 +143,7 @@ def use_real_robot(editor: Editor, name: str, address: str, label: str) -> str:
     entries = robot_entries(editor.project, editor.language)
     block = next((entry.block_id for entry in entries if entry.name == name), "")
     with editor.transaction(label):
-        block = block or append_entry(editor, ROBOTS_PAGE, ROBOT_BLOCK, {"name": name})
+        block = block or append_entry(editor, "robots", ROBOT_BLOCK, {"name": name})
         editor.apply(SetField(block, "driver", REAL))
         editor.apply(SetField(block, "address", address))
     return block
@@ -168,7 +154,6 @@ def use_real_robot(editor: Editor, name: str, address: str, label: str) -> str:
 WATCH = "sensory/smartwatch"
 STAND_INS = ("sensory/virtual_watch", "sensory/replay")
 """What gives movements as long as there is no real watch."""
-NODES_PAGE = "nodes"
 USUAL_NAME = "watch"
 
 
@@ -195,7 +180,7 @@ def use_watch(
         for block_id in gone:
             editor.apply(DeleteBlocks(block_id, 1))
         if changed is None:
-            return append_entry(editor, NODES_PAGE, NODE_BLOCK, fields)
+            return append_entry(editor, "nodes", NODE_BLOCK, fields)
         for slot, value in fields.items():
             editor.apply(SetField(changed.block_id, slot, value))
     return changed.block_id
@@ -208,15 +193,13 @@ def watch_entry(entries: tuple[NodeEntry, ...], name: str = "") -> NodeEntry | N
     """
     if name and (named := next((one for one in entries if one.name == name), None)):
         return named
-    wanted = [*([] if name else [WATCH]), *STAND_INS]
-    found = [one for node in wanted for one in entries if one.node == node]
-    return found[0] if found else None
+    wanted = STAND_INS if name else (WATCH, *STAND_INS)
+    return next((one for node in wanted for one in entries if one.node == node), None)
 
 
 # Let a program that has no beginning begin when it starts.
 
 STARTED = "event.started"
-BEHAVIOUR_PAGE = "behaviour"
 
 
 def add_start(editor: Editor) -> str:
@@ -226,11 +209,11 @@ def add_start(editor: Editor) -> str:
     """
     with editor.transaction("Add a beginning"):
         block = editor.language.definitions[STARTED].new_block(editor.project.new_id("b"))
-        for stack in editor.project.pages[BEHAVIOUR_PAGE]:
+        for stack in editor.project.pages["behaviour"]:
             edit = CreateBlocks((block.id,), (block,), InStack(stack.id, 0))
             if editor.why_not(edit) is None:
                 editor.apply(edit)
                 return block.id
-        place = editor.new_stack(BEHAVIOUR_PAGE, 40.0, 40.0)
+        place = editor.new_stack("behaviour", 40.0, 40.0)
         editor.apply(CreateBlocks((block.id,), (block,), place))
         return block.id

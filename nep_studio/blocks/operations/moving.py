@@ -8,8 +8,8 @@ from itertools import groupby
 from typing import Literal, NamedTuple
 
 from faults import Text
-from nep_studio.blocks.connections import why_not_below, why_not_chained
 from nep_studio.blocks.definitions import Definition
+from nep_studio.blocks.edit_rules import why_not_below, why_not_chained
 from nep_studio.blocks.editor import Editor
 from nep_studio.blocks.edits import Edit
 from nep_studio.blocks.edits.content import AddProcedure
@@ -17,19 +17,12 @@ from nep_studio.blocks.edits.placing import CreateBlocks, MoveBlocks
 from nep_studio.blocks.edits.project import MoveStack
 from nep_studio.blocks.errors import EditRefused
 from nep_studio.blocks.language import Language
-from nep_studio.blocks.places import InBody, InInput, InStack, NewStack, Place, place_of
+from nep_studio.blocks.places import InBody, InInput, InStack, NewStack, Place, chain_at, place_of
 from nep_studio.blocks.procedures import procedure_of
 from nep_studio.blocks.program import Block, Project
 
 from .copying import STEP, UNKNOWN, Clip, Points, clip_of, paste_at
-from .selection import (
-    Run,
-    chain_around,
-    is_within_run,
-    members,
-    run_from,
-    runs,
-)
+from .selection import Run, chain_around, is_within_run, members, run_from, runs
 
 # Tidying: stacks that lie on each other are pushed apart, the others stay where they are.
 
@@ -55,15 +48,13 @@ class Box(NamedTuple):
         )
 
 
-def pushed_apart(box: Box, others: Collection[Box], gap: float = GAP) -> Box:
+def pushed_apart(box: Box, others: Collection[Box]) -> Box:
     """The box moved right or down, whichever is less each time, until it is clear of the others.
 
     Once clear of a box it stays so, as it never goes back: at most one move for each.
     """
-    while blocking := [other for other in others if box.overlaps(other, gap)]:
-        other = blocking[0]
-        right = other.x + other.width + gap
-        down = other.y + other.height + gap
+    while other := next((other for other in others if box.overlaps(other, GAP)), None):
+        right, down = other.x + other.width + GAP, other.y + other.height + GAP
         is_right_nearer = right - box.x < down - box.y
         box = box._replace(x=right) if is_right_nearer else box._replace(y=down)
     return box
@@ -99,17 +90,16 @@ def tidy(
     return moved
 
 
-def apart(boxes: Mapping[str, Box], gap: float = GAP) -> dict[str, Box]:
+def apart(boxes: Mapping[str, Box]) -> dict[str, Box]:
     """Boxes in reading order, each pushed clear of those before it; who is clear stays."""
     placed: dict[str, Box] = {}
-    for stack in sorted(boxes, key=lambda stack: (boxes[stack].y, boxes[stack].x)):
-        touching = [box for box in placed.values() if boxes[stack].overlaps(box)]
-        free = not touching
-        placed[stack] = boxes[stack] if free else pushed_apart(boxes[stack], placed.values(), gap)
+    for stack, box in sorted(boxes.items(), key=lambda item: (item[1].y, item[1].x)):
+        is_touching = any(box.overlaps(other) for other in placed.values())
+        placed[stack] = pushed_apart(box, placed.values()) if is_touching else box
     return placed
 
 
-def in_columns(boxes: Mapping[str, Box], gap: float = GAP) -> dict[str, Box]:
+def in_columns(boxes: Mapping[str, Box]) -> dict[str, Box]:
     """Boxes in columns: those whose left edges are near each other are one column."""
     placed: dict[str, Box] = {}
     by_x = sorted(boxes, key=lambda stack: boxes[stack].x)
@@ -119,8 +109,8 @@ def in_columns(boxes: Mapping[str, Box], gap: float = GAP) -> dict[str, Box]:
         x, y = right, top
         for stack in sorted(column, key=lambda stack: (boxes[stack].y, boxes[stack].x)):
             placed[stack] = boxes[stack]._replace(x=x, y=y)
-            y += boxes[stack].height + gap
-            right = max(right, x + boxes[stack].width + gap)
+            y += boxes[stack].height + GAP
+            right = max(right, x + boxes[stack].width + GAP)
     return placed
 
 
@@ -159,14 +149,6 @@ def load_of_run(project: Project, run: Run) -> Load:
     """The load that blocks of the project are."""
     chain = [project.blocks[block] for block in members(project, run)]
     return Load(chain, lambda place: MoveBlocks(run.first, run.count, place), run)
-
-
-def load_of_clip(clip: Clip) -> Load:
-    """The load that the blocks of a clip of one stack are."""
-    roots = clip.roots[0]
-    blocks = tuple(clip.project.within(roots))
-    chain = [clip.project.blocks[root] for root in roots]
-    return Load(chain, lambda place: CreateBlocks(roots, blocks, place))
 
 
 def why_not_land(editor: Editor, load: Load, place: Place, *, wrap: bool) -> Text | None:
@@ -225,22 +207,11 @@ def blocks_below(project: Project, load: Load, place: Place) -> list[str]:
     return left[place.index :] if isinstance(place, InStack | InBody) else []
 
 
-def chain_at(project: Project, place: Place) -> list[str]:
-    """The chain that a place is in, as it is now; empty when it is none yet."""
-    if isinstance(place, InStack) and place.stack in project.stacks:
-        return project.stacks[place.stack].body
-    if isinstance(place, InBody) and place.block in project.blocks:
-        return project.blocks[place.block].bodies.get(place.slot, [])
-    return []
-
-
 def page_at(project: Project, place: Place) -> str:
     """The page of a place."""
     if isinstance(place, NewStack):
         return place.page
-    if isinstance(place, InStack):
-        return project.page_of(place.stack)
-    return project.page_of(place.block)
+    return project.page_of(place.stack if isinstance(place, InStack) else place.block)
 
 
 Point = tuple[float, float]
@@ -256,11 +227,6 @@ class Carried:
     def first(self) -> str:
         """The block by which they are carried: the first of the first run."""
         return self.runs[0].first
-
-    @property
-    def is_single(self) -> bool:
-        """Whether it is one run, which can be dropped into any place."""
-        return len(self.runs) == 1
 
 
 def pick_up(
@@ -280,7 +246,7 @@ def why_not_drop(
     editor: Editor, carried: Carried, place: Place, *, wrap: bool = False
 ) -> Text | None:
     """Why what is carried cannot be dropped into a place, or None when it can."""
-    if not carried.is_single:
+    if len(carried.runs) > 1:
         return Text("Several stacks can be put onto a page only, not into one place.")
     if carried.first not in editor.project.blocks:
         return Text("This block is not there any more.")
@@ -352,7 +318,11 @@ def why_not_create(editor: Editor, clip: Clip, place: Place, *, wrap: bool = Fal
     """Why the new blocks of a clip cannot be put into a place, or None when they can."""
     if len(clip.stacks) != 1:
         return Text("Several stacks can be put onto a page only, not into one place.")
-    return why_not_land(editor, load_of_clip(clip), place, wrap=wrap)
+    roots = clip.roots[0]
+    blocks = tuple(clip.project.within(roots))
+    chain = [clip.project.blocks[root] for root in roots]
+    load = Load(chain, lambda there: CreateBlocks(roots, blocks, there))
+    return why_not_land(editor, load, place, wrap=wrap)
 
 
 def move_by(
@@ -400,54 +370,37 @@ def _only_slot_for(editor: Editor, block: str, owner: str) -> str:
 
 
 def _chain(editor: Editor, run: Run, place: Place, wrap: bool, beside: Point | None) -> None:
+    """Put a run into a chain; what cannot stay below goes into its mouth or onto the page."""
     project = editor.project
     load = load_of_run(project, run)
     below = blocks_below(project, load, place)
     body = mouth(editor, load, wrap=wrap) if below else ""
     if body or is_cut(editor, load, place):
-        place = _clear_below(editor, run, load, place, below, body, beside)
+        if project.parents[run.first] == project.parents[below[0]]:
+            set_aside(editor, run)  # so that the blocks below follow each other
+        stack = project.stack_of(below[0])
+        page = project.page_of(stack.id)
+        again = NewStack(page, stack.id, stack.x, stack.y, project.pages[page].index(stack))
+        if body:
+            editor.apply(MoveBlocks(below[0], len(below), InBody(run.first, body, 0)))
+        else:
+            set_aside(editor, Run(below[0], len(below)), beside)
+        if isinstance(place, InStack) and stack.id not in project.stacks:
+            place = again  # a stack that became empty by that has to be made anew
     editor.apply(MoveBlocks(run.first, run.count, place))
-
-
-def _clear_below(
-    editor: Editor,
-    run: Run,
-    load: Load,
-    place: Place,
-    below: list[str],
-    body: str,
-    beside: Point | None,
-) -> Place:
-    """Take away the blocks below a place, into the mouth ``body`` or onto the page.
-
-    Gives the place again: a stack that became empty by that has to be made anew.
-    """
-    project = editor.project
-    if project.parents[run.first] == project.parents[below[0]]:
-        set_aside(editor, run)  # so that the blocks below follow each other
-    rest = Run(below[0], len(below))
-    stack = project.stack_of(below[0])
-    page = project.page_of(stack.id)
-    again = NewStack(page, stack.id, stack.x, stack.y, project.pages[page].index(stack))
-    if body:
-        editor.apply(MoveBlocks(rest.first, rest.count, InBody(run.first, body, 0)))
-    else:
-        set_aside(editor, rest, beside)
-    return again if isinstance(place, InStack) and stack.id not in project.stacks else place
 
 
 # Where a stack goes that was dropped very near to another one, without snapping to it.
 
 
-def bumped(box: Box, others: Mapping[str, Box], gap: float = GAP) -> tuple[float, float] | None:
+def bumped(box: Box, others: Mapping[str, Box]) -> tuple[float, float] | None:
     """Where the stack in ``box`` has to move so that it is clear, or None when it is clear.
 
     ``others`` are the boxes of the other stacks of the page by stack.
     """
-    near = [other for other in others.values() if box.overlaps(other)]
-    if not near:
+    if not any(box.overlaps(other) for other in others.values()):
         return None
-    clear = pushed_apart(box, others.values(), gap)
+    clear = pushed_apart(box, others.values())
     return clear.x, clear.y
 
 
@@ -474,10 +427,9 @@ def why_not_enclose(editor: Editor, block_type: str, run: Run) -> Text | None:
 def enclose(editor: Editor, block: str, run: Run) -> None:
     """Put a C block, which comes out of its place alone, around a run; raises EditRefused."""
     project = editor.project
-    body = first_body(
-        editor.language.definitions[project.blocks[block].type], project.blocks[block]
-    )
-    if not body or project.blocks[block].bodies.get(body):
+    holder = project.blocks[block]
+    body = first_body(editor.language.definitions[holder.type], holder)
+    if not body or holder.bodies.get(body):
         raise EditRefused(
             "This block has no free place for blocks inside it.",
             checklist=("Take out what is inside it, or take another block.",),
@@ -507,7 +459,6 @@ def reporter_of(project: Project, language: Language, block_id: str, slot: str) 
         return None
     if there.kind.name == "variable":
         variable = project.variable(str(definition.value(block, slot)))
-        # The type of the block that gives the value of a variable
         getters = (d.id for d in language.definitions.values() if d.generator == "variable")
         getter = next(getters, "")
         if variable is None or not getter:
@@ -515,12 +466,8 @@ def reporter_of(project: Project, language: Language, block_id: str, slot: str) 
         clip = clip_of(language, getter, variable=variable.id)
         clip.project.variables.append(variable)
         return clip
-    if there.kind.name == "parameter":
-        block_type = there.table
-        if block_type not in language.definitions:
-            return None
-        clip = clip_of(language, block_type)
-        procedure = project.procedures[procedure_of(block_type)]
-        AddProcedure(procedure, 0).apply(clip.project)
+    if there.kind.name == "parameter" and there.table in language.definitions:
+        clip = clip_of(language, there.table)
+        AddProcedure(project.procedures[procedure_of(there.table)], 0).apply(clip.project)
         return clip
     return None

@@ -58,13 +58,6 @@ def chain_around(project: Project, block: str) -> list[str]:
     return project.chain_of(project.parents[block]) or [block]
 
 
-def above(project: Project, block: str) -> str | None:
-    """The block directly above in the chain, or None."""
-    chain = chain_around(project, block)
-    index = chain.index(block)
-    return chain[index - 1] if index else None
-
-
 def is_inside(project: Project, block: str, others: Collection[str]) -> bool:
     """Whether a block is inside one of the others, however deep."""
     owner = project.parents[block].owner

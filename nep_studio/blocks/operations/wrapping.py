@@ -15,7 +15,7 @@ from nep_studio.blocks.places import InBody, InInput, InStack, place_of
 from nep_studio.blocks.program import Block
 from nep_studio.blocks.slots import FieldValue
 
-from .moving import Point, first_body, set_aside
+from .moving import Point, first_body, set_aside, without_hat
 from .selection import Run, members, require_runs
 
 
@@ -98,16 +98,13 @@ def _single(editor: Editor, ids: Iterable[str]) -> Run:
 
 
 def _without_hat(editor: Editor, run: Run) -> Run:
-    blocks = editor.project.blocks
-    definition = editor.language.definitions.get(blocks[run.first].type)
-    if definition is None or definition.shape != "hat":
-        return run
-    if run.count == 1:
+    left = without_hat(editor, run)
+    if left is None:
         raise EditRefused(
             "A “when” block begins a stack: no block goes around it.",
             checklist=("Choose the blocks below it.",),
         )
-    return Run(members(editor.project, run)[1], run.count - 1)
+    return left
 
 
 # Disable, collapse and comment several blocks at once.
@@ -161,10 +158,10 @@ def _set(editor: Editor, ids: Iterable[str], flag: Flag, on: bool) -> None:
 # The repeated parts of a block (else-ifs, items): add, remove, put in another order.
 
 
-def add_part(editor: Editor, block_id: str, group: str, index: int | None = None) -> int:
-    """Add a part to a block, as number ``index`` from 1, else the last; gives its number."""
+def add_part(editor: Editor, block_id: str, group: str) -> int:
+    """Add a part to the end of a block; gives its number."""
     block, definition = _require(editor, block_id, group)
-    number = block.groups.get(group, 0) + 1 if index is None else index
+    number = block.groups.get(group, 0) + 1
     slots = definition.group_slots(group)
     fields = {slot: definition.defaults[slot] for slot in slots if slot in definition.defaults}
     editor.apply(AddGroup(block_id, group, number, slots, fields), "add a part")

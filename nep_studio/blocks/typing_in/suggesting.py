@@ -14,7 +14,7 @@ from nep_studio.blocks.from_python.learning import Made, blocks_of
 from nep_studio.blocks.language import Language
 from nep_studio.blocks.operations.copying import Clip, clip_of
 from nep_studio.blocks.operations.finding import folded
-from nep_studio.blocks.operations.moving import Point, create_and_drop, why_not_create
+from nep_studio.blocks.operations.moving import why_not_create
 from nep_studio.blocks.places import NewStack, Place
 from nep_studio.blocks.program import Parent, Project, Variable
 from nep_studio.blocks.text import sentence
@@ -271,13 +271,8 @@ def _suggestion(attempt: _Try, filler: Filler, recents: Sequence[str]) -> Sugges
             made.inputs[slot] = filling.value
         else:
             made.fields[slot] = filling.value
-    return _as_suggestion(
-        made,
-        filler,
-        attempt.score + _recency(definition.id, recents),
-        attempt.matched,
-        new_variables,
-    )
+    score = attempt.score + _recency(definition.id, recents)
+    return _as_suggestion(made, filler, score, attempt.matched, new_variables)
 
 
 def _as_suggestion(
@@ -355,21 +350,7 @@ def _recency(block_type: str, recents: Sequence[str]) -> float:
     return RECENT / (1 + recents.index(block_type)) if block_type in recents else 0.0
 
 
-# Make the block of a suggestion in the program, as one step.
-
-
-def create(
-    editor: Editor,
-    suggestion: Suggestion,
-    place: Place,
-    *,
-    wrap: bool = False,
-    beside: Point | None = None,
-) -> str:
-    """Make the block of a suggestion in a place, as ``create_and_drop`` does; gives its id."""
-    with editor.transaction("add blocks"):
-        clip = clip_of_suggestion(editor, suggestion)
-        return create_and_drop(editor, clip, place, wrap=wrap, beside=beside)[0]
+# The block of a suggestion, to be put into a program.
 
 
 def clip_of_suggestion(editor: Editor, suggestion: Suggestion) -> Clip:

@@ -12,6 +12,7 @@ from collections import defaultdict
 from collections.abc import Container, Mapping
 from dataclasses import dataclass, field
 
+from nep_studio.blocks.arithmetic import typed_number
 from nep_studio.blocks.definitions import Definition, Group, Part, Slot
 from nep_studio.blocks.from_python.learning import Made
 from nep_studio.blocks.from_python.values import SourceNames
@@ -109,7 +110,6 @@ class Entry:
     """A definition with its words, each with its place among the parts of the sentence."""
 
     definition: Definition
-    number: int
     words: tuple[tuple[str, int], ...]
     choices: Mapping[str, tuple[tuple[str, str], ...]]
     """By slot, the values that can be chosen: the label without case and accents, and the value."""
@@ -174,7 +174,7 @@ def _made(language: Language) -> Vocabulary:
         for place, part in enumerate(definition.parts):
             for text in _texts(part, definition):
                 words += [(word, place) for word in split_words(text)]
-        entry = Entry(definition, number, tuple(words), _choices(definition, language))
+        entry = Entry(definition, tuple(words), _choices(definition, language))
         found.entries.append(entry)
         for word, _ in entry.words:
             found.by_word[word].add(number)
@@ -206,20 +206,14 @@ def _choices(definition: Definition, language: Language) -> dict[str, tuple[tupl
     tables = {}
     for slot in definition.slots.values():
         if (slot.kind.table or slot.kind.name == "choice") and not slot.group and not slot.master:
-            tables[slot.name] = _labels(slot, language)
+            offered = language.choices_of(slot).items()
+            labels = ((f"{label} {value}".replace("_", " "), value) for value, label in offered)
+            tables[slot.name] = tuple((folded(label), value) for label, value in labels)
     return tables
-
-
-def _labels(slot: Slot, language: Language) -> tuple[tuple[str, str], ...]:
-    offered = language.choices_of(slot)
-    return tuple(
-        (folded(f"{label} {value}".replace("_", " ")), value) for value, label in offered.items()
-    )
 
 
 # What typed words mean in a slot: a number, a choice, a variable, a text, a small expression.
 
-_NUMBER = re.compile(r"[-+]?([0-9]+([.,][0-9]*)?|[.,][0-9]+)")
 _TYPED_SIGNS = str.maketrans({"×": "*", "÷": "/", "−": "-", "≤": "<", "≥": ">", "≠": "!"})  # noqa: RUF001 signs that people type
 _LONGER_SIGNS = (("≤", "<="), ("≥", ">="), ("≠", "!="), ("^", "**"))
 _OPERATORS = re.compile(r"[-+*/%<>=×÷−≤≥≠^]|\b(and|or|not)\b")  # noqa: RUF001 signs that people type
@@ -308,11 +302,11 @@ class Filler:
             result = self.language.definitions[getter].result if getter else ""
             if result in slot.kind.fits:
                 return Filling(Made(getter, {"variable": self.variables[plain]}), FITTING)
-        if slot.kind.pluggable and _OPERATORS.search(text) and not _NUMBER.fullmatch(text):
+        number = number_in(text)
+        if slot.kind.pluggable and _OPERATORS.search(text) and number is None:
             found = self.expression(text)
             if found is not None and found[1] in slot.kind.fits:
                 return Filling(found[0], NAMED)
-        number = number_in(text)
         if slot.kind.is_number:
             return self._checked(slot, number, FITTING) if number is not None else None
         if number is not None and slot.why_not(number) is None:
@@ -346,11 +340,8 @@ class Filler:
 
 def number_in(text: str) -> int | float | None:
     """The number that a text is, with a point or a comma, or None."""
-    if not _NUMBER.fullmatch(text):
-        return None
-    plain = text.replace(",", ".")
-    value = float(plain)
-    return int(value) if value.is_integer() and "." not in plain else value
+    number = typed_number(text)
+    return None if isinstance(number, str) else number
 
 
 def is_quoted(text: str) -> bool:
@@ -374,18 +365,11 @@ def _parsed(text: str) -> ast.expr | None:
     if len(text) > LONGEST_EXPRESSION:
         return None
     try:
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore")
+        with warnings.catch_warnings(action="ignore"):
             return ast.parse(text.strip(), mode="eval").body
     except (SyntaxError, ValueError, RecursionError, MemoryError):
         return None
 
 
 def _has_code(made: Made) -> bool:
-    waiting = [made]
-    while waiting:
-        made = waiting.pop()
-        if made.type.startswith("code."):
-            return True
-        waiting += made.inner()
-    return False
+    return made.type.startswith("code.") or any(map(_has_code, made.inner()))

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 from block_building import B, build, karate
 from operating import one_step, rule, say
-from sound_programs import WAIT, sound
+from sound_programs import WAIT, karate_node, sound
 
 from nep_studio.blocks import checks
 from nep_studio.blocks.checks import check
@@ -27,7 +27,7 @@ from nep_studio.blocks.operations.finding import (
     subjects_of,
     uses_of,
 )
-from nep_studio.blocks.operations.fixes import FIXES, apply_fix, label_of
+from nep_studio.blocks.operations.fixes import FIXES, apply_fix
 from nep_studio.blocks.places import InStack
 
 
@@ -72,6 +72,18 @@ def test_uses_and_definitions_of_what_blocks_name(language):
     assert definition_of(project, language, Subject("robot", "Pepper")) is None
 
 
+def test_a_node_that_recognises_several_gestures_defines_each(language):
+    editor = build(language, [karate_node(gesture="wave, karate")], page="nodes")
+    project = editor.project
+    (node,) = project.pages["nodes"][0].body
+
+    assert subjects_of(project, language, node) == (
+        Subject("gesture", "wave"),
+        Subject("gesture", "karate"),
+    )
+    assert definition_of(project, language, Subject("gesture", "karate")) == node
+
+
 def test_two_versions_are_compared_in_words(language):
     editor, (_, a, b, _, d) = rule(language, say("a"), say("b"), say("c"), say("d"))
     old = from_bytes(to_bytes(editor.project), "old.nep", language)
@@ -83,7 +95,7 @@ def test_two_versions_are_compared_in_words(language):
     found = {(it.what, it.block) for it in compare(old, editor.project, language)}
 
     assert found == {("changed", a), ("removed", b), ("moved", d), ("added", new)}
-    assert any("new words" in str(it) for it in compare(old, editor.project, language))
+    assert any("new words" in it.sentence for it in compare(old, editor.project, language))
     assert compare(old, old, language) == ()
 
 
@@ -116,7 +128,7 @@ def test_a_fix_makes_its_problem_go_away_in_one_step(language, case):
         block = apply_fix(editor, problem)
 
     assert block in editor.project.blocks
-    assert editor.history.undo_label == label_of(problem.fix)
+    assert editor.history.undo_label == problem.fix.label
     again = [(p.kind, p.block) for p in check(editor.project, language)]
     assert (problem.kind, problem.block) not in again
 

@@ -9,9 +9,10 @@ from block_building import B, build
 
 from nep_studio.blocks.definitions import parse, slots_of
 from nep_studio.blocks.language import Language
+from nep_studio.blocks.operations.moving import create_and_drop
 from nep_studio.blocks.places import InInput, InStack
 from nep_studio.blocks.program import Project
-from nep_studio.blocks.typing_in.suggesting import create, fitting, suggestions
+from nep_studio.blocks.typing_in.suggesting import clip_of_suggestion, fitting, suggestions
 
 
 @pytest.fixture
@@ -25,6 +26,10 @@ def editor(language):
 
 def best(text, editor, **options):
     return suggestions(text, editor.language, editor.project, **options)[0]
+
+
+def create(editor, suggestion, place):
+    return create_and_drop(editor, clip_of_suggestion(editor, suggestion), place)[0]
 
 
 @pytest.mark.parametrize(

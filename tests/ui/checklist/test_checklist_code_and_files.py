@@ -79,7 +79,7 @@ def test_two_versions_differ_in_the_lines_that_were_changed(person: Person, tmp_
     path = tmp_path / "before.nep"
     path.write_text("\n".join(before), encoding="utf-8")
     [difference] = compare(load(path, old), person.project, old)
-    assert "changed" in str(difference)
+    assert difference.what == "changed"
 
 
 def test_live_python_beside_the_blocks_click_line_and_block(person: Person) -> None:
