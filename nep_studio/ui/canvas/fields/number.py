@@ -9,12 +9,7 @@ from PySide6.QtGui import QKeyEvent
 from PySide6.QtWidgets import QGridLayout, QHBoxLayout, QLabel, QLineEdit, QPushButton, QSlider
 from PySide6.QtWidgets import QWidget as Widget
 
-from nep_studio.blocks.arithmetic import (
-    ArithmeticRefused,
-    number_of,
-    number_text,
-    typed_number,
-)
+from nep_studio.blocks.arithmetic import ArithmeticRefused, number_of, number_text, typed_number
 from nep_studio.ui.widgets.layouts import in_row
 from nep_studio.ui.words import tr
 

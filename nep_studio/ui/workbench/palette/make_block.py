@@ -105,11 +105,7 @@ class MakeBlockDialog(QDialog):
     """Puts an own block together, or changes one, and shows it as it will look."""
 
     def __init__(
-        self,
-        canvas: Canvas,
-        make: MakeBlock,
-        parent: QWidget,
-        procedure: Procedure | None = None,
+        self, canvas: Canvas, make: MakeBlock, parent: QWidget, procedure: Procedure | None = None
     ) -> None:
         super().__init__(parent)
         self.canvas = canvas
