@@ -20,8 +20,9 @@ from .selection import Selection
 
 if TYPE_CHECKING:
     from .editing.commands import Commands
-    from .editing.gesture import Gesture
     from .editing.marks import DragMarks
+    from .editing.pointing import Pointing
+    from .fields.editors import FieldEditors
     from .painting.layers import Layers
     from .painting.notes import Notes
     from .painting.overlay import ProblemOverlay
@@ -57,114 +58,39 @@ class CanvasNews(QObject):
     file_dropped = Signal(str)
 
 
-class Fields(Protocol):
-    """The editors of fields; one at most is open."""
-
-    @property
-    def place(self) -> tuple[str, str] | None:
-        """The block and field that are edited now."""
-
-    def open(self, block: str, key: str) -> bool:
-        """Edit a field; False when it has no editor."""
-
-    def open_comment(self, block: str) -> None:
-        """Show the comment of a block, to read and to write."""
-
-    def press_button(self, block: str, action: str, group: str, number: int) -> None:
-        """Do what a button inside a block says: add, remove, expand, comment."""
-
-    def close(self) -> None:
-        """Keep what was typed, and take the editor away."""
-
-
-class Hand(Protocol):
-    """The pointer over a canvas, and the gesture that is under way with it."""
-
-    gesture: Gesture | None
-    is_space_down: bool
-
-    def begin(self, gesture: Gesture) -> None:
-        """Let a gesture have the pointer from now on."""
-
-    def cancel(self) -> None:
-        """End what is under way as if it had not begun."""
-
-    def take_over(self, view: QPointF) -> None:
-        """Follow a pointer that was pressed elsewhere, such as in the palette."""
-
-    def move_to(self, view: QPointF) -> None:
-        """Bring the gesture to a point of the view."""
-
-    def release_at(self, view: QPointF) -> None:
-        """End the gesture at a point of the view."""
-
-    def repeat(self) -> None:
-        """Tell the gesture again where the pointer is: the page has moved under it."""
-
-    def request_menu(self, place: QPoint) -> None:
-        """Ask for the menu of what is at a place of the view; that becomes the selection."""
-
-
 class CanvasHost(Protocol):
-    """A page of blocks, as its helpers see it; ``accessible`` is what screen readers see."""
+    """A page of blocks, as its helpers see it."""
 
     accessible: object
-
-    @property
-    def area(self) -> QAbstractScrollArea:
-        """The widget: for its viewport, its focus, and what is put over it."""
-
-    @property
-    def editor(self) -> Editor:
-        """The program, and the one way to change it."""
-
-    @property
-    def page_layout(self) -> PageLayout:
-        """What is where on the page that is shown."""
-
-    @property
-    def look(self) -> Look:
-        """Theme, measures and fonts of the blocks."""
-
-    @property
-    def selection(self) -> Selection:
-        """The selected blocks, and the one that the keyboard is at."""
-
-    @property
-    def sight(self) -> Sight:
-        """Which part of the page is seen."""
-
-    @property
-    def layers(self) -> Layers:
-        """What is painted: what rests, what lies over it, what is carried."""
-
-    @property
-    def problems(self) -> ProblemOverlay:
-        """The blocks with a problem, each with its badge."""
-
-    @property
-    def notes(self) -> Notes:
-        """The notes of the page."""
-
-    @property
-    def fields(self) -> Fields:
-        """The editors of fields."""
-
-    @property
-    def pointing(self) -> Hand:
-        """The pointer, and the gesture under way."""
-
-    @property
-    def marks(self) -> DragMarks:
-        """What is shown while blocks are carried."""
-
-    @property
-    def commands(self) -> Commands:
-        """What menus and keys do with the selected blocks."""
-
-    @property
-    def news(self) -> CanvasNews:
-        """Tells those around the canvas what has happened."""
+    """What screen readers see."""
+    area: QAbstractScrollArea
+    """The widget: for its viewport, its focus, and what is put over it."""
+    editor: Editor
+    """The program, and the one way to change it."""
+    page_layout: PageLayout
+    """What is where on the page that is shown."""
+    look: Look
+    """Theme, measures and fonts of the blocks."""
+    selection: Selection
+    """The selected blocks, and the one that the keyboard is at."""
+    sight: Sight
+    """Which part of the page is seen."""
+    layers: Layers
+    """What is painted: what rests, what lies over it, what is carried."""
+    problems: ProblemOverlay
+    """The blocks with a problem, each with its badge."""
+    notes: Notes
+    """The notes of the page."""
+    fields: FieldEditors
+    """The editors of fields."""
+    pointing: Pointing
+    """The pointer, and the gesture under way."""
+    marks: DragMarks
+    """What is shown while blocks are carried."""
+    commands: Commands
+    """What menus and keys do with the selected blocks."""
+    news: CanvasNews
+    """Tells those around the canvas what has happened."""
 
     def attempt(self, change: Callable[[], object]) -> bool:
         """Make a change; tell the person why not when the editor refuses it."""

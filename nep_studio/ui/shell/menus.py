@@ -153,11 +153,11 @@ def _finding(window: MainWindow) -> list[QAction]:
 
     return [
         add("find", "Find…", lambda: find().open(), icon_name="search", keys=Key.Find),
-        add("find_next", "Find next", lambda: find().find_next(), keys=Key.FindNext),
+        add("find_next", "Find next", lambda: find().step(1), keys=Key.FindNext),
         add(
             "find_previous",
             "Find previous",
-            lambda: find().find_previous(),
+            lambda: find().step(-1),
             keys=Key.FindPrevious,
         ),
         add("insert", "Insert by typing…", insert, icon_name="keyboard", keys="Ctrl+Space"),

@@ -193,7 +193,7 @@ class InsertBar(QFrame):
         self.line.textChanged.connect(self._on_typed)
         self.line.installEventFilter(self)
         self.list = SuggestionList(canvas, self)
-        self.list.chosen.connect(self._on_chosen)
+        self.list.chosen.connect(self.insert)
         self.area = QScrollArea(self, widgetResizable=True)
         self.area.setWidget(self.list)
         self.area.setFrameShape(QFrame.Shape.NoFrame)
@@ -287,9 +287,6 @@ class InsertBar(QFrame):
     def _on_letter(self, letter: str) -> None:
         self.open(None, "" if letter == OPENER else letter)
 
-    def _on_chosen(self, number: int) -> None:
-        self.insert(number)
-
     def _on_typed(self, text: str) -> None:
         editor = self.canvas.editor
         recent = self._settings.recent_blocks if self._settings is not None else []
@@ -348,13 +345,3 @@ class InsertBar(QFrame):
     def _leave(self) -> None:
         self.hide()
         self.canvas.setFocus(Qt.FocusReason.OtherFocusReason)
-
-
-def open_insert_bar(
-    canvas: Canvas, at: QPointF | None = None, text: str = "", *, place: Place | None = None
-) -> InsertBar:
-    """Open the insert bar of a canvas, which is made when it has none yet."""
-    bars = [child for child in canvas.children() if isinstance(child, InsertBar)]
-    bar = bars[0] if bars else InsertBar(canvas)
-    bar.open(at, text, place=place)
-    return bar

@@ -29,13 +29,13 @@ EVERYWHERE = Rect(-2e6, -2e6, 4e6, 4e6)
 class KeyboardCarry:
     """Blocks in the hand of the keyboard."""
 
-    def __init__(self, canvas: CanvasHost, cargo: Cargo, first: str = "") -> None:
+    def __init__(self, canvas: CanvasHost, cargo: Cargo, first: str) -> None:
         self._cargo = cargo
         self._target: Target | None = None
         self._dx = self._dy = 0.0
         self._overlay = DropOverlay()
         canvas.layers.show_overlay(self._overlay)
-        origin = place_of(canvas.editor.project, first, 1) if first else None
+        origin = place_of(canvas.editor.project, first, 1)
         canvas.layers.set_preview(cargo.hidden, None)
         sprite = make_sprite(canvas, cargo.chains, cargo.bounds)
         canvas.layers.set_sprite(sprite)

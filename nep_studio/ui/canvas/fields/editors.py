@@ -63,11 +63,6 @@ def remove(canvas: CanvasHost, block: str, group: str, number: int) -> None:
         canvas.news.announced.emit(tr("Removed"))
 
 
-def expand(canvas: CanvasHost, block: str) -> None:
-    """Show a collapsed block again."""
-    canvas.attempt(lambda: set_collapsed(canvas.editor, [block], False))
-
-
 def move_part_of(canvas: CanvasHost, block: str, key: str, *, down: bool) -> str:
     """Move the part that a slot is in; gives the slot's key in its new place, or nothing."""
     name, number = split_slot(key)
@@ -243,10 +238,6 @@ class FieldEditors(QObject):
             return ParameterEdit(editor, block, key, slot)
         return FieldEdit(editor, block, key, slot) if slot.kind.typed else None
 
-    def open_comment(self, block: str) -> None:
-        """Show the comment of a block, to read and to write."""
-        self.comments.open(block)
-
     def press_button(self, block: str, action: str, group: str, number: int) -> None:
         """Do what a button inside a block says: add, remove, expand, comment."""
         self.close()
@@ -255,7 +246,7 @@ class FieldEditors(QObject):
         elif action == "remove":
             remove(self.canvas, block, group, number)
         elif action == "expand":
-            expand(self.canvas, block)
+            self.canvas.attempt(lambda: set_collapsed(self.canvas.editor, [block], False))
         elif action == "comment" and self._left_comment != block:
             self.comments.open(block)
 
