@@ -15,7 +15,7 @@ from nep_studio.blocks.procedures import parameters, words
 from nep_studio.blocks.program import Changes, Project
 from nep_studio.ui.canvas.host import CanvasHost
 from nep_studio.ui.canvas.painting.overlay import rings
-from nep_studio.ui.labels import follow_words, labelled
+from nep_studio.ui.labels import explained, follow_words, labelled
 from nep_studio.ui.theme.icons import icon
 from nep_studio.ui.widgets.layouts import in_row
 from nep_studio.ui.words import count_words, tr
@@ -67,11 +67,6 @@ def subject_name(project: Project, subject: Subject) -> str:
     return subject.name
 
 
-def tool_button(words: str, parent: QWidget) -> QToolButton:
-    """A button with a sign, and words for who does not know it."""
-    return labelled(QToolButton(parent), tip=words, name=words)
-
-
 class FindBar(QFrame):
     """Finds by words, or shows the uses of a subject; hits are marked on the canvas.
 
@@ -94,9 +89,9 @@ class FindBar(QFrame):
             QLineEdit(self), placeholder="Find in the program", name="Find in the program"
         )
         self.count = QLabel(self)
-        self.previous = tool_button("Previous (Shift+Enter)", self)
-        self.next = tool_button("Next (Enter)", self)
-        self.away = tool_button("Close (Esc)", self)
+        self.previous = explained(QToolButton(self), "Previous (Shift+Enter)")
+        self.next = explained(QToolButton(self), "Next (Enter)")
+        self.away = explained(QToolButton(self), "Close (Esc)")
         labelled(self, name="Find")
         self._later = QTimer(self, singleShot=True, interval=0)
         self._arrange()

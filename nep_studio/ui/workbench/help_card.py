@@ -8,7 +8,7 @@ from itertools import islice
 
 from PySide6.QtCore import QObject, QRect, QSize, Qt, Signal
 from PySide6.QtGui import QKeyEvent
-from PySide6.QtWidgets import QFrame, QPushButton, QTextBrowser, QVBoxLayout
+from PySide6.QtWidgets import QFrame, QPushButton, QTextBrowser
 
 from nep_studio.blocks.definitions import Definition, Slot
 from nep_studio.blocks.editor import Editor
@@ -21,6 +21,7 @@ from nep_studio.ui.canvas.canvas import Canvas
 from nep_studio.ui.canvas.fields.editors import hint_of
 from nep_studio.ui.canvas.fields.field_edit import beside
 from nep_studio.ui.widgets.forms import room_around
+from nep_studio.ui.widgets.layouts import in_column
 from nep_studio.ui.words import tr
 
 from .find_bar import FindBar
@@ -139,15 +140,13 @@ class HelpCard(QFrame):
             f" QTextBrowser {{ background: {theme.colour('menu').name()};"
             f" color: {theme.colour('text').name()}; }}"
         )
-        box = QVBoxLayout(self)
-        box.setContentsMargins(*(self.fontMetrics().height() // 2,) * 4)
-        box.addWidget(self.text)
         self.more = QPushButton(tr("More…"))
         self.more.setProperty("kind", "quiet")
         self.more.setToolTip(tr("The page about this block (F1)"))
         self.more.clicked.connect(self._ask_for_more)
         self.more.hide()
-        box.addWidget(self.more, 0, Qt.AlignmentFlag.AlignTrailing)
+        more = (self.more, 0, Qt.AlignmentFlag.AlignTrailing)
+        in_column(self.text, more, of=self, margins=self.fontMetrics().height() // 2)
 
     def offer_more(self) -> None:
         """Have a button that leads to the page about the block."""

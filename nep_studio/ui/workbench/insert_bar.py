@@ -67,21 +67,15 @@ class SuggestionList(QWidget):
 
     def show_clips(self, clips: Sequence[tuple[Clip, str]]) -> None:
         """Show these blocks with their sentences, and point at the first."""
-        measures = self._canvas.look.measures
-        self._painter = BlockPainter(
-            self._canvas.look.theme,
-            self._canvas.editor.language,
-            measures,
-            self._canvas.look.block_font,
-        )
-        size = (
-            QFontInfo(self.font()).pixelSize() / QFontInfo(self._canvas.look.block_font).pixelSize()
-        )
+        look, language = self._canvas.look, self._canvas.editor.language
+        measures = look.measures
+        self._painter = BlockPainter(look.theme, language, measures, look.block_font)
+        size = QFontInfo(self.font()).pixelSize() / QFontInfo(look.block_font).pixelSize()
         self._scale = SCALE * size
         self.rows, self.current = [], 0
         y, gap = 4.0, measures.line * 0.35
         for clip, label in clips:
-            layout = Layout(clip.project, self._canvas.editor.language, measures)
+            layout = Layout(clip.project, language, measures)
             row = Row(clip, label, layout.chain(clip.roots[0]), y)
             whole = (row.chain.height + measures.notch_depth) * self._scale
             row.height = min(whole, HIGHEST_ROW * measures.unit * size) + gap

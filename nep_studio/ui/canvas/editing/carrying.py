@@ -13,7 +13,7 @@ from nep_studio.ui.canvas.painting.layers import make_sprite
 from nep_studio.ui.words import tr
 
 from .cargo import Cargo
-from .gesture import Pointer
+from .gesture import Gesture
 from .marks import DropOverlay
 from .snapping import Target, seams, slots
 
@@ -26,8 +26,8 @@ FREE_STEP = 32.0
 EVERYWHERE = Rect(-2e6, -2e6, 4e6, 4e6)
 
 
-class KeyboardCarry:
-    """Blocks in the hand of the keyboard."""
+class KeyboardCarry(Gesture):
+    """Blocks in the hand of the keyboard: the mouse neither moves them nor puts them down."""
 
     def __init__(self, canvas: CanvasHost, cargo: Cargo, first: str) -> None:
         self._cargo = cargo
@@ -87,12 +87,6 @@ class KeyboardCarry:
             canvas.selection.set(made)
             canvas.show_block(made[0])
             canvas.news.announced.emit(tr("Put down {place}.", place=self._told(canvas, target)))
-
-    def move(self, canvas: CanvasHost, pointer: Pointer) -> None:
-        """The mouse does not move what the keyboard carries."""
-
-    def release(self, canvas: CanvasHost, pointer: Pointer) -> None:
-        """Nor does it put it down."""
 
     def cancel(self, canvas: CanvasHost) -> None:
         """Put the blocks back."""

@@ -252,8 +252,7 @@ class FieldEditors(QObject):
 
     def close(self) -> None:
         """Keep what was typed, and take the editor away."""
-        if self.widget is not None:
-            self._end(restore=False)
+        self._end(restore=False)
 
     def close_if(self, widget: OpenEditor) -> None:
         """Keep what was typed in an editor that lost the keyboard, if it is still the open one."""
@@ -262,8 +261,7 @@ class FieldEditors(QObject):
 
     def cancel(self) -> None:
         """Make the field as it was, and take the editor away."""
-        if self.widget is not None:
-            self._end(restore=True)
+        self._end(restore=True)
 
     def go(self, *, forward: bool) -> None:
         """Keep what was typed, and edit the next field, or the one before."""
@@ -334,7 +332,8 @@ class FieldEditors(QObject):
 
     def _end(self, *, restore: bool) -> None:
         closing, self.widget = self.widget, None
-        assert closing is not None
+        if closing is None:
+            return
         self._listen(is_open=False)
         if restore:
             closing.edit.restore()
