@@ -20,9 +20,8 @@ from .selection import Selection
 
 if TYPE_CHECKING:
     from .editing.commands import Commands
+    from .editing.gesture import Gesture
     from .editing.marks import DragMarks
-    from .editing.pointing import Pointing
-    from .fields.editors import FieldEditors
     from .painting.layers import Layers
     from .painting.notes import Notes
     from .painting.overlay import ProblemOverlay
@@ -58,6 +57,54 @@ class CanvasNews(QObject):
     file_dropped = Signal(str)
 
 
+class Fields(Protocol):
+    """The editors of fields; one at most is open."""
+
+    @property
+    def place(self) -> tuple[str, str] | None:
+        """The block and field that are edited now."""
+
+    def open(self, block: str, key: str) -> bool:
+        """Edit a field; False when it has no editor."""
+
+    def open_comment(self, block: str) -> None:
+        """Show the comment of a block, to read and to write."""
+
+    def press_button(self, block: str, action: str, group: str, number: int) -> None:
+        """Do what a button inside a block says: add, remove, expand, comment."""
+
+    def close(self) -> None:
+        """Keep what was typed, and take the editor away."""
+
+
+class Hand(Protocol):
+    """The pointer over a canvas, and the gesture that is under way with it."""
+
+    gesture: Gesture | None
+    is_space_down: bool
+
+    def begin(self, gesture: Gesture) -> None:
+        """Let a gesture have the pointer from now on."""
+
+    def cancel(self) -> None:
+        """End what is under way as if it had not begun."""
+
+    def take_over(self, view: QPointF) -> None:
+        """Follow a pointer that was pressed elsewhere, such as in the palette."""
+
+    def move_to(self, view: QPointF) -> None:
+        """Bring the gesture to a point of the view."""
+
+    def release_at(self, view: QPointF) -> None:
+        """End the gesture at a point of the view."""
+
+    def repeat(self) -> None:
+        """Tell the gesture again where the pointer is: the page has moved under it."""
+
+    def request_menu(self, place: QPoint) -> None:
+        """Ask for the menu of what is at a place of the view; that becomes the selection."""
+
+
 class CanvasHost(Protocol):
     """A page of blocks, as its helpers see it."""
 
@@ -81,16 +128,20 @@ class CanvasHost(Protocol):
     """The blocks with a problem, each with its badge."""
     notes: Notes
     """The notes of the page."""
-    fields: FieldEditors
-    """The editors of fields."""
-    pointing: Pointing
-    """The pointer, and the gesture under way."""
     marks: DragMarks
     """What is shown while blocks are carried."""
     commands: Commands
     """What menus and keys do with the selected blocks."""
     news: CanvasNews
     """Tells those around the canvas what has happened."""
+
+    @property
+    def fields(self) -> Fields:
+        """The editors of fields."""
+
+    @property
+    def pointing(self) -> Hand:
+        """The pointer, and the gesture under way."""
 
     def attempt(self, change: Callable[[], object]) -> bool:
         """Make a change; tell the person why not when the editor refuses it."""

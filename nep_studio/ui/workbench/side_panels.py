@@ -138,9 +138,8 @@ class Panels(QObject):
         }
         self.column = QSplitter(Qt.Orientation.Vertical)
         self.row = QSplitter(Qt.Orientation.Horizontal)
-        in_column(
-            self.row, of=parent, margins=0
-        )  # the outer ones first: a widget is dressed anew in each parent
+        # the outer ones first: a widget is dressed anew in each parent
+        in_column(self.row, of=parent, margins=0)
         for beside in (self.areas["left"], self.column, self.areas["right"]):
             self.row.addWidget(beside)
         for widget in (middle, self.areas["bottom"]):

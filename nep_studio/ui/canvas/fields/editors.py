@@ -238,6 +238,10 @@ class FieldEditors(QObject):
             return ParameterEdit(editor, block, key, slot)
         return FieldEdit(editor, block, key, slot) if slot.kind.typed else None
 
+    def open_comment(self, block: str) -> None:
+        """Show the comment of a block, to read and to write."""
+        self.comments.open(block)
+
     def press_button(self, block: str, action: str, group: str, number: int) -> None:
         """Do what a button inside a block says: add, remove, expand, comment."""
         self.close()

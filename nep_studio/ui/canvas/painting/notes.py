@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Protocol
 
 import msgspec
 from PySide6.QtCore import QPointF, QRectF, Qt
@@ -14,7 +14,6 @@ from nep_studio.ui.canvas.layout.index import Rect
 from nep_studio.ui.words import tr
 
 if TYPE_CHECKING:
-    from nep_studio.ui.canvas.editing.notes import NoteEditor
     from nep_studio.ui.canvas.host import CanvasHost
 
 NEW_WIDTH, NEW_HEIGHT = 200.0, 120.0
@@ -23,6 +22,13 @@ CORNER = 18.0
 """The side of the square at a note's corner by which it is resized; all in canvas units."""
 
 _SMALLEST_TEXT_SCALE = 0.3
+
+
+class Writing(Protocol):
+    """An editor in which a note is written."""
+
+    def finish(self) -> None:
+        """Keep what was written, and go away."""
 
 
 class Notes:
@@ -36,7 +42,7 @@ class Notes:
         self.selected = ""
         self.edited = ""
         self.carried: Note | None = None
-        self.writing: NoteEditor | None = None
+        self.writing: Writing | None = None
         self._rects: dict[str, Rect] = {}
         view.selection.changed.connect(self._on_blocks_selected)
 
