@@ -163,7 +163,7 @@ def find_bar(stage: Stage) -> QImage:
     with stage.window() as window:
         bar = window.workbench.helpers.find_bar
         bar.open("says")
-        bar.find_next()
+        bar.step(1)
         quiet()
         whole = part_of(window, bar, _canvas(window))
         return picture(window, whole.intersected(QRect(whole.topLeft(), QSize(620, 420))))

@@ -13,6 +13,7 @@ from PySide6.QtGui import (
     QAccessibleInterface,
     QWindow,
 )
+from PySide6.QtWidgets import QWidget
 
 from nep_studio.blocks.editor import Editor
 from nep_studio.blocks.program import Project
@@ -66,11 +67,89 @@ def level(project: Project, block_id: str) -> int:
 # ``type: ignore[override]``.
 
 
-class CanvasInterface(QAccessibleInterface):
+class PaintedInterface(QAccessibleInterface):
+    """A widget that paints its items itself, in its ``face``: the widget, or its viewport."""
+
+    def __init__(self, widget: QWidget, face: QWidget) -> None:
+        super().__init__()
+        self.widget, self._face = widget, face
+
+    def isValid(self) -> bool:
+        """Whether the widget is still there."""
+        return True
+
+    def object(self) -> QObject:
+        """The widget."""
+        return self.widget
+
+    def window(self) -> QWindow:
+        """The window it is in."""
+        return self.widget.window().windowHandle()
+
+    def setText(self, kind: QAccessible.Text, text: str) -> None:
+        """A screen reader cannot rename it."""
+
+    def rect(self) -> QRect:
+        """Where it is on the screen."""
+        return QRect(self._face.mapToGlobal(QPoint(0, 0)), self._face.size())
+
+    def state(self) -> QAccessible.State:
+        """Whether it has the keyboard."""
+        state = QAccessible.State()
+        state.focusable = True
+        state.focused = self.widget.hasFocus()
+        return state
+
+    def parent(self) -> QAccessibleInterface | None:  # type: ignore[override]
+        """The widget around it."""
+        outer = self.widget.parentWidget()
+        return QAccessible.queryAccessibleInterface(outer) if outer is not None else None
+
+
+class ItemInterface(QAccessibleInterface):
+    """An item that a widget paints; nothing is inside it, if it does not say otherwise."""
+
+    def __init__(self, outer: PaintedInterface) -> None:
+        super().__init__()
+        self._outer = outer
+
+    def object(self) -> QObject | None:  # type: ignore[override]
+        """An item is no object of Qt."""
+        return None
+
+    def window(self) -> QWindow:
+        """The window it is in."""
+        return self._outer.window()
+
+    def setText(self, kind: QAccessible.Text, text: str) -> None:
+        """A screen reader cannot rename it."""
+
+    def parent(self) -> QAccessibleInterface:
+        """The widget that paints it."""
+        return self._outer
+
+    def childCount(self) -> int:
+        """How many items are directly inside it."""
+        return 0
+
+    def child(self, index: int) -> QAccessibleInterface | None:  # type: ignore[override]
+        """One of them."""
+        return None
+
+    def indexOfChild(self, child: QAccessibleInterface) -> int:
+        """The number of an item among those inside it."""
+        return -1
+
+    def childAt(self, x: int, y: int) -> QAccessibleInterface | None:  # type: ignore[override]
+        """What is inside it at a place of the screen."""
+        return None
+
+
+class CanvasInterface(PaintedInterface):
     """The canvas: a tree whose items are the blocks of the stacks in view."""
 
     def __init__(self, view: CanvasHost) -> None:
-        super().__init__()
+        super().__init__(view.area, view.area.viewport())
         self.view = view
         self._blocks: dict[str, BlockInterface] = {}
 
@@ -99,18 +178,6 @@ class CanvasInterface(QAccessibleInterface):
         stacks = layout.near(self.view.sight.visible_page_rect())
         return [box.block for stack in stacks for box in layout.chains[stack].boxes if box.block]
 
-    def isValid(self) -> bool:
-        """Whether the canvas is still there."""
-        return True
-
-    def object(self) -> QObject:
-        """The widget."""
-        return self.view.area
-
-    def window(self) -> QWindow:
-        """The window it is in."""
-        return self.view.area.window().windowHandle()
-
     def role(self) -> QAccessible.Role:
         """A tree."""
         return QAccessible.Role.Tree
@@ -122,26 +189,6 @@ class CanvasInterface(QAccessibleInterface):
         if kind == QAccessible.Text.Description:
             return tr("Use the arrow keys to go from block to block, and Enter to edit.")
         return ""
-
-    def setText(self, kind: QAccessible.Text, text: str) -> None:
-        """A screen reader cannot rename the canvas."""
-
-    def rect(self) -> QRect:
-        """Where it is on the screen."""
-        viewport = self.view.area.viewport()
-        return QRect(viewport.mapToGlobal(QPoint(0, 0)), viewport.size())
-
-    def state(self) -> QAccessible.State:
-        """Whether it has the keyboard."""
-        state = QAccessible.State()
-        state.focusable = True
-        state.focused = self.view.area.hasFocus()
-        return state
-
-    def parent(self) -> QAccessibleInterface | None:  # type: ignore[override]
-        """The widget around it."""
-        outer = self.view.area.parentWidget()
-        return QAccessible.queryAccessibleInterface(outer) if outer is not None else None
 
     def childCount(self) -> int:
         """How many blocks it has in view."""
@@ -169,25 +216,17 @@ class CanvasInterface(QAccessibleInterface):
         return self.block(cursor) if cursor in self.view.editor.project.blocks else None
 
 
-class BlockInterface(QAccessibleInterface):
+class BlockInterface(ItemInterface):
     """One block: an item whose children are the blocks directly inside it."""
 
     def __init__(self, canvas: CanvasInterface, block_id: str) -> None:
-        super().__init__()
+        super().__init__(canvas)
         self._canvas = canvas
         self.block_id = block_id
 
     def isValid(self) -> bool:
         """Whether the block is still there."""
         return self.block_id in self._canvas.view.editor.project.blocks
-
-    def object(self) -> QObject | None:  # type: ignore[override]
-        """A block is no object of Qt."""
-        return None
-
-    def window(self) -> QWindow:
-        """The window it is in."""
-        return self._canvas.window()
 
     def role(self) -> QAccessible.Role:
         """An item of a tree."""
@@ -208,9 +247,6 @@ class BlockInterface(QAccessibleInterface):
             where = position(project, self.block_id)
             return tr("{position}, level {depth}", position=where, depth=depth)
         return ""
-
-    def setText(self, kind: QAccessible.Text, text: str) -> None:
-        """A screen reader cannot rename a block."""
 
     def rect(self) -> QRect:
         """Where it is on the screen; nowhere when it is folded away."""

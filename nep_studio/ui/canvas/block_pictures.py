@@ -180,11 +180,8 @@ class HelpPicture:
         layout = Layout(project, self._language, self._measures)
         stacks = [stack for page in project.pages.values() for stack in page]
         self._chains = [layout.chain(stack.body) for stack in stacks]
-        # Put chains one below the other; gives the room that they take, with their tabs
-        chains = self._chains
-        measures = self._measures
-        y, width = 0.0, 1.0
-        for chain in chains:
+        measures, y, width = self._measures, 0.0, 1.0
+        for chain in self._chains:  # each takes its room, with its tab
             chain.x, chain.y = 0.0, y
             y += chain.height + measures.notch_depth + GAP * measures.unit
             width = max(width, chain.width)
@@ -194,7 +191,9 @@ class HelpPicture:
     def paint(self, painter: QPainter) -> None:
         """Paint them with all their words, into ``size`` from the painter's origin on."""
         look, measures = self._look, self._measures
-        painter.translate(_origin(self.size, measures))
+        margin = 2.0 * measures.unit
+        left = self.size.width() - margin if measures.is_mirrored else margin
+        painter.translate(QPointF(left, margin))
         blocks = BlockPainter(look.theme, self._language, measures, look.font)
         for chain in self._chains:
             blocks.paint(painter, boxes_of(chain, EVERYWHERE), 1.0)
@@ -205,18 +204,10 @@ def help_picture_of(project: Project, language: Language, look: PictureLook) -> 
     picture = HelpPicture(project, language, look)
     size = picture.size
     scale = min(look.scale, look.widest / size.width())
-    pixmap = QPixmap((size * scale * look.ratio).toSize().expandedTo(_SMALLEST))
+    pixmap = QPixmap((size * scale * look.ratio).toSize().expandedTo(QSize(1, 1)))
     pixmap.setDevicePixelRatio(look.ratio)
     pixmap.fill(Qt.GlobalColor.transparent)
     with QPainter(pixmap) as painter:
         painter.scale(scale, scale)
         picture.paint(painter)
     return pixmap
-
-
-_SMALLEST = QSizeF(1, 1).toSize()
-
-
-def _origin(size: QSizeF, measures: Measures) -> QPointF:
-    margin = 2.0 * measures.unit
-    return QPointF(size.width() - margin if measures.is_mirrored else margin, margin)

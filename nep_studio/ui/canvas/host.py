@@ -106,45 +106,34 @@ class Hand(Protocol):
 
 
 class CanvasHost(Protocol):
-    """A page of blocks, as its helpers see it; ``accessible`` is what screen readers see."""
+    """A page of blocks, as its helpers see it."""
 
     accessible: object
-
-    @property
-    def area(self) -> QAbstractScrollArea:
-        """The widget: for its viewport, its focus, and what is put over it."""
-
-    @property
-    def editor(self) -> Editor:
-        """The program, and the one way to change it."""
-
-    @property
-    def page_layout(self) -> PageLayout:
-        """What is where on the page that is shown."""
-
-    @property
-    def look(self) -> Look:
-        """Theme, measures and fonts of the blocks."""
-
-    @property
-    def selection(self) -> Selection:
-        """The selected blocks, and the one that the keyboard is at."""
-
-    @property
-    def sight(self) -> Sight:
-        """Which part of the page is seen."""
-
-    @property
-    def layers(self) -> Layers:
-        """What is painted: what rests, what lies over it, what is carried."""
-
-    @property
-    def problems(self) -> ProblemOverlay:
-        """The blocks with a problem, each with its badge."""
-
-    @property
-    def notes(self) -> Notes:
-        """The notes of the page."""
+    """What screen readers see."""
+    area: QAbstractScrollArea
+    """The widget: for its viewport, its focus, and what is put over it."""
+    editor: Editor
+    """The program, and the one way to change it."""
+    page_layout: PageLayout
+    """What is where on the page that is shown."""
+    look: Look
+    """Theme, measures and fonts of the blocks."""
+    selection: Selection
+    """The selected blocks, and the one that the keyboard is at."""
+    sight: Sight
+    """Which part of the page is seen."""
+    layers: Layers
+    """What is painted: what rests, what lies over it, what is carried."""
+    problems: ProblemOverlay
+    """The blocks with a problem, each with its badge."""
+    notes: Notes
+    """The notes of the page."""
+    marks: DragMarks
+    """What is shown while blocks are carried."""
+    commands: Commands
+    """What menus and keys do with the selected blocks."""
+    news: CanvasNews
+    """Tells those around the canvas what has happened."""
 
     @property
     def fields(self) -> Fields:
@@ -153,18 +142,6 @@ class CanvasHost(Protocol):
     @property
     def pointing(self) -> Hand:
         """The pointer, and the gesture under way."""
-
-    @property
-    def marks(self) -> DragMarks:
-        """What is shown while blocks are carried."""
-
-    @property
-    def commands(self) -> Commands:
-        """What menus and keys do with the selected blocks."""
-
-    @property
-    def news(self) -> CanvasNews:
-        """Tells those around the canvas what has happened."""
 
     def attempt(self, change: Callable[[], object]) -> bool:
         """Make a change; tell the person why not when the editor refuses it."""

@@ -7,14 +7,7 @@ from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QObject, QSize, Qt
 from PySide6.QtGui import QActionGroup
-from PySide6.QtWidgets import (
-    QLabel,
-    QMenu,
-    QSizePolicy,
-    QToolBar,
-    QToolButton,
-    QWidget,
-)
+from PySide6.QtWidgets import QLabel, QMenu, QSizePolicy, QToolBar, QToolButton, QWidget
 
 from nep_studio.ui.labels import follow_words, labelled
 from nep_studio.ui.theme.icons import icon
@@ -44,13 +37,7 @@ def fill_run_menu(menu: QMenu, host: Host) -> None:
     add = host.actions.add
     services = host.services
     run = add("run", "Run", lambda: services.runner.run(), icon_name="play", keys="F5")
-    stop = add(
-        "stop",
-        "Stop",
-        lambda: services.running.stop(),
-        icon_name="square",
-        keys="Shift+F5",
-    )
+    stop = add("stop", "Stop", lambda: services.running.stop(), icon_name="square", keys="Shift+F5")
     pause = add("pause", "Pause", lambda: services.runner.pause(), icon_name="pause", keys="F6")
     step = add(
         "step", "One step", lambda: services.runner.step(), icon_name="step-forward", keys="F10"
@@ -67,9 +54,7 @@ def fill_run_menu(menu: QMenu, host: Host) -> None:
         keys="F9",
     )
     clear = add(
-        "clear_breakpoints",
-        "Pause nowhere",
-        lambda: host.services.running.breakpoints.clear(),
+        "clear_breakpoints", "Pause nowhere", lambda: host.services.running.breakpoints.clear()
     )
     menu.addActions([toggle, clear])
     menu.addSeparator()

@@ -35,8 +35,7 @@ from .stage import Breakpoints, Stage, statement_at
 
 if TYPE_CHECKING:
     from nep_studio.ui.documents import Document
-    from nep_studio.ui.edits import edits_of
-from nep_studio.ui.host import Host
+    from nep_studio.ui.host import Host
 
 
 class RunControl(QObject):

@@ -13,7 +13,6 @@ from PySide6.QtWidgets import (
     QDialog,
     QDialogButtonBox,
     QFrame,
-    QHBoxLayout,
     QLabel,
     QPushButton,
     QScrollArea,
@@ -240,26 +239,16 @@ class NeedsDialog(QDialog):
         self.refresh()
 
     def _show(self) -> None:
-        missing = [need for need in self.needs if need.state == "missing"]
-        if missing:
-            words = tr("Before it can run, this is needed:")
-        else:
-            words = tr("Everything is there: the program can run.")
-        self._headline.setText(words)
+        missing = any(need.state == "missing" for need in self.needs)
+        ready = tr("Everything is there: the program can run.")
+        self._headline.setText(tr("Before it can run, this is needed:") if missing else ready)
         self.run_button.setEnabled(not missing and self._control.runner.state == "idle")
-        inner = QWidget()
-        line = self.fontMetrics().height()
-        column = QVBoxLayout(inner)
-        column.setContentsMargins(0, 0, line // 2, 0)
-        column.setSpacing(line // 2)
-        for need in self.needs:
-            column.addWidget(self._row(need, line))
-        column.addStretch(1)
+        inner, line = QWidget(), self.fontMetrics().height()
+        rows = [self._row(need, line) for need in self.needs]
+        in_column(*rows, 1, of=inner, margins=(0, 0, line // 2, 0), spacing=line // 2)
         self._scroll.setWidget(inner)
         # Let Enter do what comes next: the first thing that is missing, at last Run
-        rows = inner if missing else None
-        fix = rows.findChild(QPushButton) if rows is not None else None
-        button = self.run_button if rows is None else fix
+        button = inner.findChild(QPushButton) if missing else self.run_button
         if button is not None:
             button.setDefault(True)
             button.setFocus()
@@ -279,12 +268,8 @@ class NeedsDialog(QDialog):
         words.addWidget(title)
         if need.sentence:
             words.addWidget(sentence)
-        buttons = QHBoxLayout()
-        for fix in need.fixes:
-            buttons.addWidget(self._button(need, fix))
-        buttons.addStretch(1)
         if need.fixes:
-            words.addLayout(buttons)
+            words.addLayout(in_row(*(self._button(need, fix) for fix in need.fixes), 1))
         box = in_row((sign, 0, Qt.AlignmentFlag.AlignTop), of=row, margins=line // 2)
         box.addSpacing(line // 3)
         box.addLayout(words, 1)

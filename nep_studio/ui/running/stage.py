@@ -143,18 +143,9 @@ class RunOverlay:
         for placed in view.page_layout.boxes(view.sight.visible_page_rect()):
             block = placed.box.block
             if block in self.breakpoints:
-                # A breakpoint: a dot before the block, with a ring while the program waits there
-                is_here = block in paused
-                centre, size = _before(view, placed), 6.5 * view.look.measures.unit
-                painter.setPen(
-                    QPen(view.look.theme.colour("canvas"), 1.5 * view.look.measures.unit)
-                )
-                painter.setBrush(view.look.theme.colour("stop"))
-                painter.drawEllipse(centre, size, size)
-                if is_here:
-                    _bars(painter, view, centre, view.look.theme.colour("stop_text"))
+                _disc(painter, view, placed, 6.5, "stop", "stop_text" if block in paused else "")
             elif block in paused:
-                _pause_sign(painter, view, placed)
+                _disc(painter, view, placed, 8, "warning", "canvas")
             if words := self._chip(view, block):
                 _chip(painter, view, placed, words)
 
@@ -173,20 +164,17 @@ class RunOverlay:
         return self.marks.values.get(name, "")
 
 
-def _pause_sign(painter: QPainter, view: CanvasHost, placed: Placed) -> None:
-    """The program waits here: two bars in a disc."""
-    centre, size = _before(view, placed), 8 * view.look.measures.unit
-    painter.setPen(QPen(view.look.theme.colour("canvas"), 1.5 * view.look.measures.unit))
-    painter.setBrush(view.look.theme.colour("warning"))
-    painter.drawEllipse(centre, size, size)
-    _bars(painter, view, centre, view.look.theme.colour("canvas"))
-
-
-def _bars(painter: QPainter, view: CanvasHost, centre: QPointF, colour: QColor) -> None:
-    unit = view.look.measures.unit
+def _disc(
+    painter: QPainter, view: CanvasHost, placed: Placed, size: float, fill: str, bars: str
+) -> None:
+    """A dot before a block; with two bars, in a colour of their own, while the program waits."""
+    unit, theme, centre = view.look.measures.unit, view.look.theme, _before(view, placed)
+    painter.setPen(QPen(theme.colour("canvas"), 1.5 * unit))
+    painter.setBrush(theme.colour(fill))
+    painter.drawEllipse(centre, size * unit, size * unit)
     painter.setPen(Qt.PenStyle.NoPen)
-    painter.setBrush(colour)
-    for side in (-1, 1):
+    painter.setBrush(theme.colour(bars or fill))
+    for side in (-1, 1) if bars else ():
         middle = centre.x() + side * 2 * unit
         painter.drawRect(QRectF(middle - unit * 0.9, centre.y() - 3 * unit, unit * 1.8, 6 * unit))
 

@@ -102,8 +102,8 @@ def _add_finding(menu: QMenu, window: MainWindow) -> None:
         window.workbench.helpers.insert_bar.open()
 
     add("find", "Find…", lambda: bar().open(), icon_name="search", keys=Key.Find)
-    add("find_next", "Find next", lambda: bar().find_next(), keys=Key.FindNext)
-    add("find_previous", "Find previous", lambda: bar().find_previous(), keys=Key.FindPrevious)
+    add("find_next", "Find next", lambda: bar().step(1), keys=Key.FindNext)
+    add("find_previous", "Find previous", lambda: bar().step(-1), keys=Key.FindPrevious)
     add("insert", "Insert by typing…", insert, icon_name="keyboard", keys="Ctrl+Space")
 
 

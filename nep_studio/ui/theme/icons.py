@@ -75,12 +75,15 @@ def icon(name: str, colour: Theme | QColor, of_theme: str = "text") -> QIcon:
 
 def icon_pixmap(name: str, colour: QColor, size: float, ratio: float = 1.0) -> QPixmap:
     """Return an icon of ``size`` logical pixels for a screen with this device pixel ratio."""
-    pixels = max(1, round(size * ratio))
-    pixmap = QPixmap(pixels, pixels)
+    side = max(1, round(size * ratio))
+    return _drawn(name, colour, QSize(side, side), ratio)
+
+
+def _drawn(name: str, colour: QColor, pixels: QSize, ratio: float) -> QPixmap:
+    pixmap = QPixmap(pixels)
     pixmap.fill(Qt.GlobalColor.transparent)
-    painter = QPainter(pixmap)
-    paint_icon(painter, QRectF(0, 0, pixels, pixels), name, colour)
-    painter.end()
+    with QPainter(pixmap) as painter:
+        paint_icon(painter, QRectF(pixmap.rect()), name, colour)
     pixmap.setDevicePixelRatio(ratio)
     return pixmap
 
@@ -103,9 +106,8 @@ def recoloured(name: str, colour: QColor) -> str:
 
 def application_icon() -> QIcon:
     """Return the icon of the program itself, in its own colours."""
-    return QIcon(
-        _DrawnIcon(APPLICATION_ICON, QColor(Qt.GlobalColor.black), QColor(Qt.GlobalColor.black))
-    )
+    black = QColor(Qt.GlobalColor.black)
+    return QIcon(_DrawnIcon(APPLICATION_ICON, black, black))
 
 
 @cache
@@ -116,8 +118,7 @@ def _source(name: str) -> str:
 @lru_cache(maxsize=256)
 def _renderer(name: str, colour: str) -> QSvgRenderer:
     """What draws an icon: to read it takes longer than to draw it."""
-    drawing = _source(name).replace("currentColor", colour)
-    return QSvgRenderer(QByteArray(drawing.encode()))
+    return QSvgRenderer(QByteArray(_source(name).replace("currentColor", colour).encode()))
 
 
 class _DrawnIcon(QIconEngine):
@@ -146,12 +147,7 @@ class _DrawnIcon(QIconEngine):
         key = f"{self._name} {name} {pixels.width()} x {pixels.height()} at {scale}"
         pixmap = QPixmap()
         if not QPixmapCache.find(key, pixmap):  # many widgets show the same icon
-            pixmap = QPixmap(pixels)
-            pixmap.fill(Qt.GlobalColor.transparent)
-            painter = QPainter(pixmap)
-            paint_icon(painter, QRectF(pixmap.rect()), self._name, colour)
-            painter.end()
-            pixmap.setDevicePixelRatio(scale)
+            pixmap = _drawn(self._name, colour, pixels, scale)
             QPixmapCache.insert(key, pixmap)
         return pixmap
 

@@ -292,8 +292,11 @@ class Look(QObject):
         read_system: Callable[[QStyleHints], str] = system_theme_name,
     ) -> None:
         super().__init__(app)
-        self._app, self._choice, self._scale = app, SYSTEM, scale
-        self._read_system = read_system
+        self._app, self._read_system = app, read_system
+        self.choice = SYSTEM
+        """What the person chose: a theme's name, or "system"."""
+        self.scale = scale
+        """How much larger than the system's the text is."""
         hints = app.styleHints()
         hints.colorSchemeChanged.connect(self._on_system_changed)
         hints.accessibility().contrastPreferenceChanged.connect(self._on_system_changed)
@@ -301,47 +304,37 @@ class Look(QObject):
         """The theme in use."""
         self.choose(choice)
 
-    @property
-    def choice(self) -> str:
-        """What the person chose: a theme's name, or "system"."""
-        return self._choice
-
-    @property
-    def scale(self) -> float:
-        """How much larger than the system's the text is."""
-        return self._scale
-
     def choose(self, choice: str) -> None:
         """Use a theme by its name, or "system"; a name that is not known means the system."""
-        self._choice = choice if choice in themes() else SYSTEM
+        self.choice = choice if choice in themes() else SYSTEM
         self._tell_the_system()
         self._apply()
 
     def set_scale(self, scale: float) -> None:
         """Make the text, and all that is measured by it, this much larger than the system's."""
-        self._scale = scale
+        self.scale = scale
         self._apply()
 
     def refresh(self) -> None:
         """Dress the windows again after a change of the direction of writing; no colour changes."""
-        apply_theme(self._app, self.theme, self._scale)
+        apply_theme(self._app, self.theme, self.scale)
 
     def _tell_the_system(self) -> None:
         """Let title bars and the system's own dialogs be as light or dark as we are."""
         hints = self._app.styleHints()
-        if self._choice == SYSTEM:
+        if self.choice == SYSTEM:
             hints.unsetColorScheme()
             return
-        is_dark = load_theme(self._choice).is_dark
+        is_dark = load_theme(self.choice).is_dark
         hints.setColorScheme(Qt.ColorScheme.Dark if is_dark else Qt.ColorScheme.Light)
 
     def _on_system_changed(self) -> None:
-        if self._choice == SYSTEM:
+        if self.choice == SYSTEM:
             self._apply()
 
     def _apply(self) -> None:
-        is_left = self._choice == SYSTEM
-        name = self._read_system(self._app.styleHints()) if is_left else self._choice
+        is_left = self.choice == SYSTEM
+        name = self._read_system(self._app.styleHints()) if is_left else self.choice
         self.theme = load_theme(name)
-        apply_theme(self._app, self.theme, self._scale)
+        apply_theme(self._app, self.theme, self.scale)
         self.theme_changed.emit(self.theme)

@@ -36,9 +36,7 @@ def in_row(
     spacing: int | None = None,
 ) -> QHBoxLayout:
     """Put parts beside each other; in the widget ``of`` they become its layout."""
-    row = QHBoxLayout()
-    _fill(row, parts, of, margins, spacing)
-    return row
+    return _filled(QHBoxLayout(), parts, of, margins, spacing)
 
 
 def in_column(
@@ -48,18 +46,19 @@ def in_column(
     spacing: int | None = None,
 ) -> QVBoxLayout:
     """Put parts below each other; in the widget ``of`` they become its layout."""
-    column = QVBoxLayout()
-    _fill(column, parts, of, margins, spacing)
-    return column
+    return _filled(QVBoxLayout(), parts, of, margins, spacing)
 
 
-def _fill(
-    box: QBoxLayout,
+Box = TypeVar("Box", bound=QBoxLayout)
+
+
+def _filled(
+    box: Box,
     parts: Sequence[Part],
     of: QWidget | None,
     margins: Margins | None,
     spacing: int | None,
-) -> None:
+) -> Box:
     if of is not None:
         of.setLayout(box)
     if margins is not None:
@@ -80,6 +79,7 @@ def _fill(
                 box.addWidget(widget, stretch)
             case (widget, stretch, alignment):
                 box.addWidget(widget, stretch, alignment)
+    return box
 
 
 class InLines(QWidget):
@@ -262,15 +262,9 @@ class Columns(QWidget):
         self._widgets = list(widgets)
         self.count = 0
         line = self.fontMetrics().height()
-        self._row = QHBoxLayout(self)
-        self._row.setContentsMargins(0, 0, 0, 0)
-        self._row.setSpacing(line)
         self._holders = [QWidget(self) for _ in range(MOST_COLUMNS)]
-        self._columns = [QVBoxLayout(holder) for holder in self._holders]
-        for holder, column in zip(self._holders, self._columns, strict=True):
-            column.setContentsMargins(0, 0, 0, 0)
-            column.setSpacing(line // 4)
-            self._row.addWidget(holder, 1)
+        self._columns = [in_column(of=one, margins=0, spacing=line // 4) for one in self._holders]
+        in_row(*((holder, 1) for holder in self._holders), of=self, margins=0, spacing=line)
         self.spread(1)
 
     def spread(self, count: int) -> None:
@@ -338,8 +332,7 @@ class Halves(QWidget):
 
     def _column(self) -> QVBoxLayout:
         holder = QWidget()
-        column = QVBoxLayout(holder)
-        column.setContentsMargins(0, 0, 0, 0)
+        column = in_column(of=holder, margins=0)
         column.setAlignment(Qt.AlignmentFlag.AlignTop)
         self._box.addWidget(holder, 1)
         return column

@@ -115,19 +115,16 @@ class LiveCode(QObject):
 
     def start(self) -> None:
         """Begin to make the code: most is made at once, a long one bit by bit."""
-        self.cancel()
-        self._is_old = False
-        self._work = Sliced(self._steps())
-        if not self._take_slice(SLICE_S):
+        if not self.make(SLICE_S):
             self.began.emit()
             self._next_slice.start()
 
-    def make(self) -> None:
-        """Make the code now, however long it takes."""
+    def make(self, slice_s: float = math.inf) -> bool:
+        """Make the code now, for so long at most; whether it is over."""
         self.cancel()
         self._is_old = False
         self._work = Sliced(self._steps())
-        self._take_slice(math.inf)
+        return self._take_slice(slice_s)
 
     def cancel(self) -> None:
         """Give up what is being made; it is old then."""
@@ -223,7 +220,7 @@ class CodePane(QWidget):
         self.copy_button.clicked.connect(self._on_copy_clicked)
         self.edit_button.clicked.connect(self.begin_editing)
         self.apply_button.clicked.connect(self.apply)
-        self.discard_button.clicked.connect(self.discard)
+        self.discard_button.clicked.connect(self._end_editing)
         self._look.theme_changed.connect(self._on_theme_changed)
         self._selection.changed.connect(self._mark)
 
@@ -335,11 +332,8 @@ class CodePane(QWidget):
         self._end_editing()
         self.applied.emit()
 
-    def discard(self) -> None:
-        """Forget what was typed."""
-        self._end_editing()
-
     def _end_editing(self) -> None:
+        """Forget what was typed, if it was not applied."""
         self.note.hide()
         if not self.is_editing:
             return
@@ -358,10 +352,8 @@ class CodePane(QWidget):
         while (item := box.takeAt(0)) is not None:
             if (widget := item.widget()) is not None:
                 widget.deleteLater()
-        words = Message(
-            "error", tr(error.title), tr(error.sentence), tuple(map(tr, error.checklist))
-        )
-        box.addWidget(MessageText(words))
+        checklist = tuple(map(tr, error.checklist))
+        box.addWidget(MessageText(Message("error", tr(error.title), tr(error.sentence), checklist)))
         for answer in answers:
             button = QPushButton(answer.words)
             button.clicked.connect(answer.do)

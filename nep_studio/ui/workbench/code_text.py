@@ -6,7 +6,7 @@ import keyword
 import re
 from collections.abc import Callable, Iterable, Iterator
 
-from PySide6.QtCore import QPoint, QRect, QSize, Qt, QTimer, Signal
+from PySide6.QtCore import QPoint, QRect, Qt, QTimer, Signal
 from PySide6.QtGui import (
     QColor,
     QFont,
@@ -192,6 +192,9 @@ CHUNK_LINES = 600
 """So many lines are written and coloured within a frame of the screen."""
 
 BETWEEN_CHUNKS_MS = 4
+_READING = (
+    Qt.TextInteractionFlag.TextSelectableByMouse | Qt.TextInteractionFlag.TextSelectableByKeyboard
+)
 
 
 class CodeText(QPlainTextEdit):
@@ -213,12 +216,9 @@ class CodeText(QPlainTextEdit):
         self.setLayoutDirection(Qt.LayoutDirection.LeftToRight)  # Python is, in every language
         self.setReadOnly(True)
         self.setLineWrapMode(QPlainTextEdit.LineWrapMode.NoWrap)
-        self.setTextInteractionFlags(
-            Qt.TextInteractionFlag.TextSelectableByMouse
-            | Qt.TextInteractionFlag.TextSelectableByKeyboard
-        )
+        self.setTextInteractionFlags(_READING)
         labelled(self, name="Python code")
-        self.blockCountChanged.connect(self._on_block_count_changed)
+        self.blockCountChanged.connect(self._place_numbers)
         self.updateRequest.connect(self._on_update_request)
         look.theme_changed.connect(self._on_theme_changed)
         self._on_theme_changed()
@@ -274,14 +274,10 @@ class CodeText(QPlainTextEdit):
         """Let the person change the text, or only read it."""
         self.show_rest()
         self.setReadOnly(not is_editable)
-        flags = Qt.TextInteractionFlag.TextEditorInteraction
         if not is_editable:
-            flags = (
-                Qt.TextInteractionFlag.TextSelectableByMouse
-                | Qt.TextInteractionFlag.TextSelectableByKeyboard
-            )
             self._lines = self._wanted = self.toPlainText().split("\n")
-        self.setTextInteractionFlags(flags)
+        writing = Qt.TextInteractionFlag.TextEditorInteraction
+        self.setTextInteractionFlags(writing if is_editable else _READING)
 
     def keyPressEvent(self, event: QKeyEvent) -> None:
         """Let keys do what those who write Python expect."""
@@ -304,11 +300,6 @@ class CodeText(QPlainTextEdit):
         """Keep the numbers beside the text."""
         super().resizeEvent(event)
         self._place_numbers()
-
-    def numbers_width(self) -> int:
-        """How wide the line numbers are."""
-        digits = max(2, len(str(self.blockCount())))
-        return self.fontMetrics().horizontalAdvance("9") * (digits + 2)
 
     def paint_numbers(self, painter: QPainter, exposed: QRect) -> None:
         """Draw the numbers of the lines in view."""
@@ -334,9 +325,6 @@ class CodeText(QPlainTextEdit):
         self._place_numbers()
         self._show_marks()
 
-    def _on_block_count_changed(self) -> None:
-        self._place_numbers()
-
     def _on_update_request(self, rect: QRect, dy: int) -> None:
         if dy:
             self.numbers.scroll(0, dy)
@@ -344,7 +332,8 @@ class CodeText(QPlainTextEdit):
             self.numbers.update(0, rect.y(), self.numbers.width(), rect.height())
 
     def _place_numbers(self) -> None:
-        width = self.numbers_width()
+        digits = max(2, len(str(self.blockCount())))
+        width = self.fontMetrics().horizontalAdvance("9") * (digits + 2)
         self.setViewportMargins(width, 0, 0, 0)
         inner = self.contentsRect()
         self.numbers.setGeometry(inner.left(), inner.top(), width, inner.height())
@@ -380,9 +369,6 @@ class _LineNumbers(QWidget):
     def __init__(self, text: CodeText) -> None:
         super().__init__(text)
         self._text = text
-
-    def sizeHint(self) -> QSize:
-        return QSize(self._text.numbers_width(), 0)
 
     def paintEvent(self, event: QPaintEvent) -> None:
         with QPainter(self) as painter:

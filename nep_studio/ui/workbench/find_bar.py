@@ -14,8 +14,8 @@ from nep_studio.blocks.operations.finding import Subject, definition_of, find, s
 from nep_studio.blocks.procedures import parameters, words
 from nep_studio.blocks.program import Changes, Project
 from nep_studio.ui.canvas.host import CanvasHost
-from nep_studio.ui.canvas.painting.overlay import ring
-from nep_studio.ui.labels import follow_words, labelled
+from nep_studio.ui.canvas.painting.overlay import rings
+from nep_studio.ui.labels import explained, follow_words, labelled
 from nep_studio.ui.theme.icons import icon
 from nep_studio.ui.widgets.layouts import in_row
 from nep_studio.ui.words import count_words, tr
@@ -40,15 +40,13 @@ class HitOverlay:
             return
         colour = view.look.theme.colour("search_hit")
         pixel = 1 / view.sight.camera.scale
-        shown = [
-            placed.box.block for placed in view.page_layout.boxes(view.sight.visible_page_rect())
-        ]
-        for block in shown:
-            if block in self._ids:
-                ring(painter, view, block, colour, 4 * pixel)
-        if self._current in self._ids:
-            ring(painter, view, self._current, view.look.theme.colour("focus"), 9 * pixel)
-            ring(painter, view, self._current, colour, 5 * pixel)
+        shown = view.page_layout.boxes(view.sight.visible_page_rect())
+        found = [placed for placed in shown if placed.box.block in self._ids]
+        rings(painter, view, found, colour, 4 * pixel)
+        current = view.page_layout.placed(self._current) if self._current else None
+        if current is not None:
+            rings(painter, view, [current], view.look.theme.colour("focus"), 9 * pixel)
+            rings(painter, view, [current], colour, 5 * pixel)
 
 
 # What the subjects of the find bar are called.
@@ -67,11 +65,6 @@ def subject_name(project: Project, subject: Subject) -> str:
         named = {p.id: p.name for p in parameters(procedure)}
         return named.get(parameter, parameter)
     return subject.name
-
-
-def tool_button(words: str, parent: QWidget) -> QToolButton:
-    """A button with a sign, and words for who does not know it."""
-    return labelled(QToolButton(parent), tip=words, name=words)
 
 
 class FindBar(QFrame):
@@ -96,9 +89,9 @@ class FindBar(QFrame):
             QLineEdit(self), placeholder="Find in the program", name="Find in the program"
         )
         self.count = QLabel(self)
-        self.previous = tool_button("Previous (Shift+Enter)", self)
-        self.next = tool_button("Next (Enter)", self)
-        self.away = tool_button("Close (Esc)", self)
+        self.previous = explained(QToolButton(self), "Previous (Shift+Enter)")
+        self.next = explained(QToolButton(self), "Next (Enter)")
+        self.away = explained(QToolButton(self), "Close (Esc)")
         labelled(self, name="Find")
         self._later = QTimer(self, singleShot=True, interval=0)
         self._arrange()
@@ -170,15 +163,8 @@ class FindBar(QFrame):
 
     # Going
 
-    def find_next(self) -> None:
-        """Go to the next hit; after the last comes the first."""
-        self._step(1)
-
-    def find_previous(self) -> None:
-        """Go to the hit before."""
-        self._step(-1)
-
-    def _step(self, by: int) -> None:
+    def step(self, by: int) -> None:
+        """Go so many hits on, or back; after the last comes the first."""
         if not self.isVisible():
             self.open()
             return
@@ -250,7 +236,9 @@ class FindBar(QFrame):
         for button in (self.previous, self.next):
             button.setEnabled(bool(self.hits))
         if self._subject is not None:
-            self.title.setText(self._uses_words(self._subject))
+            name, count = subject_name(self.canvas.editor.project, self._subject), len(self.hits)
+            uses = count_words(count, "1 use of {name}", "{n} uses of {name}", name=name)
+            self.title.setText(uses)
 
     def _mark(self) -> None:
         current = self.hits[self.index] if 0 <= self.index < len(self.hits) else ""
@@ -266,10 +254,6 @@ class FindBar(QFrame):
             return None
         return next(iter(subjects_of(editor.project, editor.language, block)), None)
 
-    def _uses_words(self, subject: Subject) -> str:
-        name = subject_name(self.canvas.editor.project, subject)
-        return count_words(len(self.hits), "1 use of {name}", "{n} uses of {name}", name=name)
-
     def _show_subject(self, subject: Subject | None) -> None:
         self._subject = subject
         self.title.setVisible(subject is not None)
@@ -281,13 +265,10 @@ class FindBar(QFrame):
         row = in_row(self.title, (self.line, 1), self.count, of=self, margins=(8, 4, 8, 4))
         for button in (self.previous, self.next, self.away):
             row.addWidget(button)
-        for button, pressed in (
-            (self.previous, self.find_previous),
-            (self.next, self.find_next),
-            (self.away, self.close_bar),
-        ):
             button.setAutoRaise(True)
-            button.clicked.connect(pressed)
+        self.previous.clicked.connect(lambda: self.step(-1))
+        self.next.clicked.connect(lambda: self.step(1))
+        self.away.clicked.connect(self.close_bar)
         self.line.textEdited.connect(lambda: self._search(is_new=True))
         self._later.timeout.connect(lambda: self._search(is_new=False))
         self.installEventFilter(self)
@@ -305,7 +286,7 @@ class FindBar(QFrame):
         elif key == Qt.Key.Key_F3 or (
             key in (Qt.Key.Key_Return, Qt.Key.Key_Enter) and watched is self.line
         ):
-            self._step(-1 if is_back else 1)
+            self.step(-1 if is_back else 1)
         else:
             return super().eventFilter(watched, event)
         return True

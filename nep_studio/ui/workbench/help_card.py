@@ -2,22 +2,110 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from html import escape
+from itertools import islice
 
 from PySide6.QtCore import QObject, QRect, QSize, Qt, Signal
 from PySide6.QtGui import QKeyEvent
-from PySide6.QtWidgets import QFrame, QPushButton, QTextBrowser, QVBoxLayout
+from PySide6.QtWidgets import QFrame, QPushButton, QTextBrowser
 
+from nep_studio.blocks.definitions import Definition, Slot
+from nep_studio.blocks.editor import Editor
 from nep_studio.blocks.operations.finding import Subject, subjects_of
 from nep_studio.blocks.procedures import CALL, header_of, procedure_of
+from nep_studio.blocks.slots import RESULTS
+from nep_studio.blocks.text import sentence
 from nep_studio.help.texts import block_page
 from nep_studio.ui.canvas.canvas import Canvas
+from nep_studio.ui.canvas.fields.editors import hint_of
 from nep_studio.ui.canvas.fields.field_edit import beside
 from nep_studio.ui.widgets.forms import room_around
+from nep_studio.ui.widgets.layouts import in_column
 from nep_studio.ui.words import tr
 
 from .find_bar import FindBar
-from .help_card_words import card_text
+from .palette.entries import Stock, does, python
+
+# What the card says about a block: its kind, its places, its Python.
+
+MOST_CHOICES = 8
+MOST_INSIDE = 200
+"""A block with more blocks inside shows the Python of a fresh one: that is soon made and read."""
+
+
+def card_text(editor: Editor, block_id: str) -> str:
+    """All about a block, as rich text."""
+    project, language = editor.project, editor.language
+    definition = language.definitions[project.blocks[block_id].type]
+    parts = [f"<h3>{escape(sentence(project, language, block_id))}</h3>"]
+    parts += [f"<p>{escape(text)}</p>" for text in _about(definition)]
+    places = "".join(f"<li>{escape(words)}</li>" for words in _places(editor, block_id))
+    if places:
+        parts.append(f"<p>{escape(tr('Its places:'))}</p><ul>{places}</ul>")
+    code = _python(editor, block_id)
+    if code:
+        parts.append(f"<p>{escape(tr('In Python:'))}</p>")
+        parts.append(f"<pre dir='ltr' style='white-space: pre-wrap'>{escape(code)}</pre>")
+    return "".join(parts)
+
+
+def _about(definition: Definition) -> Iterator[str]:
+    yield from (text for text in does(definition) if text)
+    yield shape_words(definition)
+    flags = {
+        "in_loop": tr("It belongs inside a loop."),
+        "stands": tr("The robot must stand for it."),
+        "stands_up": tr("The robot stands afterwards."),
+        "rests": tr("The robot rests afterwards, and cannot move until it wakes up."),
+        "silent": tr("It is for people who read the program: the robot does nothing."),
+    }
+    yield from (told for flag, told in flags.items() if flag in definition.flags)
+    yield tr("Blocks like this are in “{category}”.", category=definition.category.title)
+
+
+def shape_words(definition: Definition) -> str:
+    """What such blocks are for, by their shape."""
+    if definition.is_last:
+        return tr("It ends what is above it: no block comes after it.")
+    if definition.shape == "reporter":
+        result = tr(RESULTS[definition.result or "any"])
+        return tr("It is a value to put into a place of another block: {result}.", result=result)
+    return {
+        "hat": tr("It begins a stack: the blocks below it belong to it."),
+        "c": tr("It holds other blocks, and decides when or how often they run."),
+        "boolean": tr("It answers yes or no, in a place with the same pointed shape."),
+    }.get(definition.shape, tr("It is one step: when it is done, the block below it follows."))
+
+
+def _places(editor: Editor, block_id: str) -> Iterator[str]:
+    """Each place once, with what it takes."""
+    block = editor.project.blocks[block_id]
+    definition = editor.language.definitions[block.type]
+    told: set[str] = set()
+    for key, slot in definition.keys(block.groups):
+        if slot.name not in told:
+            told.add(slot.name)
+            choices = list(editor.language.choices_of(slot, block, key).values())
+            yield _place(slot, choices)
+
+
+def _place(slot: Slot, choices: list[str]) -> str:
+    if not choices:
+        return hint_of(slot)
+    shown = ", ".join(choices[:MOST_CHOICES])
+    more = ", …" if len(choices) > MOST_CHOICES else ""
+    return f"{hint_of(slot)} ({shown}{more})"
+
+
+def _python(editor: Editor, block_id: str) -> str:
+    project = editor.project
+    inside = project.within([block_id])
+    if next(islice(inside, MOST_INSIDE, None), None) is None:
+        return python(project, editor.language, block_id)
+    stock = Stock(editor)
+    return python(stock.project, stock.language, stock.sample(project.blocks[block_id].type))
+
 
 WIDTH_LETTERS = 46
 
@@ -52,15 +140,13 @@ class HelpCard(QFrame):
             f" QTextBrowser {{ background: {theme.colour('menu').name()};"
             f" color: {theme.colour('text').name()}; }}"
         )
-        box = QVBoxLayout(self)
-        box.setContentsMargins(*(self.fontMetrics().height() // 2,) * 4)
-        box.addWidget(self.text)
         self.more = QPushButton(tr("More…"))
         self.more.setProperty("kind", "quiet")
         self.more.setToolTip(tr("The page about this block (F1)"))
         self.more.clicked.connect(self._ask_for_more)
         self.more.hide()
-        box.addWidget(self.more, 0, Qt.AlignmentFlag.AlignTrailing)
+        more = (self.more, 0, Qt.AlignmentFlag.AlignTrailing)
+        in_column(self.text, more, of=self, margins=self.fontMetrics().height() // 2)
 
     def offer_more(self) -> None:
         """Have a button that leads to the page about the block."""
@@ -119,19 +205,14 @@ class BlockOpening(QObject):
 
     def __init__(self, canvas: Canvas, find_bar: FindBar) -> None:
         super().__init__(canvas)
-        self._canvas, self._find_bar = canvas, find_bar
+        self.canvas, self._find_bar = canvas, find_bar
         self.is_page_shown: Callable[[], bool] | None = None
         canvas.news.block_opened.connect(self.open)
-        canvas.news.help_requested.connect(self._on_help_requested)
-
-    @property
-    def canvas(self) -> Canvas:
-        """The canvas whose blocks are opened."""
-        return self._canvas
+        canvas.news.help_requested.connect(lambda: self.answer(canvas.selection.cursor))
 
     def answer(self, block: str) -> None:
         """Tell about a block: on its page where that is open, else on a small card."""
-        blocks = self._canvas.editor.project.blocks
+        blocks = self.canvas.editor.project.blocks
         if block in blocks and self.is_page_shown is not None and self.is_page_shown():
             self.page_asked.emit(block_page(blocks[block].type))
         else:
@@ -139,7 +220,7 @@ class BlockOpening(QObject):
 
     def open(self, block: str) -> None:
         """Show what there is to see of a block without a field."""
-        canvas = self._canvas
+        canvas = self.canvas
         project = canvas.editor.project
         if block not in project.blocks:
             return
@@ -156,10 +237,10 @@ class BlockOpening(QObject):
 
     def show_card(self, block: str) -> None:
         """Tell about a block, beside it."""
-        editor = self._canvas.editor
+        editor = self.canvas.editor
         found = editor.project.blocks.get(block)
         if found is not None and found.type in editor.language.definitions:
-            card = HelpCard(self._canvas, block)
+            card = HelpCard(self.canvas, block)
             card.more_asked.connect(self.page_asked)
             if self.is_page_shown is not None:
                 card.offer_more()
@@ -167,7 +248,7 @@ class BlockOpening(QObject):
 
     def _value_subject(self, block: str) -> Subject | None:
         """The variable or parameter that a block stands for, and nothing else."""
-        editor = self._canvas.editor
+        editor = self.canvas.editor
         definition = editor.language.definitions.get(editor.project.blocks[block].type)
         if definition is None or not definition.is_value:
             return None
@@ -176,6 +257,3 @@ class BlockOpening(QObject):
             return None
         subject = next(iter(subjects_of(editor.project, editor.language, block)), None)
         return subject if subject and subject.kind in ("variable", "parameter") else None
-
-    def _on_help_requested(self, page: str) -> None:
-        self.answer(self._canvas.selection.cursor)

@@ -7,14 +7,7 @@ from dataclasses import dataclass
 
 from PySide6.QtCore import QEvent, QObject, QPoint, QPointF, QRect, QRectF, QSize, Qt, Signal
 from PySide6.QtGui import QFontInfo, QKeyEvent, QMouseEvent, QPainter, QPaintEvent, QPen
-from PySide6.QtWidgets import (
-    QApplication,
-    QFrame,
-    QLabel,
-    QLineEdit,
-    QScrollArea,
-    QWidget,
-)
+from PySide6.QtWidgets import QApplication, QFrame, QLabel, QLineEdit, QScrollArea, QWidget
 
 from nep_studio.blocks.definitions import Definition
 from nep_studio.blocks.operations.copying import Clip
@@ -74,21 +67,15 @@ class SuggestionList(QWidget):
 
     def show_clips(self, clips: Sequence[tuple[Clip, str]]) -> None:
         """Show these blocks with their sentences, and point at the first."""
-        measures = self._canvas.look.measures
-        self._painter = BlockPainter(
-            self._canvas.look.theme,
-            self._canvas.editor.language,
-            measures,
-            self._canvas.look.block_font,
-        )
-        size = (
-            QFontInfo(self.font()).pixelSize() / QFontInfo(self._canvas.look.block_font).pixelSize()
-        )
+        look, language = self._canvas.look, self._canvas.editor.language
+        measures = look.measures
+        self._painter = BlockPainter(look.theme, language, measures, look.block_font)
+        size = QFontInfo(self.font()).pixelSize() / QFontInfo(look.block_font).pixelSize()
         self._scale = SCALE * size
         self.rows, self.current = [], 0
         y, gap = 4.0, measures.line * 0.35
         for clip, label in clips:
-            layout = Layout(clip.project, self._canvas.editor.language, measures)
+            layout = Layout(clip.project, language, measures)
             row = Row(clip, label, layout.chain(clip.roots[0]), y)
             whole = (row.chain.height + measures.notch_depth) * self._scale
             row.height = min(whole, HIGHEST_ROW * measures.unit * size) + gap
@@ -200,7 +187,7 @@ class InsertBar(QFrame):
         self.line.textChanged.connect(self._on_typed)
         self.line.installEventFilter(self)
         self.list = SuggestionList(canvas, self)
-        self.list.chosen.connect(self._on_chosen)
+        self.list.chosen.connect(self.insert)
         self.area = QScrollArea(self, widgetResizable=True)
         self.area.setWidget(self.list)
         self.area.setFrameShape(QFrame.Shape.NoFrame)
@@ -294,9 +281,6 @@ class InsertBar(QFrame):
     def _on_letter(self, letter: str) -> None:
         self.open(None, "" if letter == OPENER else letter)
 
-    def _on_chosen(self, number: int) -> None:
-        self.insert(number)
-
     def _on_typed(self, text: str) -> None:
         editor = self.canvas.editor
         recent = self._settings.recent_blocks if self._settings is not None else []
@@ -355,13 +339,3 @@ class InsertBar(QFrame):
     def _leave(self) -> None:
         self.hide()
         self.canvas.setFocus(Qt.FocusReason.OtherFocusReason)
-
-
-def open_insert_bar(
-    canvas: Canvas, at: QPointF | None = None, text: str = "", *, place: Place | None = None
-) -> InsertBar:
-    """Open the insert bar of a canvas, which is made when it has none yet."""
-    bars = [child for child in canvas.children() if isinstance(child, InsertBar)]
-    bar = bars[0] if bars else InsertBar(canvas)
-    bar.open(at, text, place=place)
-    return bar

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from bisect import bisect_right
 
-from PySide6.QtCore import QPointF, QRectF, QSize, Qt, QTimer
+from PySide6.QtCore import QPointF, QRectF, Qt, QTimer
 from PySide6.QtGui import QMouseEvent, QPainter, QPaintEvent, QPen, QPixmap, QShowEvent, QWheelEvent
 from PySide6.QtWidgets import QLabel, QWidget
 
@@ -12,10 +12,8 @@ from nep_studio.ui.canvas.canvas import Canvas
 from nep_studio.ui.canvas.layout.boxes import Chain
 from nep_studio.ui.canvas.layout.index import Rect
 from nep_studio.ui.labels import follow_words, labelled
+from nep_studio.ui.widgets.layouts import InLines
 from nep_studio.ui.words import tr
-
-WIDTH_LINES, HEIGHT_LINES = 12.0, 8.0
-"""How large it is, in lines of text."""
 
 DRAW_MS = 150
 """How long the program must rest before the small picture is painted again."""
@@ -26,8 +24,10 @@ INDENT_SCALE = 0.05
 """From this scale on the blocks inside others are drawn too."""
 
 
-class Minimap(QWidget):
+class Minimap(InLines):
     """Lies over the lower corner of a canvas. A press looks there; the frame can be dragged."""
+
+    usual_lines = (12.0, 8.0)
 
     def __init__(self, canvas: Canvas) -> None:
         super().__init__(canvas)
@@ -55,11 +55,6 @@ class Minimap(QWidget):
         self._is_stale = True
         self._take_place()
         self.update()
-
-    def sizeHint(self) -> QSize:
-        """Small beside the canvas."""
-        line = self.fontMetrics().height()
-        return QSize(round(line * WIDTH_LINES), round(line * HEIGHT_LINES))
 
     def draw_now(self) -> None:
         """Paint the small picture; the cost is by its pixels, not by the number of blocks."""

@@ -10,7 +10,7 @@ from PySide6.QtWidgets import QLineEdit, QMenu, QTabBar, QToolButton, QWidget
 
 from nep_studio.blocks.editor import Editor
 from nep_studio.blocks.edits.project import AddPage, MovePage, RenamePage
-from nep_studio.blocks.program import PAGES, Changes, Project
+from nep_studio.blocks.program import PAGES, Project
 from nep_studio.ui.labels import follow_words, labelled
 from nep_studio.ui.theme.icons import icon
 from nep_studio.ui.theme.look import Look
@@ -40,7 +40,7 @@ class PagesBar(QWidget):
         self.add_button.clicked.connect(self.add_page)
         in_row(self.tabs, self.add_button, 1, of=self, margins=0, spacing=0)
         self._connect()
-        editor.history.listen(self._on_whole_changed, is_of_whole=True)
+        editor.history.listen(self._fill, is_of_whole=True)
         follow_words(self, self._fill)
 
     def _connect(self) -> None:
@@ -48,13 +48,13 @@ class PagesBar(QWidget):
         self.tabs.moved_to.connect(self._on_moved_to)
         self.tabs.renamed.connect(self.rename_page)
         self.tabs.customContextMenuRequested.connect(self._on_menu_requested)
-        self._look.theme_changed.connect(self._on_theme_changed)
+        self._look.theme_changed.connect(self._fill)
 
     def set_editor(self, editor: Editor) -> None:
         """Show the pages of another project."""
-        self._editor.history.unlisten(self._on_whole_changed)
+        self._editor.history.unlisten(self._fill)
         self._editor = editor
-        editor.history.listen(self._on_whole_changed, is_of_whole=True)
+        editor.history.listen(self._fill, is_of_whole=True)
         self._page = PAGES[0]
         self._fill()
 
@@ -73,7 +73,6 @@ class PagesBar(QWidget):
         kinds = [project.kind_of_page(page) for page in project.pages]
         position = len(kinds) - kinds[::-1].index("behaviour")
         page = project.new_id("page")
-        project = self._editor.project
         taken = {page_title(project, page) for page in project.pages}
         number = 2
         while (title := tr("Behaviour {number}", number=number)) in taken:
@@ -96,13 +95,7 @@ class PagesBar(QWidget):
         page = list(self._editor.project.pages)[index]
         self._attempt(lambda: self._editor.delete_page(page))
 
-    def _on_whole_changed(self, changes: Changes) -> None:
-        self._fill()
-
-    def _on_theme_changed(self) -> None:
-        self._fill()
-
-    def _fill(self) -> None:
+    def _fill(self, _changed: object = None) -> None:
         project, theme = self._editor.project, self._look.theme
         self.add_button.setIcon(icon("plus", theme))
         self.tabs.blockSignals(True)
@@ -141,18 +134,18 @@ class PagesBar(QWidget):
         menu, theme = QMenu(self), self._look.theme
         menu.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
         pages = list(self._editor.project.pages)
-        rename = menu.addAction(icon("pencil", theme), tr("Rename…"))
-        rename.triggered.connect(lambda: self.tabs.edit_title(index))
-        left = menu.addAction(icon("arrow-left", theme), tr("Move left"))
+        tabs, move = self.tabs, self._on_moved_to
+        menu.addAction(icon("pencil", theme), tr("Rename…"), lambda: tabs.edit_title(index))
+        sign = icon("arrow-left", theme)
+        left = menu.addAction(sign, tr("Move left"), lambda: move(index, index - 1))
         left.setEnabled(index > 0)
-        left.triggered.connect(lambda: self._on_moved_to(index, index - 1))
-        right = menu.addAction(icon("arrow-right", theme), tr("Move right"))
+        sign = icon("arrow-right", theme)
+        right = menu.addAction(sign, tr("Move right"), lambda: move(index, index + 1))
         right.setEnabled(index < len(pages) - 1)
-        right.triggered.connect(lambda: self._on_moved_to(index, index + 1))
         menu.addSeparator()
-        delete = menu.addAction(icon("trash-2", theme), tr("Delete the page"))
+        sign = icon("trash-2", theme)
+        delete = menu.addAction(sign, tr("Delete the page"), lambda: self.delete_page(index))
         delete.setEnabled(pages[index] not in PAGES)
-        delete.triggered.connect(lambda: self.delete_page(index))
         return menu
 
 

@@ -3,13 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QPoint, QRect, QSize, Qt, Signal
 from PySide6.QtGui import QKeyEvent, QMouseEvent, QPainter, QPaintEvent, QShowEvent
 from PySide6.QtWidgets import (
     QFrame,
-    QHBoxLayout,
     QLabel,
     QPushButton,
     QScrollArea,
@@ -30,10 +28,6 @@ from nep_studio.ui.theme.look import Look
 from nep_studio.ui.widgets.forms import hint, room_around
 from nep_studio.ui.widgets.layouts import in_column, in_row
 from nep_studio.ui.words import tr
-
-if TYPE_CHECKING:
-    from nep_studio.blocks.checks import Diagnostic
-
 
 SEVERITIES = {"error": "Error", "warning": "Warning", "info": "Note"}
 """How bad it is, in a word."""
@@ -156,12 +150,11 @@ def _sign(problem: Diagnostic, look: Look, widget: QWidget) -> QLabel:
 
 def _all_well(look: Look) -> QWidget:
     """What stands here when there is no problem."""
-    row = QWidget()
-    box = QHBoxLayout(row)
-    sign, size = QLabel(), round(row.fontMetrics().height() * 1.3)
+    row, sign = QWidget(), QLabel()
+    size = round(row.fontMetrics().height() * 1.3)
     sign.setPixmap(icon_pixmap("circle-check", look.theme.colour("success"), size))
-    box.addWidget(sign)
-    box.addWidget(hint("Nothing to correct. The program is checked while you work."), 1)
+    words = hint("Nothing to correct. The program is checked while you work.")
+    in_row(sign, (words, 1), of=row)
     return row
 
 
@@ -189,7 +182,11 @@ class ProblemBubble(QFrame):
             box.addWidget(
                 MessageText(Message(problem.severity, tr(problem.sentence), "", checklist))
             )
-            self._add_fix(problem, box)
+            if (button := fix_button(problem)) is not None:
+                button.clicked.connect(self.close)
+                button.clicked.connect(lambda _=False, one=problem: self.fix_asked.emit(one))
+                self.buttons.append(button)
+                box.addLayout(in_row(button, 1))
 
     def show_at(self, badge: QRect) -> None:
         """Show it below a badge, given on the screen, but never outside of the screen."""
@@ -216,13 +213,3 @@ class ProblemBubble(QFrame):
             self.close()
         else:
             super().keyPressEvent(event)
-
-    def _add_fix(self, problem: Diagnostic, box: QVBoxLayout) -> None:
-        button = fix_button(problem)
-        if button is None:
-            return
-        button.clicked.connect(self.close)
-        button.clicked.connect(lambda: self.fix_asked.emit(problem))
-        self.buttons.append(button)
-        row = in_row(button, 1)
-        box.addLayout(row)

@@ -7,13 +7,14 @@ from typing import Literal
 
 from PySide6.QtCore import QObject, QSignalBlocker, QSize, Qt, Signal
 from PySide6.QtGui import QAction, QResizeEvent
-from PySide6.QtWidgets import QSplitter, QTabWidget, QToolButton, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QSplitter, QTabWidget, QToolButton, QWidget
 
 from faults import Words
 from nep_studio.settings import Settings
 from nep_studio.ui.labels import follow_words, labelled
 from nep_studio.ui.theme.icons import icon
 from nep_studio.ui.theme.look import Look
+from nep_studio.ui.widgets.layouts import in_column
 from nep_studio.ui.words import tr
 
 AreaName = Literal["left", "right", "bottom"]
@@ -137,9 +138,8 @@ class Panels(QObject):
         }
         self.column = QSplitter(Qt.Orientation.Vertical)
         self.row = QSplitter(Qt.Orientation.Horizontal)
-        box = QVBoxLayout(parent)
-        box.setContentsMargins(0, 0, 0, 0)
-        box.addWidget(self.row)  # the outer ones first: a widget is dressed anew in each parent
+        # the outer ones first: a widget is dressed anew in each parent
+        in_column(self.row, of=parent, margins=0)
         for beside in (self.areas["left"], self.column, self.areas["right"]):
             self.row.addWidget(beside)
         for widget in (middle, self.areas["bottom"]):

@@ -8,13 +8,7 @@ from pathlib import Path
 
 from PySide6.QtCore import QObject, QPoint, QRectF, QSize, Qt, Signal
 from PySide6.QtGui import QKeyEvent, QPainter, QPaintEvent, QPen
-from PySide6.QtWidgets import (
-    QAbstractButton,
-    QFrame,
-    QLabel,
-    QPushButton,
-    QWidget,
-)
+from PySide6.QtWidgets import QAbstractButton, QFrame, QLabel, QPushButton, QWidget
 
 from nep_studio.blocks.operations.copying import Clip, paste
 from nep_studio.blocks.program import PAGES
@@ -224,7 +218,6 @@ class TrashButton(QAbstractButton):
             inner = line * (0.45 if self._is_taking else 0.65)
             paint_icon(painter, rect.adjusted(inner, inner, -inner, -inner), "trash-2", sign)
             if self.trash.clips:
-                theme, line = self.canvas.look.theme, self.fontMetrics().height()
                 side = line * 1.05
                 badge = QRectF(rect.right() - side, rect.top(), side, side)
                 painter.setPen(Qt.PenStyle.NoPen)
@@ -259,13 +252,11 @@ class TrashButton(QAbstractButton):
 
     def _on_changed(self) -> None:
         number = len(self.trash.clips)
-        words = (
-            tr("Deleted blocks")
-            if not number
-            else count_words(
+        words = tr("Deleted blocks")
+        if number:
+            words = count_words(
                 number, "Deleted blocks: 1 to bring back", "Deleted blocks: {n} to bring back"
             )
-        )
         self.setAccessibleName(words)
         self.setToolTip(words)
         self.update()

@@ -120,7 +120,7 @@ class Workbench(QWidget):
         canvas.news.page_changed.connect(self.pages_bar.show_page)
         canvas.news.page_changed.connect(self.code.show_page)
         canvas.news.refused.connect(self._messages.refuse)
-        canvas.news.announced.connect(self._on_announced)
+        canvas.news.announced.connect(lambda words: announce(canvas, words))
         canvas.news.problem_opened.connect(self.open_bubble)
         canvas.news.layout_changed.connect(self._messages.clear_passing)
         self.code.block_asked.connect(self.show_block)
@@ -195,13 +195,12 @@ class Workbench(QWidget):
 
     def fix(self, problem: Diagnostic) -> None:
         """Put a problem right as far as the program can, and show what it did."""
-        changed: list[str] = []
         try:
-            changed.append(apply_fix(self.canvas.editor, problem))
+            changed = apply_fix(self.canvas.editor, problem)
         except EditRefused as refusal:
             self._messages.refuse(refusal.sentence, refusal.checklist)
             return
-        self.show_block(changed[0])
+        self.show_block(changed)
         self.checks.start()
 
     def show_run_problem(self, problem: Diagnostic | None) -> None:
@@ -239,9 +238,6 @@ class Workbench(QWidget):
             self.show_block(problem.block)
         elif problem.page in self.canvas.editor.project.pages:
             self.canvas.show_page(problem.page)
-
-    def _on_announced(self, words: str) -> None:
-        announce(self.canvas, words)
 
     def _on_theme_changed(self) -> None:
         self.canvas.set_look(

@@ -18,7 +18,7 @@ from PySide6.QtWidgets import QApplication
 from nep_studio.run.installation import studio_language
 from nep_studio.ui.canvas.accessibility import make_accessible
 from nep_studio.ui.canvas.canvas import Canvas
-from nep_studio.ui.theme import load_theme
+from nep_studio.ui.theme.colours import load_theme
 from tests.blocks.block_building import B, build
 app, language, theme = QApplication([]), studio_language(), load_theme("light")
 

@@ -167,7 +167,7 @@ def test_a_block_that_names_nothing_is_answered_kindly(canvas, bar, qtbot):
 
 
 def test_find_again_opens_the_bar_when_it_is_closed(canvas, bar):
-    bar.find_next()
+    bar.step(1)
 
     assert bar.isVisible()
 

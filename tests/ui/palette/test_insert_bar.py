@@ -7,7 +7,7 @@ from PySide6.QtCore import QPoint, QPointF, Qt
 from PySide6.QtTest import QTest
 
 from nep_studio.blocks.places import InInput
-from nep_studio.ui.workbench.insert_bar import InsertBar, open_insert_bar
+from nep_studio.ui.workbench.insert_bar import InsertBar
 
 KEY = Qt.Key
 
@@ -219,8 +219,3 @@ def test_the_bar_is_inside_the_view(canvas, bar):
     bar.open(QPointF(5000, 5000), "say")
 
     assert canvas.rect().contains(bar.geometry())
-
-
-def test_the_function_uses_the_bar_that_is_there(canvas, bar):
-    assert open_insert_bar(canvas, None, "wait") is bar
-    assert bar.line.text() == "wait"

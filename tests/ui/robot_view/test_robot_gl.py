@@ -27,7 +27,7 @@ from nep_core.wire.messages import RobotState
 from nep_studio.ui.robot_view.drawing import NoContext, gl_bodies
 from nep_studio.ui.robot_view.figure import load_figure
 from nep_studio.ui.robot_view.view import RobotView, nao_folder
-from nep_studio.ui.theme import Look
+from nep_studio.ui.theme.look import Look
 import numpy as np
 
 app = QApplication([])

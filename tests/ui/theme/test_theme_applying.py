@@ -22,13 +22,13 @@ from PySide6.QtWidgets import (
 )
 from pytestqt.qtbot import QtBot
 
-from nep_studio.ui.theme import style_sheet
 from nep_studio.ui.theme.colours import Theme, load_theme
 from nep_studio.ui.theme.look import (
     Fonts,
     Look,
     apply_theme,
     base_point_size,
+    style_sheet,
     system_theme_name,
     text_font,
 )

@@ -147,4 +147,4 @@ def test_changing_long_code_begins_with_all_of_it(large: MainWindow, qtbot):
 
     expected = generate_program(editor.project, editor.language).text
     assert code.text.toPlainText() + "\n" == expected
-    code.discard()
+    code.discard_button.click()

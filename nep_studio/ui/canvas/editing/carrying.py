@@ -13,7 +13,7 @@ from nep_studio.ui.canvas.painting.layers import make_sprite
 from nep_studio.ui.words import tr
 
 from .cargo import Cargo
-from .gesture import Pointer
+from .gesture import Gesture
 from .marks import DropOverlay
 from .snapping import Target, seams, slots
 
@@ -26,16 +26,16 @@ FREE_STEP = 32.0
 EVERYWHERE = Rect(-2e6, -2e6, 4e6, 4e6)
 
 
-class KeyboardCarry:
-    """Blocks in the hand of the keyboard."""
+class KeyboardCarry(Gesture):
+    """Blocks in the hand of the keyboard: the mouse neither moves them nor puts them down."""
 
-    def __init__(self, canvas: CanvasHost, cargo: Cargo, first: str = "") -> None:
+    def __init__(self, canvas: CanvasHost, cargo: Cargo, first: str) -> None:
         self._cargo = cargo
         self._target: Target | None = None
         self._dx = self._dy = 0.0
         self._overlay = DropOverlay()
         canvas.layers.show_overlay(self._overlay)
-        origin = place_of(canvas.editor.project, first, 1) if first else None
+        origin = place_of(canvas.editor.project, first, 1)
         canvas.layers.set_preview(cargo.hidden, None)
         sprite = make_sprite(canvas, cargo.chains, cargo.bounds)
         canvas.layers.set_sprite(sprite)
@@ -87,12 +87,6 @@ class KeyboardCarry:
             canvas.selection.set(made)
             canvas.show_block(made[0])
             canvas.news.announced.emit(tr("Put down {place}.", place=self._told(canvas, target)))
-
-    def move(self, canvas: CanvasHost, pointer: Pointer) -> None:
-        """The mouse does not move what the keyboard carries."""
-
-    def release(self, canvas: CanvasHost, pointer: Pointer) -> None:
-        """Nor does it put it down."""
 
     def cancel(self, canvas: CanvasHost) -> None:
         """Put the blocks back."""

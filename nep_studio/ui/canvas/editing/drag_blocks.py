@@ -24,7 +24,7 @@ from nep_studio.ui.canvas.painting.layers import make_sprite
 from nep_studio.ui.words import count_words, tr
 
 from .cargo import Cargo, NewBlocks
-from .gesture import TOUCH_DRAG_PX, AutoScroll, Pointer
+from .gesture import TOUCH_DRAG_PX, AutoScroll, Gesture, Pointer
 from .snapping import Ground, Point, Snap, Target, search
 
 if TYPE_CHECKING:
@@ -124,7 +124,7 @@ LARGEST_GAP = 0.35
 """How much of the view's height a gap takes at most, however long the carried stack is."""
 
 
-class DragBlocks:
+class DragBlocks(Gesture):
     """Blocks in the hand. Nothing changes in the program until they are dropped."""
 
     def __init__(self, canvas: CanvasHost, cargo: Cargo, grabbed: QPointF) -> None:
@@ -135,9 +135,9 @@ class DragBlocks:
         self._reasons: dict[tuple[object, str], Text | None] = {}
         self._run = _selected_run(canvas, cargo)
         self._last = Pointer(canvas.sight.camera.to_view(grabbed.x(), grabbed.y()), grabbed)
-        canvas.layers.set_sprite(make_sprite(canvas, cargo.chains, cargo.bounds, grabbed))
-        assert canvas.layers.sprite is not None
-        self._corner = canvas.layers.sprite.x, canvas.layers.sprite.y
+        sprite = make_sprite(canvas, cargo.chains, cargo.bounds, grabbed)
+        canvas.layers.set_sprite(sprite)
+        self._corner = sprite.x, sprite.y
         canvas.layers.set_preview(cargo.hidden, None)
         self._ends = cargo.ends
         self._ground = Ground(canvas.page_layout)
@@ -153,7 +153,16 @@ class DragBlocks:
         canvas.layers.move_sprite(self._corner[0] + dx, self._corner[1] + dy)
         place = canvas.area.viewport().mapToGlobal(pointer.view.toPoint())
         self._show_delete_area(canvas, canvas.marks.delete_area(place))
-        snap = Snap() if self.is_over_delete_area else self._search(canvas, dx, dy)
+        snap = Snap()
+        if not self.is_over_delete_area:
+            snap = search(
+                self._ground,
+                self._ends.moved(dx, dy),
+                lambda target: self._why_not(canvas, target),
+                scale=canvas.sight.camera.scale,
+                current=self.snap.target,
+                run=self._run,
+            )
         if snap != self.snap:
             self.snap = snap
             gap = self._gap(canvas, snap.target) if snap.target is not None else None
@@ -183,16 +192,6 @@ class DragBlocks:
     def cancel(self, canvas: CanvasHost) -> None:
         """Show the page as it was: nothing has changed."""
         self._end(canvas)
-
-    def _search(self, canvas: CanvasHost, dx: float, dy: float) -> Snap:
-        return search(
-            self._ground,
-            self._ends.moved(dx, dy),
-            lambda target: self._why_not(canvas, target),
-            scale=canvas.sight.camera.scale,
-            current=self.snap.target,
-            run=self._run,
-        )
 
     def _why_not(self, canvas: CanvasHost, target: Target) -> Text | None:
         """Why the blocks do not fit; asked once for each place."""
@@ -224,15 +223,12 @@ class DragBlocks:
 
     def _words(self) -> str:
         """What the bubble says."""
-        if self.is_over_delete_area:
-            if not self.cargo.hidden:
-                return ""
+        if self.is_over_delete_area and self.cargo.hidden:
             return count_words(
                 self.cargo.count, "Let go to delete 1 block", "Let go to delete {n} blocks"
             )
-        return (
-            "" if self.snap.target is not None else tr(self.snap.reason or self._page_reason or "")
-        )
+        is_silent = self.is_over_delete_area or self.snap.target is not None
+        return "" if is_silent else tr(self.snap.reason or self._page_reason or "")
 
     def _end(self, canvas: CanvasHost) -> None:
         self._scroll.end()

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Protocol
+from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QPointF, Qt, QTimer
 
@@ -32,8 +32,11 @@ class Pointer:
         return max(abs(way.x()), abs(way.y())) >= (TOUCH_DRAG_PX if self.is_touch else DRAG_PX)
 
 
-class Gesture(Protocol):
-    """One gesture under way; the canvas tells it what happens until it ends."""
+class Gesture:
+    """One gesture under way; the canvas tells it what happens until it ends.
+
+    A gesture leaves out what means nothing to it.
+    """
 
     def move(self, canvas: CanvasHost, pointer: Pointer) -> None:
         """The pointer moved."""

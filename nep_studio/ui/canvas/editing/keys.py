@@ -101,6 +101,23 @@ Press = tuple[Qt.Key, bool, bool, bool]
 Rule = Callable[[], object]
 
 
+_PLAIN, _CONTROL = (False, False, False), (False, True, False)
+_CARRYING_RULES: dict[Press, Callable[[KeyboardCarry, CanvasHost], None]] = {
+    (Key.Key_Down, *_PLAIN): lambda carry, canvas: carry.step(canvas, 1),
+    (Key.Key_Right, *_PLAIN): lambda carry, canvas: carry.step(canvas, 1),
+    (Key.Key_Up, *_PLAIN): lambda carry, canvas: carry.step(canvas, -1),
+    (Key.Key_Left, *_PLAIN): lambda carry, canvas: carry.step(canvas, -1),
+    (Key.Key_Down, *_CONTROL): lambda carry, canvas: carry.shift(canvas, 0, 1),
+    (Key.Key_Up, *_CONTROL): lambda carry, canvas: carry.shift(canvas, 0, -1),
+    (Key.Key_Right, *_CONTROL): lambda carry, canvas: carry.shift(canvas, 1, 0),
+    (Key.Key_Left, *_CONTROL): lambda carry, canvas: carry.shift(canvas, -1, 0),
+    (Key.Key_Return, *_PLAIN): KeyboardCarry.drop,
+    (Key.Key_Enter, *_PLAIN): KeyboardCarry.drop,
+    (Key.Key_Space, *_PLAIN): KeyboardCarry.drop,
+    (Key.Key_Escape, *_PLAIN): KeyboardCarry.cancel,
+}
+
+
 class Keyboard:
     """The keyboard of one canvas.
 
@@ -115,22 +132,6 @@ class Keyboard:
         """Whether the space bar is down and has only been pressed: the mouse pans with it too."""
         self.type_letter: Callable[[str], None] = lambda letter: None
         self._rules = self._resting_rules()
-        plain, control = (False, False, False), (False, True, False)
-        forward, back = (lambda: self._step(1)), (lambda: self._step(-1))
-        self._carrying_rules = {
-            (Key.Key_Down, *plain): forward,
-            (Key.Key_Right, *plain): forward,
-            (Key.Key_Up, *plain): back,
-            (Key.Key_Left, *plain): back,
-            (Key.Key_Down, *control): lambda: self._shift(0, 1),
-            (Key.Key_Up, *control): lambda: self._shift(0, -1),
-            (Key.Key_Right, *control): lambda: self._shift(1, 0),
-            (Key.Key_Left, *control): lambda: self._shift(-1, 0),
-            (Key.Key_Return, *plain): self._drop,
-            (Key.Key_Enter, *plain): self._drop,
-            (Key.Key_Space, *plain): self._drop,
-            (Key.Key_Escape, *plain): self._put_back,
-        }
 
     def press(self, event: QKeyEvent) -> bool:
         """Do what a key means; False when it means nothing here."""
@@ -143,9 +144,9 @@ class Keyboard:
             bool(held & Modifier.ControlModifier),
             bool(held & Modifier.AltModifier),
         )
-        if isinstance(self._canvas.pointing.gesture, KeyboardCarry):
-            if press in self._carrying_rules:
-                self._carrying_rules[press]()
+        if isinstance(carry := self._canvas.pointing.gesture, KeyboardCarry):
+            if press in _CARRYING_RULES:
+                _CARRYING_RULES[press](carry, self._canvas)
             return True
         rule = self._rules.get(press)
         if rule is not None:
@@ -178,9 +179,9 @@ class Keyboard:
         self.is_space_pressed = True
 
     def _resting_rules(self) -> dict[Press, Rule]:
-        canvas, plain = self._canvas, (False, False, False)
+        canvas, plain = self._canvas, _PLAIN
         walk = self.walk
-        rules: dict[Press, Rule] = {
+        return {
             (Key.Key_Down, *plain): lambda: walk.go(navigation.below),
             (Key.Key_Up, *plain): lambda: walk.go(navigation.above),
             (Key.Key_Down, True, False, False): lambda: walk.extend(navigation.below),
@@ -217,7 +218,6 @@ class Keyboard:
             (Key.Key_F10, True, False, False): self._menu,
             (Key.Key_Escape, *plain): self._escape,
         }
-        return rules
 
     def _edit(self) -> None:
         """Edit the first field of the block; unfold it when it is folded."""
@@ -253,24 +253,6 @@ class Keyboard:
 
     def _escape(self) -> None:
         if self._canvas.pointing.gesture is not None:
-            self._canvas.pointing.gesture.cancel(self._canvas)
-            self._canvas.pointing.gesture = None
+            self._canvas.pointing.cancel()
         else:
             self._canvas.selection.clear()
-
-    def _carried(self) -> KeyboardCarry:
-        gesture = self._canvas.pointing.gesture
-        assert isinstance(gesture, KeyboardCarry)
-        return gesture
-
-    def _step(self, by: int) -> None:
-        self._carried().step(self._canvas, by)
-
-    def _shift(self, dx: int, dy: int) -> None:
-        self._carried().shift(self._canvas, dx, dy)
-
-    def _drop(self) -> None:
-        self._carried().drop(self._canvas)
-
-    def _put_back(self) -> None:
-        self._carried().cancel(self._canvas)

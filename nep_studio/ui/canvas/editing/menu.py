@@ -96,6 +96,7 @@ def structure(canvas: CanvasHost, place: MenuPlace) -> list[MenuEntry]:
 def flags(canvas: CanvasHost, place: MenuPlace) -> list[MenuEntry]:
     """Switch off, fold, and comment."""
     block, commands = _block(canvas, place), canvas.commands
+    open_comment = canvas.fields.open_comment
     off = tr("Switch on") if block.disabled else tr("Switch off")
     fold = tr("Unfold") if block.collapsed else tr("Fold")
     fold_icon = "unfold-vertical" if block.collapsed else "fold-vertical"
@@ -105,9 +106,7 @@ def flags(canvas: CanvasHost, place: MenuPlace) -> list[MenuEntry]:
         MenuEntry(
             "collapse", fold, lambda: commands.toggle("collapsed"), fold_icon, True, "Ctrl+M"
         ),
-        MenuEntry(
-            "comment", comment, lambda: canvas.fields.open_comment(block.id), "message-square"
-        ),
+        MenuEntry("comment", comment, lambda: open_comment(block.id), "message-square"),
     ]
 
 

@@ -13,9 +13,9 @@ from nep_studio.blocks.program import Block, Project
 def below(project: Project, stacks: Sequence[str], block_id: str) -> str:
     """The next statement: the first inside, else the next one; the same block at the end."""
     block = project.blocks[statement_of(project, block_id)]
-    inside = _first_inside(block)
-    if inside:
-        return inside
+    inside = [chain for chain in block.bodies.values() if chain]
+    if inside and not block.collapsed:
+        return inside[0][0]
     current = block.id
     while current in project.blocks:
         parent = project.parents[current]
@@ -24,7 +24,7 @@ def below(project: Project, stacks: Sequence[str], block_id: str) -> str:
         if index + 1 < len(chain):
             return chain[index + 1]
         if parent.owner not in project.blocks:
-            return _next_stack(project, stacks, parent.owner) or block_id
+            return next_stack(project, stacks, block_id)
         later = _later_body(project.blocks[parent.owner], parent.slot)
         if later:
             return later
@@ -45,8 +45,8 @@ def above(project: Project, stacks: Sequence[str], block_id: str) -> str:
     if parent.owner in project.blocks:
         earlier = _earlier_body(project.blocks[parent.owner], parent.slot)
         return _deepest(project, earlier) if earlier else parent.owner
-    before = _previous_stack(project, stacks, parent.owner)
-    return _deepest(project, before) if before else block_id
+    before = _beside(stacks, parent.owner, -1)
+    return _deepest(project, project.stacks[before].body[-1]) if before else block_id
 
 
 def inward(project: Project, block_id: str) -> str:
@@ -78,7 +78,8 @@ def statement_of(project: Project, block_id: str) -> str:
 
 def next_stack(project: Project, stacks: Sequence[str], block_id: str) -> str:
     """The first block of the stack after the one of this block; the same at the end."""
-    return _next_stack(project, stacks, project.stack_of(block_id).id) or block_id
+    after = _beside(stacks, project.stack_of(block_id).id, 1)
+    return project.stacks[after].body[0] if after else block_id
 
 
 def previous_stack(project: Project, stacks: Sequence[str], block_id: str) -> str:
@@ -102,12 +103,6 @@ def between(project: Project, stacks: Sequence[str], one: str, other: str) -> li
         for block, number in order.items()
         if first <= number <= last and statement_of(project, block) == block
     ]
-
-
-def _first_inside(block: Block) -> str:
-    if block.collapsed:
-        return ""
-    return next((chain[0] for chain in block.bodies.values() if chain), "")
 
 
 def _later_body(owner: Block, slot: str) -> str:
@@ -139,16 +134,6 @@ def _next_input(project: Project, block_id: str) -> str:
     if block_id not in plugged:
         return ""
     return next(iter(plugged[plugged.index(block_id) + 1 :]), "")
-
-
-def _next_stack(project: Project, stacks: Sequence[str], stack: str) -> str:
-    after = _beside(stacks, stack, 1)
-    return project.stacks[after].body[0] if after else ""
-
-
-def _previous_stack(project: Project, stacks: Sequence[str], stack: str) -> str:
-    before = _beside(stacks, stack, -1)
-    return project.stacks[before].body[-1] if before else ""
 
 
 def _beside(stacks: Sequence[str], stack: str, step: int) -> str:

@@ -70,7 +70,7 @@ def edit_note(canvas: CanvasHost, note_id: str) -> NoteEditor | None:
     return canvas.notes.writing
 
 
-class NotePress:
+class NotePress(Gesture):
     """A press on a note: a click selects it, a double click opens it, a drag moves it."""
 
     def __init__(self, note: Note, pointer: Pointer, *, is_corner: bool) -> None:
@@ -92,11 +92,8 @@ class NotePress:
         if self.is_double:
             edit_note(canvas, self._note.id)
 
-    def cancel(self, canvas: CanvasHost) -> None:
-        """Nothing has happened yet."""
 
-
-class NoteDrag:
+class NoteDrag(Gesture):
     """Moves a note."""
 
     def __init__(self, note: Note, start: QPointF) -> None:

@@ -30,20 +30,11 @@ LONG_PRESS_MS = 500
 """How long a finger rests until it means the menu."""
 
 
-class LongPress:
-    """The menu is open; lifting the finger means nothing more."""
+class LongPress(Gesture):
+    """The menu is open; what the finger does means nothing more, also that it is lifted."""
 
     def __init__(self, canvas: CanvasHost, pointer: Pointer) -> None:
         canvas.pointing.request_menu(pointer.view.toPoint())
-
-    def move(self, canvas: CanvasHost, pointer: Pointer) -> None:
-        """The menu stays where it is."""
-
-    def release(self, canvas: CanvasHost, pointer: Pointer) -> None:
-        """The menu stays open."""
-
-    def cancel(self, canvas: CanvasHost) -> None:
-        """The menu closes by itself."""
 
 
 # A press that is not yet a click or a drag: how far it moves, and how long it lasts, decides.
@@ -52,7 +43,7 @@ ADDS = Qt.KeyboardModifier.ShiftModifier | Qt.KeyboardModifier.ControlModifier
 ALONE = Qt.KeyboardModifier.ControlModifier | Qt.KeyboardModifier.AltModifier
 
 
-class Press:
+class Press(Gesture):
     """A click selects, opens a field or presses a button; a drag carries, selects or scrolls."""
 
     def __init__(
@@ -262,11 +253,11 @@ class Pointing:
 
     def _pinch(self, first: QPointF, second: QPointF) -> None:
         canvas = self._canvas
-        if not isinstance(self.gesture, PinchZoom):
+        if isinstance(self.gesture, PinchZoom):
+            self.gesture.pinch(canvas, first, second)
+        else:
             self.cancel()
             self.begin(PinchZoom(canvas, first, second))
-        elif isinstance(self.gesture, PinchZoom):
-            self.gesture.pinch(canvas, first, second)
 
     def _cursor(self, view: QPointF) -> Qt.CursorShape:
         canvas = self._canvas

@@ -13,7 +13,7 @@ from nep_studio.ui.canvas.layout.index import Rect
 from nep_studio.ui.canvas.layout.page import Hit, Placed
 from nep_studio.ui.words import tr
 
-from .gesture import Pointer
+from .gesture import Gesture, Pointer
 
 if TYPE_CHECKING:
     from nep_studio.ui.canvas.host import CanvasHost
@@ -22,7 +22,7 @@ Bar = Rect
 """A thin rectangle between two parts, before the first or after the last."""
 
 
-class ReorderParts:
+class ReorderParts(Gesture):
     """A part in the hand, held by its minus; a bar shows where it would go.
 
     Nothing changes in the program until it is dropped.

@@ -11,13 +11,13 @@ from PySide6.QtGui import QNativeGestureEvent, QPainter, QPen, QWheelEvent
 from nep_studio.ui.canvas.layout.index import Rect
 from nep_studio.ui.canvas.layout.page import boxes_touching
 
-from .gesture import AutoScroll, Pointer
+from .gesture import AutoScroll, Gesture, Pointer
 
 if TYPE_CHECKING:
     from nep_studio.ui.canvas.host import CanvasHost
 
 
-class Pan:
+class Pan(Gesture):
     """What was under the pointer at the press stays under it."""
 
     def __init__(self, canvas: CanvasHost, pointer: Pointer) -> None:
@@ -47,8 +47,8 @@ LEAST_SPREAD_PX = 20.0
 """Fingers nearer to each other than this do not zoom: a pixel would be too much."""
 
 
-class PinchZoom:
-    """What was between the fingers at the press stays between them."""
+class PinchZoom(Gesture):
+    """What was between the fingers at the press stays between them; one alone does nothing."""
 
     def __init__(self, canvas: CanvasHost, first: QPointF, second: QPointF) -> None:
         self._start = canvas.sight.camera.x, canvas.sight.camera.y, canvas.sight.camera.scale
@@ -63,12 +63,6 @@ class PinchZoom:
         if abs(spread - self._spread) >= 1:
             canvas.sight.zoom(canvas.sight.camera.scale * spread / self._spread, middle)
         self._middle, self._spread = middle, spread
-
-    def move(self, canvas: CanvasHost, pointer: Pointer) -> None:
-        """One finger alone does nothing here."""
-
-    def release(self, canvas: CanvasHost, pointer: Pointer) -> None:
-        """Leave the page as it is."""
 
     def cancel(self, canvas: CanvasHost) -> None:
         """Go back to where the view was."""
@@ -123,7 +117,7 @@ def native_gesture(canvas: CanvasHost, event: QNativeGestureEvent) -> bool:
 # Draw a rectangle on the empty canvas: the blocks that it touches are selected.
 
 
-class RubberBand:
+class RubberBand(Gesture):
     """With Shift or Ctrl held, the touched blocks are added to those selected before."""
 
     def __init__(self, canvas: CanvasHost, pointer: Pointer) -> None:
@@ -160,8 +154,7 @@ class RubberBand:
         painter.setPen(QPen(colour, 1.5 / view.sight.camera.scale))
         colour.setAlphaF(0.12)
         painter.setBrush(colour)
-        rect = self._rect()
-        painter.drawRect(QRectF(rect.x, rect.y, rect.width, rect.height))
+        painter.drawRect(QRectF(*self._rect()))
 
     def _finish(self, canvas: CanvasHost) -> None:
         self._scroll.end()

@@ -11,7 +11,6 @@ from PySide6.QtCore import QEvent, QObject, QSize, Qt
 from PySide6.QtGui import QKeyEvent
 from PySide6.QtWidgets import QLineEdit, QListWidget, QListWidgetItem, QWidget
 
-from nep_studio.blocks.definitions import Slot
 from nep_studio.blocks.language import Language
 from nep_studio.blocks.program import Project
 from nep_studio.blocks.slots import GESTURE_STATE
@@ -85,16 +84,11 @@ def _words(state: str) -> str:
 
 
 def _used_states(project: Project, language: Language) -> Iterator[str]:
-    slots: dict[str, list[tuple[str, Slot]]] = {}
     for block in project.blocks.values():
         definition = language.definitions.get(block.type)
         if definition is None:
             continue
-        if block.type not in slots:
-            slots[block.type] = [
-                (s.name, s) for s in definition.slots.values() if s.kind.name == "state"
-            ]
-        for name, _ in slots[block.type]:
+        for name in (slot.name for slot in definition.slots.values() if slot.kind.name == "state"):
             value = definition.value(block, name)
             if isinstance(value, str) and value:
                 yield value

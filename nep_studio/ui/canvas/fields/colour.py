@@ -172,8 +172,7 @@ class ColourPopup(FieldPopup):
         self.code.setMaximumWidth(6 * self.line)
         self.code.textEdited.connect(self._on_typed)
         self.name = QLabel(self)
-        row = in_row(self.code, (self.name, 1))
-        self.column.addLayout(row)
+        self.column.addLayout(in_row(self.code, (self.name, 1)))
         self._show()
 
     def first(self) -> QWidget:

@@ -120,12 +120,6 @@ class CommentBubble(QFrame):
         said = sentence(canvas.editor.project, canvas.editor.language, self.block)
         self.text.setAccessibleName(tr("Comment of the block “{block}”", block=said))
 
-    def show_bubble(self) -> None:
-        """Show it, ready to write in."""
-        self.follow()
-        self.show()
-        self.text.setFocus(Qt.FocusReason.OtherFocusReason)
-
     def follow(self) -> None:
         """Stay beside the block."""
         placed = self._canvas.page_layout.placed(self.block)
@@ -143,11 +137,6 @@ class CommentBubble(QFrame):
         corner = 2 if is_mirrored else size.width() - side - 2
         self.corner.setGeometry(corner, size.height() - side - 2, side, side)
         self.corner.raise_()
-
-    def dispose(self) -> None:
-        """Go away."""
-        self.hide()
-        self.deleteLater()
 
     def _on_written(self) -> None:
         editor, text = self._canvas.editor, self.text.toPlainText()
@@ -192,14 +181,17 @@ class Comments(QObject):
         self._canvas.layers.show_overlay(self)
         for signal in (self._canvas.news.view_changed, self._canvas.news.layout_changed):
             signal.connect(self._follow)
-        self.bubble.show_bubble()
+        self.bubble.follow()
+        self.bubble.show()
+        self.bubble.text.setFocus(Qt.FocusReason.OtherFocusReason)
         self._canvas.area.viewport().update()
 
     def close(self) -> None:
         """Keep what was written, and take the bubble away."""
         closing, self.bubble = self.bubble, None
         if closing is not None:
-            closing.dispose()
+            closing.hide()
+            closing.deleteLater()
             self._canvas.layers.show_overlay(self, is_shown=False)
             for signal in (self._canvas.news.view_changed, self._canvas.news.layout_changed):
                 signal.disconnect(self._follow)

@@ -63,11 +63,6 @@ def remove(canvas: CanvasHost, block: str, group: str, number: int) -> None:
         canvas.news.announced.emit(tr("Removed"))
 
 
-def expand(canvas: CanvasHost, block: str) -> None:
-    """Show a collapsed block again."""
-    canvas.attempt(lambda: set_collapsed(canvas.editor, [block], False))
-
-
 def move_part_of(canvas: CanvasHost, block: str, key: str, *, down: bool) -> str:
     """Move the part that a slot is in; gives the slot's key in its new place, or nothing."""
     name, number = split_slot(key)
@@ -255,14 +250,13 @@ class FieldEditors(QObject):
         elif action == "remove":
             remove(self.canvas, block, group, number)
         elif action == "expand":
-            expand(self.canvas, block)
+            self.canvas.attempt(lambda: set_collapsed(self.canvas.editor, [block], False))
         elif action == "comment" and self._left_comment != block:
             self.comments.open(block)
 
     def close(self) -> None:
         """Keep what was typed, and take the editor away."""
-        if self.widget is not None:
-            self._end(restore=False)
+        self._end(restore=False)
 
     def close_if(self, widget: OpenEditor) -> None:
         """Keep what was typed in an editor that lost the keyboard, if it is still the open one."""
@@ -271,8 +265,7 @@ class FieldEditors(QObject):
 
     def cancel(self) -> None:
         """Make the field as it was, and take the editor away."""
-        if self.widget is not None:
-            self._end(restore=True)
+        self._end(restore=True)
 
     def go(self, *, forward: bool) -> None:
         """Keep what was typed, and edit the next field, or the one before."""
@@ -343,7 +336,8 @@ class FieldEditors(QObject):
 
     def _end(self, *, restore: bool) -> None:
         closing, self.widget = self.widget, None
-        assert closing is not None
+        if closing is None:
+            return
         self._listen(is_open=False)
         if restore:
             closing.edit.restore()

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Protocol
 
 from PySide6.QtCore import QPoint, QRect, QRectF, QSize, Qt
 from PySide6.QtGui import QFont
-from PySide6.QtWidgets import QFrame, QHBoxLayout, QLabel, QWidget
+from PySide6.QtWidgets import QFrame, QLabel, QWidget
 
 from faults import Text, Words
 from nep_studio.blocks.definitions import Slot
@@ -22,6 +22,7 @@ from nep_studio.ui.canvas.layout.page import Placed
 from nep_studio.ui.labels import labelled
 from nep_studio.ui.theme.colours import Theme
 from nep_studio.ui.theme.icons import icon_pixmap
+from nep_studio.ui.widgets.layouts import in_row
 
 if TYPE_CHECKING:
     from nep_studio.ui.canvas.host import CanvasHost
@@ -153,10 +154,8 @@ class ReasonBubble(QFrame):
         sign = QLabel(self)
         sign.setPixmap(icon_pixmap("circle-alert", error, self._line, self.devicePixelRatioF()))
         self.words = QLabel(self, wordWrap=True)
-        row = QHBoxLayout(self)
-        row.setContentsMargins(*(self._line // 3,) * 4)
-        row.addWidget(sign, 0, Qt.AlignmentFlag.AlignTop)
-        row.addWidget(self.words, 1)
+        at_top = (sign, 0, Qt.AlignmentFlag.AlignTop)
+        in_row(at_top, (self.words, 1), of=self, margins=self._line // 3)
         self.hide()
 
     @property

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 from nep_studio.blocks.deployment import robot_entries
 from nep_studio.blocks.edits.content import SetField
 from nep_studio.blocks.edits.project import RemoveVariable, RenameVariable
@@ -63,25 +65,26 @@ class VariablePopup(ChoicePopup):
 
     def _on_made(self, name: str) -> None:
         editor = self._editors.canvas.editor
-        try:
+
+        def make() -> None:
             with editor.transaction(tr("make a variable")):
                 variable = editor.add_variable(name.strip())
                 editor.apply(SetField(self.edit.block, self.edit.key, variable))
-        except EditRefused as refused:
-            self.reason.tell(refused.sentence)
-            self.adjustSize()
-            return
-        self._editors.close()
+
+        self._close_after(make)
 
     def _on_renamed(self, name: str) -> None:
-        self._apply(RenameVariable(str(self.edit.value), name.strip()))
+        edit = RenameVariable(str(self.edit.value), name.strip())
+        self._close_after(lambda: self._editors.canvas.editor.apply(edit))
 
     def _on_deleted(self, _name: str) -> None:
-        self._apply(RemoveVariable(str(self.edit.value)))
+        edit = RemoveVariable(str(self.edit.value))
+        self._close_after(lambda: self._editors.canvas.editor.apply(edit))
 
-    def _apply(self, edit: RenameVariable | RemoveVariable) -> None:
+    def _close_after(self, change: Callable[[], object]) -> None:
+        """Make a change, and go away; say why not when the editor refuses it."""
         try:
-            self._editors.canvas.editor.apply(edit)
+            change()
         except EditRefused as refused:
             self.reason.tell(refused.sentence)
             self.adjustSize()
@@ -107,14 +110,9 @@ class RobotPopup(ChoicePopup):
     def act(self, action: str) -> None:
         """Ask for the name."""
         words = tr("Name of the new robot. It is put on the Robots page.")
+        made, name = self._on_made, self.search.text()
         self.ask(
-            Question(
-                words,
-                tr("Add"),
-                answered=self._on_made,
-                refused=lambda: self.ask(None),
-                name=self.search.text(),
-            )
+            Question(words, tr("Add"), answered=made, refused=lambda: self.ask(None), name=name)
         )
 
     def _on_made(self, name: str) -> None:

@@ -4,17 +4,12 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from PySide6.QtCore import QEvent, QObject, Qt
+from PySide6.QtCore import QEvent, QObject, QSignalBlocker, Qt
 from PySide6.QtGui import QKeyEvent
-from PySide6.QtWidgets import QGridLayout, QHBoxLayout, QLabel, QLineEdit, QPushButton, QSlider
+from PySide6.QtWidgets import QGridLayout, QLabel, QLineEdit, QPushButton, QSlider
 from PySide6.QtWidgets import QWidget as Widget
 
-from nep_studio.blocks.arithmetic import (
-    ArithmeticRefused,
-    number_of,
-    number_text,
-    typed_number,
-)
+from nep_studio.blocks.arithmetic import ArithmeticRefused, number_of, number_text, typed_number
 from nep_studio.ui.widgets.layouts import in_row
 from nep_studio.ui.words import tr
 
@@ -42,8 +37,7 @@ class NumberPopup(FieldPopup):
         self.number.textEdited.connect(self._on_typed)
         self.number.installEventFilter(self)
         self.result = QLabel(result_text(self.number.text()), self)
-        row = in_row((self.number, 1), QLabel(self.unit, self), self.result)
-        self.column.addLayout(row)
+        self.column.addLayout(in_row((self.number, 1), QLabel(self.unit, self), self.result))
 
     def first(self) -> Widget:
         """The number has the keyboard."""
@@ -107,18 +101,14 @@ class SliderPopup(NumberPopup):
         self.slider.setMinimumWidth(14 * self.line)
         self.show_number()
         self.slider.valueChanged.connect(self._on_slid)
-        row = QHBoxLayout()
-        row.addWidget(QLabel(number_text(self._low), self))
-        row.addWidget(self.slider, 1)
-        row.addWidget(QLabel(number_text(self._high), self))
-        self.column.addLayout(row)
+        low, high = (QLabel(number_text(end), self) for end in (self._low, self._high))
+        self.column.addLayout(in_row(low, (self.slider, 1), high))
 
     def show_number(self) -> None:
         """Put the slider where the number is."""
-        was_blocked = self.slider.blockSignals(True)
         share = (self.now - self._low) / (self._high - self._low)
-        self.slider.setValue(round(share * self._steps))
-        self.slider.blockSignals(was_blocked)
+        with QSignalBlocker(self.slider):
+            self.slider.setValue(round(share * self._steps))
 
     def _on_slid(self, step: int) -> None:
         self.point(self._low + (self._high - self._low) * step / self._steps)

@@ -13,7 +13,6 @@ from PySide6.QtWidgets import (
     QLabel,
     QLineEdit,
     QPushButton,
-    QVBoxLayout,
     QWidget,
 )
 
@@ -50,9 +49,7 @@ class FieldPopup(QFrame):
             f" color: {theme.colour('text').name()};"
             f" border: {max(1, self.line // 14)}px solid {theme.colour('field_line').name()}; }}"
         )
-        self.column = QVBoxLayout(self)
-        self.column.setContentsMargins(*(self.line // 2,) * 4)
-        self.column.setSpacing(self.line // 2)
+        self.column = in_column(of=self, margins=self.line // 2, spacing=self.line // 2)
         self.reason = ReasonBubble(theme, self)
         self._is_over = False
 

@@ -59,8 +59,7 @@ class SettingsPopup(FieldPopup):
         self.new_name.setAccessibleName(tr("Name of another setting"))
         self.add = QPushButton(icon("plus", editors.canvas.look.theme), tr("Add"), self)
         self.add.clicked.connect(self._on_add)
-        row = in_row((self.new_name, 1), self.add)
-        self.column.addLayout(row)
+        self.column.addLayout(in_row((self.new_name, 1), self.add))
 
     def first(self) -> QWidget:
         """The first setting has the keyboard."""

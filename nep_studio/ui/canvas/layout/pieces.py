@@ -11,13 +11,7 @@ from nep_studio.blocks.program import Block, Project
 from nep_studio.blocks.slots import Kind
 
 from .boxes import Box, Measures, Piece, Plug
-from .slot_style import (
-    MOST_LINES,
-    amount_of,
-    hint_word,
-    pill_shape,
-    shown_text,
-)
+from .slot_style import MOST_LINES, amount_of, hint_word, pill_shape, shown_text
 
 # Flow the parts of a sentence into rows, as words flow into lines.
 

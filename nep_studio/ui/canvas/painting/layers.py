@@ -74,7 +74,7 @@ class StaticLayer:
             shift = QPoint(round(dx / self._ratio), round(dy / self._ratio))
             self._dirty = self._dirty.translated(shift)
             for rect in rects_of(exposed):
-                self.invalidate(_divided(rect, self._ratio))
+                self.invalidate(_scaled(rect, 1 / self._ratio))
         self.camera = replace(camera)
 
     def repair(self, camera: Camera) -> None:
@@ -110,13 +110,7 @@ class StaticLayer:
                 source_rect = QRect(first, exposed.size() * times)
                 painter.drawPixmap(exposed.topLeft(), self._pixmap, source_rect)
                 return
-            source = QRectF(
-                exposed.x() * ratio,
-                exposed.y() * ratio,
-                exposed.width() * ratio,
-                exposed.height() * ratio,
-            )
-            painter.drawPixmap(QRectF(exposed), self._pixmap, source)
+            painter.drawPixmap(QRectF(exposed), self._pixmap, _scaled(exposed, ratio))
             return
         painter.fillRect(exposed, background)
         corner = camera.to_view(self.camera.x, self.camera.y)
@@ -131,8 +125,8 @@ def rects_of(region: QRegion) -> list[QRect]:
     return rects
 
 
-def _divided(rect: QRect, ratio: float) -> QRectF:
-    return QRectF(rect.x() / ratio, rect.y() / ratio, rect.width() / ratio, rect.height() / ratio)
+def _scaled(rect: QRect, by: float) -> QRectF:
+    return QRectF(rect.x() * by, rect.y() * by, rect.width() * by, rect.height() * by)
 
 
 # The canvas behind the blocks: plain, with dots that let the eye measure.

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
 from typing import TYPE_CHECKING, Protocol
 
 import msgspec
@@ -51,7 +50,8 @@ class Notes:
 
     def refresh(self) -> None:
         """Take the notes of the page as they are now."""
-        self._rects = {note.id: self.rect_of(note) for note in self._on_page()}
+        notes, page = self._view.editor.project.notes.values(), self._view.page_layout.page
+        self._rects = {note.id: self.rect_of(note) for note in notes if note.page == page}
         if self.selected not in self._rects:
             self.selected = ""
 
@@ -113,7 +113,9 @@ class Notes:
         if note_id:
             self._view.selection.clear()
         old, self.selected = self.selected, note_id
-        self._update(i for i in (old, note_id) if i)
+        for changed in (old, note_id):
+            if changed in self._rects:
+                self._view.layers.update_page(self._rects[changed].grown(CORNER))
 
     def carry(self, note: Note | None) -> None:
         """Show a note as it will be when it is let go; None ends it."""
@@ -154,15 +156,9 @@ class Notes:
         painter.setPen(QPen(self._view.look.theme.colour("note_text"), 1.5))
         for inset in (5.0, 10.0):
             bottom = rect.bottom - 4
-            if is_mirrored:
-                start, end = (
-                    QPointF(rect.x + 4 + inset, bottom),
-                    QPointF(rect.x + 4, bottom - inset),
-                )
-            else:
-                right = rect.right - 4
-                start, end = QPointF(right - inset, bottom), QPointF(right, bottom - inset)
-            painter.drawLine(start, end)
+            side = rect.x + 4 if is_mirrored else rect.right - 4
+            inner = side + inset if is_mirrored else side - inset
+            painter.drawLine(QPointF(inner, bottom), QPointF(side, bottom - inset))
 
     def _paint(self, painter: QPainter, note: Note, place: Rect, scale: float) -> None:
         theme, unit = self._view.look.theme, self._view.look.measures.unit
@@ -191,15 +187,6 @@ class Notes:
         shown = note.text or tr("Write a note")
         painter.drawText(rect.adjusted(pad, pad * 0.75, -pad, -pad / 2), shown, option)
         painter.restore()
-
-    def _on_page(self) -> Iterator[Note]:
-        notes = self._view.editor.project.notes.values()
-        return (note for note in notes if note.page == self._view.page_layout.page)
-
-    def _update(self, ids: Iterable[str]) -> None:
-        for note_id in ids:
-            if note_id in self._rects:
-                self._view.layers.update_page(self._rects[note_id].grown(CORNER))
 
     def _on_blocks_selected(self) -> None:
         if self.selected and self._view.selection.ids:

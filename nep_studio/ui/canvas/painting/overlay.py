@@ -102,13 +102,6 @@ def badge_rect(placed: Placed, view: CanvasHost) -> QRectF:
     return QRectF(x, placed.y - size / 3, size, size)
 
 
-def ring(painter: QPainter, view: CanvasHost, block_id: str, colour: QColor, width: float) -> None:
-    """A line around a block."""
-    placed = view.page_layout.placed(block_id)
-    if placed is not None:
-        rings(painter, view, [placed], colour, width)
-
-
 _SIGNS = {"error": "!", "warning": "!", "info": "i"}
 
 

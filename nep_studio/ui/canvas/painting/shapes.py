@@ -101,17 +101,9 @@ def slot_path(shape: str, width: float, height: float, unit: float) -> QPainterP
     path = QPainterPath()
     if shape == "hexagon":
         point = min(height / 2, 18 * unit)
-        _polygon(
-            path,
-            [
-                (point, 0),
-                (width - point, 0),
-                (width, height / 2),
-                (width - point, height),
-                (point, height),
-                (0, height / 2),
-            ],
-        )
+        far, middle = width - point, height / 2
+        upper = [(0, middle), (point, 0), (far, 0)]
+        _polygon(path, [*upper, (width, middle), (far, height), (point, height)])
     elif shape == "bracket":
         cut = 6 * unit
         right, low = width - cut, height - cut
@@ -167,8 +159,7 @@ def paint_marks(
         tip = start + QPointF(-radius * 0.85 * math.sin(angle), -radius * 0.85 * math.cos(angle))
         painter.drawLine(start, tip)
     elif piece.mark == "bar":
-        is_mirrored = measures.is_mirrored
-        _bar(painter, rect, colours, unit, piece.amount, is_mirrored=is_mirrored)
+        _bar(painter, rect, colours, measures, piece.amount)
 
 
 def paint_sign(
@@ -196,15 +187,10 @@ def round_pen(colour: QColor, width: float) -> QPen:
 
 
 def _bar(
-    painter: QPainter,
-    rect: QRectF,
-    colours: BlockColours,
-    unit: float,
-    share: float,
-    *,
-    is_mirrored: bool,
+    painter: QPainter, rect: QRectF, colours: BlockColours, measures: Measures, share: float
 ) -> None:
     """A thin line at the foot of a field, as long as the value is large."""
+    unit, is_mirrored = measures.unit, measures.is_mirrored
     y = rect.bottom() - 3 * unit
     low, high = rect.left() + 9 * unit, rect.right() - 9 * unit
     faint = QColor(colours.field_line)

@@ -42,7 +42,7 @@ from nep_studio.help.texts import (
 from nep_studio.ui.canvas.fields.editors import slot_name
 from nep_studio.ui.theme.icons import category_icon_name
 from nep_studio.ui.words import language_code, tr
-from nep_studio.ui.workbench.help_card_words import shape_words
+from nep_studio.ui.workbench.help_card import shape_words
 
 # The page of a block: picture, what it does, its slots, an example, its Python, what is near.
 

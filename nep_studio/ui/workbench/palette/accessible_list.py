@@ -9,9 +9,10 @@ from __future__ import annotations
 from typing import Protocol
 
 from PySide6.QtCore import QObject, QPoint, QRect
-from PySide6.QtGui import QAccessible, QAccessibleEvent, QAccessibleInterface, QWindow
+from PySide6.QtGui import QAccessible, QAccessibleEvent, QAccessibleInterface
 from PySide6.QtWidgets import QWidget
 
+from nep_studio.ui.canvas.accessibility import ItemInterface, PaintedInterface
 from nep_studio.ui.words import tr
 
 
@@ -33,12 +34,12 @@ class PaintedList(Protocol):
         """The item that the keyboard is at, or -1."""
 
 
-class ListInterface(QAccessibleInterface):
+class ListInterface(PaintedInterface):
     """A painted list."""
 
     def __init__(self, widget: QWidget, items: PaintedList) -> None:
-        super().__init__()
-        self.widget, self.items = widget, items
+        super().__init__(widget, widget)
+        self.items = items
         self._rows: dict[int, RowInterface] = {}
 
     def row(self, number: int) -> RowInterface:
@@ -53,18 +54,6 @@ class ListInterface(QAccessibleInterface):
             QAccessible.deleteAccessibleInterface(QAccessible.uniqueId(row))
         self._rows.clear()
 
-    def isValid(self) -> bool:
-        """Whether the list is still there."""
-        return True
-
-    def object(self) -> QObject:
-        """The widget."""
-        return self.widget
-
-    def window(self) -> QWindow:
-        """The window it is in."""
-        return self.widget.window().windowHandle()
-
     def role(self) -> QAccessible.Role:
         """A list."""
         return QAccessible.Role.List
@@ -77,25 +66,6 @@ class ListInterface(QAccessibleInterface):
             own = self.widget.accessibleDescription()
             return own or tr("Arrow keys choose, Enter inserts, typing searches.")
         return ""
-
-    def setText(self, kind: QAccessible.Text, text: str) -> None:
-        """A screen reader cannot rename the list."""
-
-    def rect(self) -> QRect:
-        """Where it is on the screen."""
-        return QRect(self.widget.mapToGlobal(QPoint(0, 0)), self.widget.size())
-
-    def state(self) -> QAccessible.State:
-        """Whether it has the keyboard."""
-        state = QAccessible.State()
-        state.focusable = True
-        state.focused = self.widget.hasFocus()
-        return state
-
-    def parent(self) -> QAccessibleInterface | None:  # type: ignore[override]
-        """The widget around it."""
-        outer = self.widget.parentWidget()
-        return QAccessible.queryAccessibleInterface(outer) if outer is not None else None
 
     def childCount(self) -> int:
         """How many items it has."""
@@ -122,25 +92,16 @@ class ListInterface(QAccessibleInterface):
         return self.child(self.items.current_item())
 
 
-class RowInterface(QAccessibleInterface):
+class RowInterface(ItemInterface):
     """One item of a painted list."""
 
     def __init__(self, outer: ListInterface, number: int) -> None:
-        super().__init__()
-        self._outer = outer
-        self.number = number
+        super().__init__(outer)
+        self._list, self.number = outer, number
 
     def isValid(self) -> bool:
         """Whether the item is still there."""
-        return self.number < self._outer.items.item_count()
-
-    def object(self) -> QObject | None:  # type: ignore[override]
-        """An item is no object of Qt."""
-        return None
-
-    def window(self) -> QWindow:
-        """The window it is in."""
-        return self._outer.window()
+        return self.number < self._list.items.item_count()
 
     def role(self) -> QAccessible.Role:
         """An item of a list."""
@@ -149,44 +110,21 @@ class RowInterface(QAccessibleInterface):
     def text(self, kind: QAccessible.Text) -> str:
         """What it says."""
         is_name = kind == QAccessible.Text.Name and self.isValid()
-        return self._outer.items.item_text(self.number) if is_name else ""
-
-    def setText(self, kind: QAccessible.Text, text: str) -> None:
-        """A screen reader cannot rename it."""
+        return self._list.items.item_text(self.number) if is_name else ""
 
     def rect(self) -> QRect:
         """Where it is on the screen."""
-        return self._outer.items.item_rect(self.number)
+        return self._list.items.item_rect(self.number)
 
     def state(self) -> QAccessible.State:
         """Whether the keyboard is at it, and whether it is in view."""
         state = QAccessible.State()
         state.focusable = state.selectable = True
-        is_current = self._outer.items.current_item() == self.number
+        is_current = self._list.items.current_item() == self.number
         state.selected = is_current
-        state.focused = is_current and self._outer.widget.hasFocus()
-        state.offscreen = not self.rect().intersects(self._outer.rect())
+        state.focused = is_current and self._list.widget.hasFocus()
+        state.offscreen = not self.rect().intersects(self._list.rect())
         return state
-
-    def parent(self) -> QAccessibleInterface:
-        """The list."""
-        return self._outer
-
-    def childCount(self) -> int:
-        """Nothing is inside an item."""
-        return 0
-
-    def child(self, index: int) -> QAccessibleInterface | None:  # type: ignore[override]
-        """Nothing is inside an item."""
-        return None
-
-    def indexOfChild(self, child: QAccessibleInterface) -> int:
-        """Nothing is inside an item."""
-        return -1
-
-    def childAt(self, x: int, y: int) -> QAccessibleInterface | None:  # type: ignore[override]
-        """Nothing is inside an item."""
-        return None
 
 
 _is_installed = False

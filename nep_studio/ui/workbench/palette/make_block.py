@@ -31,7 +31,7 @@ from nep_studio.ui.canvas.editing.menu import MenuEntry, MenuPlace
 from nep_studio.ui.canvas.fields.field_edit import ReasonBubble
 from nep_studio.ui.canvas.host import CanvasHost
 from nep_studio.ui.theme.icons import icon
-from nep_studio.ui.widgets.layouts import in_row
+from nep_studio.ui.widgets.layouts import in_column, in_row
 from nep_studio.ui.widgets.questions import Asking
 from nep_studio.ui.words import tr
 from nep_studio.ui.workbench.placing import free_place
@@ -105,11 +105,7 @@ class MakeBlockDialog(QDialog):
     """Puts an own block together, or changes one, and shows it as it will look."""
 
     def __init__(
-        self,
-        canvas: Canvas,
-        make: MakeBlock,
-        parent: QWidget,
-        procedure: Procedure | None = None,
+        self, canvas: Canvas, make: MakeBlock, parent: QWidget, procedure: Procedure | None = None
     ) -> None:
         super().__init__(parent)
         self.canvas = canvas
@@ -185,22 +181,15 @@ class MakeBlockDialog(QDialog):
         value.clicked.connect(lambda: self.add_value())
         for button in (words, value):
             button.setAutoDefault(False)
-        adding = in_row(words, value, 1)
         standard = QDialogButtonBox.StandardButton
         buttons = QDialogButtonBox(standard.Ok | standard.Cancel)
         buttons.button(standard.Ok).setText(tr("Make") if self._is_new else tr("Change"))
         buttons.button(standard.Cancel).setText(tr("Cancel"))
         buttons.accepted.connect(self.accept)
         buttons.rejected.connect(self.reject)
-        column = QVBoxLayout(self)
+        sentence = (told, self.picture, self._list, in_row(words, value, 1))
+        column = in_column(*sentence, self.gives_value, self.reason, 1, buttons, of=self)
         column.setSizeConstraint(QLayout.SizeConstraint.SetMinimumSize)  # grows with the rows
-        for item in (told, self.picture, self._list, adding, self.gives_value, self.reason):
-            if isinstance(item, QWidget):
-                column.addWidget(item)
-            else:
-                column.addLayout(item)
-        column.addStretch(1)
-        column.addWidget(buttons)
         self.resize(self.fontMetrics().averageCharWidth() * 60, self.sizeHint().height())
 
 

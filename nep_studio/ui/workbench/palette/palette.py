@@ -2,19 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from functools import partial
 from pathlib import Path
 
 from PySide6.QtCore import QEvent, QObject, QPoint, QSize, Qt, QTimer, Signal
 from PySide6.QtGui import QAction, QKeyEvent, QResizeEvent
-from PySide6.QtWidgets import (
-    QFileDialog,
-    QLineEdit,
-    QMenu,
-    QToolButton,
-    QWidget,
-)
+from PySide6.QtWidgets import QFileDialog, QLineEdit, QMenu, QToolButton, QWidget
 
 from nep_studio.blocks.editor import Editor, History
 from nep_studio.blocks.edits import Edit
@@ -119,15 +113,12 @@ class SnippetMenu(QObject):
         if self.menu is not None:
             self.menu.deleteLater()
         self.menu = QMenu(palette)
-        insert = self.menu.addAction(icon("plus", theme), tr("Insert"))
-        insert.triggered.connect(lambda: palette.use(entry))
-        rename = self.menu.addAction(icon("pencil", theme), tr("Rename…"))
-        rename.triggered.connect(lambda: self.ask_to_rename(snippet))
-        export = self.menu.addAction(icon("upload", theme), tr("Export…"))
-        export.triggered.connect(lambda: self.ask_to_export(snippet))
+        add = self.menu.addAction
+        add(icon("plus", theme), tr("Insert"), lambda: palette.use(entry))
+        add(icon("pencil", theme), tr("Rename…"), lambda: self.ask_to_rename(snippet))
+        add(icon("upload", theme), tr("Export…"), lambda: self.ask_to_export(snippet))
         self.menu.addSeparator()
-        delete = self.menu.addAction(icon("trash-2", theme), tr("Delete…"))
-        delete.triggered.connect(lambda: self.ask_to_delete(snippet))
+        add(icon("trash-2", theme), tr("Delete…"), lambda: self.ask_to_delete(snippet))
         self.menu.popup(place)
 
     def _section(self, canvas: CanvasHost, place: MenuPlace) -> list[MenuEntry]:
@@ -171,18 +162,16 @@ class SnippetMenu(QObject):
     def ask_to_export(self, snippet: Snippet) -> None:
         """Ask for a file to write a snippet into."""
         start = str(self._palette.settings.last_folder / f"{file_stem(snippet.name)}{ENDING}")
-        name, _filter = QFileDialog.getSaveFileName(
-            self._palette, tr("Export a snippet"), start, _filters()
-        )
+        title, parent = tr("Export a snippet"), self._palette
+        name, _filter = QFileDialog.getSaveFileName(parent, title, start, _filters())
         if name:
             self._palette.canvas.attempt(lambda: write_out(snippet, Path(name)))
 
     def ask_to_import(self) -> None:
         """Ask for a file to take a snippet from."""
         start = str(self._palette.settings.last_folder)
-        name, _filter = QFileDialog.getOpenFileName(
-            self._palette, tr("Import a snippet"), start, _filters()
-        )
+        title, parent = tr("Import a snippet"), self._palette
+        name, _filter = QFileDialog.getOpenFileName(parent, title, start, _filters())
         if name:
             self.take_in(Path(name))
 
@@ -201,9 +190,8 @@ class SnippetMenu(QObject):
         self._palette.snippets.delete(snippet)
         self._palette.fill()
 
-    def _ask(self, words: str, yes: str, answer: object, name: str | None) -> None:
+    def _ask(self, words: str, yes: str, answer: Callable[[str], object], name: str | None) -> None:
         palette = self._palette
-        assert callable(answer)
         self.asking = Asking(palette, palette.canvas.look.theme, words, yes, answer, name)
         self.asking.show_at(palette.mapToGlobal(QPoint(palette.width() // 3, 60)))
 
@@ -326,11 +314,9 @@ class Palette(QWidget):
     def sizeHint(self) -> QSize:
         """Room for the categories and most blocks."""
         line = self.fontMetrics().height()
-        wide = 0 if self.is_narrow else round(SHELF_LINES * line)
-        column = self.categories
-        return QSize(
-            (column.maximumWidth() if self.is_narrow else column.wide_width) + wide, 30 * line
-        )
+        if self.is_narrow:
+            return QSize(self.categories.maximumWidth(), 30 * line)
+        return QSize(self.categories.wide_width + round(SHELF_LINES * line), 30 * line)
 
     # What it does
 
@@ -366,7 +352,7 @@ class Palette(QWidget):
 
     def _connect(self) -> None:
         canvas = self.canvas
-        self.search.textChanged.connect(self._on_search_changed)
+        self.search.textChanged.connect(lambda: self.fill(to_top=True))
         self.search.installEventFilter(self)
         self.fold.clicked.connect(lambda: self.set_narrow(not self.is_narrow))
         self.categories.opened.connect(self.open_drawer)
@@ -378,9 +364,6 @@ class Palette(QWidget):
         canvas.news.page_changed.connect(self._on_page_changed)
         canvas.news.delete_area_entered.connect(self._on_delete_area_entered)
         self._later.timeout.connect(self.fill)
-
-    def _on_search_changed(self, text: str) -> None:
-        self.fill(to_top=True)
 
     def _fit(self) -> None:
         """Be no wider than the signs while the palette is narrow; give the list its room."""

@@ -175,9 +175,8 @@ class ShelfView(QAbstractScrollArea):
 
     def _make_layout(self) -> ShelfLayout:
         width = max(self.viewport().width(), 120)
-        size = (
-            QFontInfo(self.font()).pixelSize() / QFontInfo(self._canvas.look.block_font).pixelSize()
-        )
+        block_font = self._canvas.look.block_font
+        size = QFontInfo(self.font()).pixelSize() / QFontInfo(block_font).pixelSize()
         self._made = layout = ShelfLayout(self._canvas, float(width), size)
         layout.fill(*self._filled)
         self._painter = ShelfPainter(self._canvas, layout)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from bisect import bisect_right
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
 from PySide6.QtCore import QRectF, Qt
 from PySide6.QtGui import QFont, QPainter, QPen
@@ -33,16 +33,16 @@ ROUNDING = 1.0
 
 @dataclass(slots=True)
 class Spot:
-    """An entry with its place, in pixels from the top of the list; ``chains`` are its blocks.
+    """An entry with its place, in pixels from the top of the list; ``chain`` are its blocks.
 
-    ``x`` is where its chains begin: their left, or their right in a mirrored palette.
+    ``x`` is where its chain begins: its left, or its right in a mirrored palette.
     """
 
     entry: Entry
     y: float
     height: float
     x: float = 0.0
-    chains: list[Chain] = field(default_factory=list)
+    chain: Chain | None = None
     painter: BlockPainter | None = None
     scale: float = SCALE
     width: float = 0.0
@@ -135,7 +135,7 @@ class ShelfLayout:
 
     def block_rect(self, spot: Spot) -> QRectF:
         """The rectangle around the blocks of a spot, or around its words."""
-        if not spot.chains:
+        if spot.chain is None:
             return QRectF(self.margin, spot.y, self.width - 2 * self.margin, spot.height)
         left = spot.x - spot.width if self.is_mirrored else spot.x
         return QRectF(left, spot.y, spot.width, spot.height)
@@ -143,14 +143,12 @@ class ShelfLayout:
     def _spot(self, entry: Entry, y: float, layout: Layout) -> Spot:
         line = self.line
         if entry.kind == "block":
-            return self._blocks(entry, y, [layout.chain([entry.sample])])
+            return self._blocks(entry, y, layout.chain([entry.sample]))
         if entry.snippet is not None:
-            assert entry.snippet is not None
             project = entry.snippet.clip.project
             language = self._canvas.editor.language.of(project)
-            layout = Layout(project, language, self.measures)
-            chains = [layout.chain(stack.body) for stack in entry.snippet.clip.stacks[:1]]
-            spot = self._blocks(entry, y, chains)
+            chain = Layout(project, language, self.measures).chain(entry.snippet.clip.roots[0])
+            spot = self._blocks(entry, y, chain)
             spot.painter = BlockPainter(
                 self._canvas.look.theme, language, self.measures, self._canvas.look.block_font
             )
@@ -162,15 +160,14 @@ class ShelfLayout:
             return Spot(entry, y, line * 1.3 * int(rows + 0.5))
         return Spot(entry, y, line * (2.0 if entry.kind == "button" else 1.9))
 
-    def _blocks(self, entry: Entry, y: float, chains: list[Chain]) -> Spot:
-        chain = chains[0]
+    def _blocks(self, entry: Entry, y: float, chain: Chain) -> Spot:
         scale = self.scale
         if chain.width * scale > self.width - 2 * self.margin:
             scale = max(0.3, (self.width - 2 * self.margin) / chain.width)
         height = chain.height if entry.kind == "block" else min(chain.height, self.highest_snippet)
         tab = self.measures.notch_depth
         x = self.width - self.margin if self.is_mirrored else self.margin
-        spot = Spot(entry, y, (height + tab) * scale, x, chains, scale=scale)
+        spot = Spot(entry, y, (height + tab) * scale, x, chain, scale=scale)
         spot.width = chain.width * scale
         return spot
 
@@ -221,8 +218,8 @@ class ShelfPainter:
             flags = side | Qt.AlignmentFlag.AlignTop | Qt.TextFlag.TextWordWrap
             rect = self._layout.block_rect(spot).adjusted(0, 0, 0, self._layout.line)
             painter.drawText(rect, int(flags), spot.entry.text)
-        else:
-            self._chains(painter, spot)
+        elif spot.chain is not None:
+            self._blocks_of(painter, spot, spot.chain)
 
     def paint_mark(self, painter: QPainter, spot: Spot, *, is_current: bool) -> None:
         """Show where the mouse is, or the keyboard."""
@@ -252,7 +249,7 @@ class ShelfPainter:
         below = QRectF(rect.left(), square.bottom() + line / 3, rect.width(), 2 * line)
         painter.drawText(below, Qt.AlignmentFlag.AlignHCenter, tr("Delete"))
 
-    def _chains(self, painter: QPainter, spot: Spot) -> None:
+    def _blocks_of(self, painter: QPainter, spot: Spot, chain: Chain) -> None:
         top = spot.y
         if spot.entry.kind == "snippet":
             line = self._layout.line
@@ -272,8 +269,7 @@ class ShelfPainter:
         if spot.entry.kind == "snippet":
             painter.setClipRect(QRectF(-1e5, -4, 2e5, highest + 8))
         shown = Rect(-1e5, -1.0, 2e5, highest)
-        for chain in spot.chains:
-            (spot.painter or self._blocks).paint(painter, boxes_of(chain, shown), spot.scale)
+        (spot.painter or self._blocks).paint(painter, boxes_of(chain, shown), spot.scale)
         painter.restore()
 
     def _at_start(self, rect: QRectF, side: float) -> QRectF:
