@@ -292,12 +292,7 @@ def _above(thing: Thing, up_m: float = 0.0) -> Points:
     return np.array([x, y, z + up_m])
 
 
-_PAINTERS = {
-    "ball": _paint_ball,
-    "wall": _paint_wall,
-    "mark": _paint_mark,
-    "person": _paint_person,
-}
+_PAINTERS = {"ball": _paint_ball, "wall": _paint_wall, "mark": _paint_mark, "person": _paint_person}
 
 
 # Writes pictures as PNG files and videos as animated PNG files, which browsers play.

@@ -88,14 +88,11 @@ class Keyframes:
 
     def mirrored(self) -> Keyframes:
         """Return the movement as seen in a mirror: left is right and right is left."""
-        return Keyframes(
-            {
-                ({"L": "R", "R": "L"}.get(name[0], name[0]) + name[1:]): track.negated()
-                if _turns_sideways(name)
-                else track
-                for name, track in self.tracks.items()
-            }
-        )
+        tracks = {}
+        for name, track in self.tracks.items():
+            other = {"L": "R", "R": "L"}.get(name[0], name[0]) + name[1:]
+            tracks[other] = track.negated() if _turns_sideways(name) else track
+        return Keyframes(tracks)
 
     def reversed(self) -> Keyframes:
         """Return the movement from its last key back to its first."""
@@ -171,7 +168,7 @@ def track_angles(track: Track, start_rad: float, times_s: Angles, fastest: float
     x, y = control_points(track, start_rad, fastest)
     piece = np.clip(np.searchsorted(x[0], times_s, side="right") - 1, 0, len(x[0]) - 1)
     t = np.clip(times_s, 0.0, track.times[-1])
-    # Return where on each Bezier piece (0 to 1) its time is ``t``, by bisection
+    # Where on each Bezier piece (0 to 1) its time is ``t``, by bisection
     powers = _powers(x[:, piece])
     u, step = np.full_like(t, 0.5), 0.25
     for _ in range(BISECTIONS):

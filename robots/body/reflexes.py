@@ -157,21 +157,20 @@ class Sagging:
         if not loose:
             self._rested = loose
             return
-        robot = self._robot
+        robot, stance = self._robot, self._robot.stance
         columns = [
             i for i, name in enumerate(robot.body.names) if part_of(robot.body, name) in loose
         ]
         # How hard the weight of what hangs on each joint turns it, Nm
-        stance = self._robot.stance
         centres, masses = stance.skeleton.mass_centres(stance.frames), stance.skeleton.masses_kg
-        torques = np.zeros(len(self._robot.body.names))
+        torques = np.zeros(len(robot.body.names))
         down = stance.down
         for column, (link, carried) in self._lever.items():
             frame = stance.frames[link]
-            axis = frame[:3, :3] @ self._robot.body.joints[column].axis
-            # the pull of all links together: numpy's cross product is slow for single vectors
+            axis = frame[:3, :3] @ robot.body.joints[column].axis
+            # the pull of all links together
             arm = masses[carried] @ (centres[carried] - frame[:3, 3])
-            # Return how much of the cross product of b and c is along a
+            # axis @ cross(arm, down); numpy's cross product is slow for single vectors
             (ax, ay, az), (bx, by, bz), (cx, cy, cz) = axis.tolist(), arm.tolist(), down.tolist()
             torques[column] = GRAVITY_M_S2 * float(
                 ax * (by * cz - bz * cy) + ay * (bz * cx - bx * cz) + az * (bx * cy - by * cx)

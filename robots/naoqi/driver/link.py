@@ -129,10 +129,7 @@ too_hot = partial(
     fault_of,
     "{robot} is hot: the motor of {joint} has {celsius} °C.",
     code="too_hot",
-    checklist=(
-        "Let {robot} rest for some minutes.",
-        "Let it sit between what it does standing.",
-    ),
+    checklist=("Let {robot} rest for some minutes.", "Let it sit between what it does standing."),
 )
 """A motor is hot; it will soon have no strength."""
 

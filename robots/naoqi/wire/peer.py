@@ -85,13 +85,7 @@ class Peer:
         return threading.get_ident() == self._reader
 
     def begin(
-        self,
-        service: int,
-        thing: int,
-        action: int,
-        payload: bytes,
-        read: Read,
-        flags: int = 0,
+        self, service: int, thing: int, action: int, payload: bytes, read: Read, flags: int = 0
     ) -> Pending:
         """Call the other side. Raises ConnectionLost.
 
