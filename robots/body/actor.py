@@ -54,7 +54,9 @@ class Actor:
             if isinstance(action, Stop):
                 return [*self.stop(action.request), self._result(request.id, "done")]
             if isinstance(action, StopMoving):
-                return [*self._stop_moving(), self._result(request.id, "done")]
+                moving = [command.id for command in self._commands() if command.limbs & MOVING]
+                ended = self._end(moving, "cancelled", "stopped")
+                return [*ended, self._result(request.id, "done")]
             limbs = self.driver.limbs(action)
         except ActionFailed as problem:
             return [self._result(request.id, "failed", problem.fault)]
@@ -106,10 +108,6 @@ class Actor:
         """Return the human states that the robot noticed by itself since the last call."""
         return self.driver.noticed()
 
-    def _stop_moving(self) -> list[ActionResult]:
-        moving = [command.id for command in self._commands() if command.limbs & MOVING]
-        return self._end(moving, "cancelled", "stopped")
-
     def _end_free_walk(self) -> list[ActionResult]:
         """A walk without an end makes way for what else the legs are asked."""
         free = [one.id for one in self._commands() if isinstance(one.action, WalkFreely)]
@@ -158,12 +156,8 @@ class Actor:
     def _result(self, request_id: str, state: ActionState, fault: Fault = NOTHING) -> ActionResult:
         result = ActionResult(id=request_id, robot=self.robot, state=state, fault=fault)
         self._last_result[request_id] = result
-        self._forget_oldest()
+        if len(self._last_result) > REMEMBERED_REQUESTS:  # forget the oldest that has ended
+            known = self._last_result.items()
+            if oldest := next((id for id, result in known if result.state in FINAL), None):
+                del self._last_result[oldest]
         return result
-
-    def _forget_oldest(self) -> None:
-        surplus = len(self._last_result) - REMEMBERED_REQUESTS
-        if surplus > 0:
-            ended = (id for id, result in self._last_result.items() if result.state in FINAL)
-            for request_id in [id for id, _ in zip(ended, range(surplus), strict=False)]:
-                del self._last_result[request_id]

@@ -375,8 +375,7 @@ def plan_roll(way: Angles) -> Angles:
     """Return the base (ticks, 3) on a way of m, m and rad, relative to where it starts."""
     duration_s = float(np.max(MINIMUM_JERK_PEAK * np.abs(way) / FASTEST))
     times_s = ticks(duration_s, TICK_S)
-    path: Angles = minimum_jerk(times_s / times_s[-1])[:, None] * way
-    return path
+    return minimum_jerk(times_s / times_s[-1])[:, None] * way
 
 
 # How a virtual robot walks over the floor, and comes to rest when it is told to stop.

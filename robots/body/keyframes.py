@@ -145,8 +145,7 @@ def minimum_jerk(s: Angles) -> Angles:
 
     Source: T. Flash and N. Hogan, The coordination of arm movements, J. Neurosci. 5, 1985.
     """
-    progress: Angles = s * s * s * (10.0 - s * (15.0 - 6.0 * s))  # powers are slow
-    return progress
+    return s * s * s * (10.0 - s * (15.0 - 6.0 * s))  # powers are slow
 
 
 def ticks(duration_s: float, tick_s: float) -> Angles:

@@ -6,6 +6,7 @@ import logging
 import math
 import queue
 from collections.abc import Callable, Collection, Sequence
+from functools import partial
 from typing import Any
 
 from faults import fault_of
@@ -23,7 +24,7 @@ from robots.naoqi.discovery import read_address
 
 from . import link, moving, speech
 from .calls import Calls, waited
-from .link import Heard, Link, Reached, reach
+from .link import Heard, Link, reach
 from .real import RealRobot
 from .speech import Hearing
 from .watching import Noticing, Watching
@@ -112,9 +113,10 @@ class NaoqiDriver:
 
     def __init__(self, known: VirtualRobot, address: str) -> None:
         """``known``: a body like the robot's, which becomes a picture of it."""
-        self._address = read_address(address)
+        place = read_address(address)
         self._heard: Heard = queue.SimpleQueue()
-        self._link = Link(known.name, self._address, self._reach)
+        connect = partial(reach, place, self._heard)
+        self._link = Link(known.name, place, connect)
         self._robot = RealRobot(known, Calls(known.name, {}))
         self._noticing = Noticing(self._robot)
         self._watching = Watching(self._robot)
@@ -226,7 +228,8 @@ class NaoqiDriver:
             battery=self._robot.battery,
             sensors=self._robot.sensors | self._noticing.touched,
             sees={thing: from_world(known, place) for thing, place in known.sees.items()},
-            settings=self._settings(),
+            settings=known.settings
+            | {f"locked_{part}": part not in known.released for part in SINGLE_PARTS},
             listening=list(known.listening),
         )
 
@@ -236,9 +239,6 @@ class NaoqiDriver:
 
     def surroundings(self, things: Sequence[Thing]) -> None:
         """Do nothing: a real robot sees by itself what stands around it."""
-
-    def _reach(self, on_lost: Callable[[str], None]) -> Reached:
-        return reach(self._address, self._heard, on_lost)
 
     def _fail_all(self) -> list[Ended]:
         """The robot is gone: what it was doing has failed, with the reason."""
@@ -264,11 +264,6 @@ class NaoqiDriver:
             self._link.connection = Connection("connected", words)
         else:
             self._link.connection = Connection("warning", warning)
-
-    def _settings(self) -> dict[str, bool | float | str]:
-        known = self._robot.known
-        locked = {f"locked_{part}": part not in known.released for part in SINGLE_PARTS}
-        return {**known.settings, **locked}
 
     def _advance(self, command_id: str) -> Ended | None:
         try:

@@ -39,11 +39,6 @@ class AnimationNames:
         self._animations = animations
         self.tags = {tag: [f"animations/Stand/{path}_1" for path in tags[tag]] for tag in tags}
 
-    @property
-    def targets(self) -> list[str]:
-        """The robot's animations that stand for others."""
-        return list(self._animations.values())
-
     def paths(self, known: Animations) -> list[str]:
         """Return all paths that a robot can play, in alphabetical order."""
         names = known.names()

@@ -135,12 +135,9 @@ class ALMemory(Module):
         with self._lock:
             return list(self._history.get(event, []))
 
-    declare_event = method("declareEvent::v(s)")(lambda self, event: self.declare(event))
-
-    @method("declareEvent::v(ss)")
-    def declare_event_of(self, event: str, extractor: str) -> None:
-        """Make an event of a service known."""
-        self.declare(event)
+    declare_event = method("declareEvent::v(s)", "declareEvent::v(ss)")(
+        lambda self, event, extractor="": self.declare(event)
+    )
 
     @method("getEventList::[s]()")
     def event_list(self) -> list[str]:
