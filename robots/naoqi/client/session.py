@@ -288,19 +288,6 @@ def _parsed(endpoint: str) -> tuple[str, int, bool] | None:
     return host.strip("[]"), int(port), scheme == "tcps"
 
 
-def own_information(name: str) -> dict[str, Any]:
-    """Return what this program tells a robot of a service that it offers."""
-    return {
-        "name": name,
-        "serviceId": 0,
-        "machineId": str(MACHINE),
-        "processId": os.getpid(),
-        "endpoints": [],
-        "sessionId": str(MACHINE),
-        "objectUid": "",
-    }
-
-
 # One connection to a NAOqi robot, which can be made again when it was lost.
 
 TLS_PORT = 9503
@@ -387,7 +374,17 @@ class Session:
     def register(self, name: str, service: object) -> int:
         """Offer a service of this program to the robot; its number. Raises NaoqiError."""
         directory = self._asked()
-        number: int = directory.call("registerService", own_information(name))
+        # by name, for robots differ in how many parts of it they know
+        information = {
+            "name": name,
+            "machineId": str(MACHINE),
+            "processId": os.getpid(),
+            "endpoints": [],
+            "sessionId": str(MACHINE),
+            "serviceId": 0,
+            "objectUid": "",
+        }
+        number: int = directory.call("registerService", information)
         self._own[number] = Bound(service, number)
         directory.call("serviceReady", number)
         return number

@@ -11,13 +11,13 @@ from typing import Any
 
 from faults import fault_of
 from robots.body import actions as a
-from robots.body import repertoire as virtual
 from robots.body.actions import Action, Listen
 from robots.body.body import SINGLE_PARTS
 from robots.body.driver import Connection, Ended, RobotState, SenseRequest, Thing
 from robots.body.inverse import from_world
 from robots.body.limbs import MOVING, Limb
 from robots.body.pose import VirtualRobot
+from robots.body.repertoire import limbs_of
 from robots.body.schedule import Running, Task, advance
 from robots.errors import ActionFailed
 from robots.naoqi.discovery import read_address
@@ -32,13 +32,8 @@ from .watching import Noticing, Watching
 log = logging.getLogger(__name__)
 
 
-# Which limbs each action needs, and the task by which a real robot does it.
+# The task by which a real robot does each action; it needs the limbs that the virtual one needs.
 
-LIMBS: dict[type[a.Action], frozenset[Limb]] = {
-    a.TakePicture: frozenset(),
-    a.RecordVideo: frozenset(),
-}
-"""What the virtual robot cannot do needs these; all else needs what it needs there."""
 ANY_MOTORS = (a.Do, a.WakeUp, a.Rest, a.Stiffness, a.SetStiffness, a.Approach)
 """What is done with motors that are off as well."""
 
@@ -87,16 +82,10 @@ TASKS: dict[type[a.Action], Callable[[RealRobot, Any], Task]] = {
 """How a real robot does each action; a test sees that none is missing."""
 
 
-def limbs_of(robot: RealRobot, action: a.Action) -> frozenset[Limb]:
-    """Return the limbs that an action needs. Raises ActionFailed if it cannot be done."""
-    known = LIMBS.get(type(action))
-    return virtual.limbs_of(robot.known, action) if known is None else known
-
-
 def task_of(robot: RealRobot, action: a.Action) -> Task:
     """Return the task that does an action; what it moves must be locked."""
     task = TASKS[type(action)](robot, action)
-    limbs = limbs_of(robot, action)
+    limbs = limbs_of(robot.known, action)
     if isinstance(action, ANY_MOTORS) or not limbs & MOVING:
         return task
     return _moving(robot, limbs, task)
@@ -149,7 +138,7 @@ class NaoqiDriver:
         """Return the limbs that an action needs. Raises ActionFailed if it cannot be done."""
         if self._link.state != "ready" or not self._watching.has_met:
             raise ActionFailed.of(self._link.connection.fault)
-        return limbs_of(self._robot, action)
+        return limbs_of(self._robot.known, action)
 
     def start(self, command_id: str, action: Action) -> None:
         """Begin an action; ``step`` tells when it has ended."""
@@ -158,7 +147,7 @@ class NaoqiDriver:
         else:
             task = task_of(self._robot, action)
         task = self._robot.calls.after_stops(task)
-        self._running[command_id] = Running(task, limbs_of(self._robot, action))
+        self._running[command_id] = Running(task, limbs_of(self._robot.known, action))
 
     def stop(self, command_ids: Collection[str]) -> None:
         """End some actions at once: each ends what it has begun on the robot."""

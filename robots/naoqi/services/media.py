@@ -277,11 +277,7 @@ class ALLeds(Module):
         """Return how bright lights are: red, green and blue of each, 0 to 1."""
         state = self._robot.state().leds
         lights = [light for group in self._groups(name) for light in body.lights(group)]
-        return [
-            ((state.get(light, 0) >> shift) & 0xFF) / 255.0
-            for light in lights
-            for shift in (16, 8, 0)
-        ]
+        return [part / 255.0 for light in lights for part in state.get(light, 0).to_bytes(3)]
 
     random_eyes = method("randomEyes::v(f)")(
         lambda self, seconds: self._do("random_eyes", seconds=number(seconds))
@@ -350,5 +346,4 @@ class ALLeds(Module):
 
 
 def _colour(parts: list[float]) -> int:
-    red, green, blue = (round(part * 255) for part in parts)
-    return red << 16 | green << 8 | blue
+    return int.from_bytes(round(part * 255) for part in parts)

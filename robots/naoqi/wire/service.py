@@ -71,16 +71,12 @@ class Mark:
     kind: str = "method"
 
 
-def method(
-    *signatures: str, uid: int = 0, description: str = "", blocks: bool = False
-) -> Callable[[Method], Method]:
+def method(*signatures: str, uid: int = 0, blocks: bool = False) -> Callable[[Method], Method]:
     """Offer a method under these signatures, such as ``goToPosture::b(sf)``.
 
-    ``uid`` is its number, where a robot has one for it; ``description`` is for people;
-    ``blocks``: it may wait, and gets a thread.
+    ``uid`` is its number, where a robot has one for it; ``blocks``: it may wait, and gets a thread.
     """
-    parsed = [Signature.parse(one, uid=uid, description=description) for one in signatures]
-    marks = tuple(Mark(one, blocks) for one in parsed)
+    marks = tuple(Mark(Signature.parse(one, uid=uid), blocks) for one in signatures)
 
     def note(function: Method) -> Method:
         setattr(function, MARK, (*getattr(function, MARK, ()), *marks))
