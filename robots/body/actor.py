@@ -62,23 +62,23 @@ class Actor:
             return [self._result(request.id, "failed", problem.fault)]
         ended = self._end_free_walk() if Limb.LEGS in limbs else []
         if isinstance(action, SetAngles):
-            # Change where joints go; limbs that are not on their way begin when it is their turn
-            for joint, angle in action.angles.items():
-                (limb,) = self.driver.limbs(SetAngles({joint: angle}))
-                approach = self._approaches().get(limb)
-                if approach is None:
-                    approach = Approach(limb, {})
-                    self.schedule.add(Command(f"{APPROACHING}_{limb}", approach, frozenset({limb})))
-                approach.targets[joint] = Target(angle, action.speed)
+            self._aim(action)
             return [*ended, self._result(request.id, "done")]
         self.schedule.add(Command(request.id, action, limbs, request.priority))
         if isinstance(action, WalkFreely) and action.unless_asked_s:
             self._asked_s[request.id] = self._now_s
         return [*ended, self._result(request.id, "accepted")]
 
-    def _approaches(self) -> dict[Limb, Approach]:
+    def _aim(self, action: SetAngles) -> None:
+        """Change where joints go; limbs that are not on their way begin when it is their turn."""
         actions = [command.action for command in self._commands()]
-        return {action.limb: action for action in actions if isinstance(action, Approach)}
+        approaches = {one.limb: one for one in actions if isinstance(one, Approach)}
+        for joint, angle in action.angles.items():
+            (limb,) = self.driver.limbs(SetAngles({joint: angle}))
+            if limb not in approaches:
+                approach = approaches[limb] = Approach(limb, {})
+                self.schedule.add(Command(f"{APPROACHING}_{limb}", approach, frozenset({limb})))
+            approaches[limb].targets[joint] = Target(angle, action.speed)
 
     def is_meant(self, request: SenseRequest) -> bool:
         """Whether a robot is told to sense something: by its name, or all robots."""

@@ -157,11 +157,23 @@ class Sagging:
         if not loose:
             self._rested = loose
             return
-        robot, stance = self._robot, self._robot.stance
+        robot = self._robot
         columns = [
             i for i, name in enumerate(robot.body.names) if part_of(robot.body, name) in loose
         ]
-        # How hard the weight of what hangs on each joint turns it, Nm
+        torque = self._torques_nm()[columns]
+        pulled = np.sign(torque) * np.maximum(np.abs(torque) - STICKING_NM, 0.0)
+        fastest = FASTEST_PART * robot.body.max_speed[columns]
+        goal = robot.angles.copy()
+        goal[columns] += np.clip(RAD_S_PER_NM * pulled, -fastest, fastest) * TICK_S
+        allowed, _ = robot.body.clamped(goal)
+        moved = np.abs(allowed[columns] - robot.angles[columns]).max(initial=0.0)
+        robot.angles[columns] = allowed[columns]
+        self._rested = loose if moved < 1e-5 else None
+
+    def _torques_nm(self) -> Angles:
+        """Return how hard the weight of what hangs on each joint turns it."""
+        robot, stance = self._robot, self._robot.stance
         centres, masses = stance.skeleton.mass_centres(stance.frames), stance.skeleton.masses_kg
         torques = np.zeros(len(robot.body.names))
         down = stance.down
@@ -175,15 +187,7 @@ class Sagging:
             torques[column] = GRAVITY_M_S2 * float(
                 ax * (by * cz - bz * cy) + ay * (bz * cx - bx * cz) + az * (bx * cy - by * cx)
             )
-        torque = torques[columns]
-        pulled = np.sign(torque) * np.maximum(np.abs(torque) - STICKING_NM, 0.0)
-        fastest = FASTEST_PART * robot.body.max_speed[columns]
-        goal = robot.angles.copy()
-        goal[columns] += np.clip(RAD_S_PER_NM * pulled, -fastest, fastest) * TICK_S
-        allowed, _ = robot.body.clamped(goal)
-        moved = np.abs(allowed[columns] - robot.angles[columns]).max(initial=0.0)
-        robot.angles[columns] = allowed[columns]
-        self._rested = loose if moved < 1e-5 else None
+        return torques
 
 
 # What a virtual robot does by itself with limbs that nothing uses: breathe, look at people.

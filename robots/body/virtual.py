@@ -28,7 +28,7 @@ from .driver import (
     states_of_touch,
 )
 from .gait import SOLE_DOWN_M, come_to_rest
-from .inverse import Place, from_world, to_world
+from .inverse import Place, from_world, to_world, twist_of
 from .limbs import MOVING, TOUCH_SENSORS, Limb
 from .motion import TICK_S
 from .pose import TOLD, VirtualRobot
@@ -82,11 +82,7 @@ def measured(robot: VirtualRobot, joint_speed: Angles, turning: Angles) -> dict[
 
 def turning_rad_s(before: Angles, after: Angles, seconds: float) -> Angles:
     """Return how fast a torso turns about its own axes, from how it was and is turned (3, 3)."""
-    change = before.T @ after
-    rates = np.array(
-        [change[2, 1] - change[1, 2], change[0, 2] - change[2, 0], change[1, 0] - change[0, 1]]
-    )
-    return rates / 2.0 / seconds
+    return twist_of(before.T @ after) / 2.0 / seconds
 
 
 def weights_kg(stance: Stance) -> dict[str, float]:

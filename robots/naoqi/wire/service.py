@@ -26,7 +26,6 @@ from typing import TYPE_CHECKING, Any, TypeVar
 from .codec import Reader, encode, read_value, reader_of
 from .errors import (
     BadFrame,
-    CallCancelled,
     ConnectionLost,
     NaoqiError,
     NoSuchMethod,
@@ -397,19 +396,11 @@ class Bound:
         if not isinstance(pending, Pending):
             self._answer(frame, peer, signature, result, wanted)
             return
-        peer.running[frame.number] = pending
 
-        def answer(done: Pending) -> None:
-            peer.running.pop(frame.number, None)
-            if isinstance(done.failure, CallCancelled):
-                if frame.kind == Kind.CALL:
-                    peer.answer(frame.answer(Kind.CANCELLED))
-            elif done.failure is not None:
-                peer.answer_error(frame, done.failure.sentence)
-            else:
-                self._answer(frame, peer, signature, done.value, wanted)
+        def answer(value: Any) -> None:
+            self._answer(frame, peer, signature, value, wanted)
 
-        pending.when_done(answer)
+        peer.answer_later(frame, pending, answer)
 
     def _answer(
         self, frame: Frame, peer: Peer, signature: Signature, result: Any, wanted: str
