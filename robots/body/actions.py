@@ -19,11 +19,9 @@ from .limbs import Limb
 Firmness = Annotated[float, Meta(ge=0.0, le=1.0)]
 
 
-def _by_word(*kinds: tuple[type[msgspec.Struct], ...]) -> dict[str, type[msgspec.Struct]]:
+def _by_word(*kinds: type[msgspec.Struct]) -> dict[str, type[msgspec.Struct]]:
     """Actions by the words for them: WakeUp is wake_up."""
-    return {
-        re.sub(r"\B([A-Z])", r"_\1", kind.__name__).lower(): kind for some in kinds for kind in some
-    }
+    return {re.sub(r"\B([A-Z])", r"_\1", kind.__name__).lower(): kind for kind in kinds}
 
 
 class Target(msgspec.Struct, frozen=True):
@@ -202,10 +200,8 @@ class Track(msgspec.Struct, frozen=True):
     using: Literal["head", "body", "off"] = "head"
 
 
-BODY_ACTIONS = _by_word(
-    (Hand, MoveJoint, Stiffness, WakeUp, Rest, Awareness, Breathing, WalkFreely),
-    (LookAt, PointAt, LookAtSeen, Track),
-)
+BODY_ACTIONS = _by_word(Hand, MoveJoint, Stiffness, WakeUp, Rest, Awareness, Breathing, WalkFreely)
+BODY_ACTIONS |= _by_word(LookAt, PointAt, LookAtSeen, Track)
 
 
 # The arguments of what a robot can be asked to do with its voice, lights, eyes and ears.
@@ -298,11 +294,9 @@ class PlaySound(msgspec.Struct, frozen=True):
     again: bool = False
 
 
-_SETTINGS: dict[str, type[msgspec.Struct]] = {"volume": Volume, "language": SetLanguage}
-SENSE_ACTIONS = _SETTINGS | _by_word(
-    (Listen, Intensity, ResetLeds, RandomEyes, RotateEyes),
-    (LearnFace, ForgetFace, TakePicture, RecordVideo, PlaySound),
-)
+SENSE_ACTIONS = _by_word(Volume) | {"language": SetLanguage}
+SENSE_ACTIONS |= _by_word(Listen, Intensity, ResetLeds, RandomEyes, RotateEyes)
+SENSE_ACTIONS |= _by_word(LearnFace, ForgetFace, TakePicture, RecordVideo, PlaySound)
 
 
 LONGEST_TEXT = 5000
@@ -404,15 +398,11 @@ class Stop(msgspec.Struct, frozen=True):
 Action = msgspec.Struct
 """What takes its time, and limbs: one of those in ACTIONS."""
 
-AT_ONCE = (Stop, StopMoving)
-"""What is done before anything else, and never waits."""
-
 ACTIONS: dict[str, type[Action]] = {
-    **_by_word((Say, Do, Imitate, Play, Walk, Turn, Look, Leds)),
+    **_by_word(Say, Do, Imitate, Play, Walk, Turn, Look, Leds),
     **BODY_ACTIONS,
     **SENSE_ACTIONS,
-    **_by_word((SetAngles, ReachAngles, MoveThrough, SetStiffness, Silence)),
-    **_by_word((Stop, StopMoving)),
+    **_by_word(SetAngles, ReachAngles, MoveThrough, SetStiffness, Silence, Stop, StopMoving),
 }
 
 
@@ -435,18 +425,14 @@ def read_action(name: str, args: dict[str, Any]) -> Action:
         what, _, place = str(error).partition(" - at `$.")
         for word, plain in PLAIN_WORDS.items():
             what = what.replace(word, plain)
-        told, fields = f"{place.rstrip('`')} {what}.".strip().replace("`", ""), _fields(kind)
+        told = f"{place.rstrip('`')} {what}.".strip().replace("`", "")
+        fields = ", ".join(
+            field.name if field.required else f"{field.name} (may be left out)"
+            for field in msgspec.structs.fields(kind)
+        )
         raise ActionFailed(
             '"{name}" cannot be done: {told} It takes {fields}.',
             name=name,
             told=told,
             fields=fields,
         ) from error
-
-
-def _fields(kind: type[Action]) -> str:
-    fields = [
-        field.name if field.required else f"{field.name} (may be left out)"
-        for field in msgspec.structs.fields(kind)
-    ]
-    return ", ".join(fields)

@@ -54,29 +54,31 @@ class Actor:
             if isinstance(action, Stop):
                 return [*self.stop(action.request), self._result(request.id, "done")]
             if isinstance(action, StopMoving):
-                return [*self._stop_moving(), self._result(request.id, "done")]
+                moving = [command.id for command in self._commands() if command.limbs & MOVING]
+                ended = self._end(moving, "cancelled", "stopped")
+                return [*ended, self._result(request.id, "done")]
             limbs = self.driver.limbs(action)
         except ActionFailed as problem:
             return [self._result(request.id, "failed", problem.fault)]
         ended = self._end_free_walk() if Limb.LEGS in limbs else []
         if isinstance(action, SetAngles):
-            # Change where joints go; limbs that are not on their way begin when it is their turn
-            for joint, angle in action.angles.items():
-                (limb,) = self.driver.limbs(SetAngles({joint: angle}))
-                approach = self._approaches().get(limb)
-                if approach is None:
-                    approach = Approach(limb, {})
-                    self.schedule.add(Command(f"{APPROACHING}_{limb}", approach, frozenset({limb})))
-                approach.targets[joint] = Target(angle, action.speed)
+            self._aim(action)
             return [*ended, self._result(request.id, "done")]
         self.schedule.add(Command(request.id, action, limbs, request.priority))
         if isinstance(action, WalkFreely) and action.unless_asked_s:
             self._asked_s[request.id] = self._now_s
         return [*ended, self._result(request.id, "accepted")]
 
-    def _approaches(self) -> dict[Limb, Approach]:
+    def _aim(self, action: SetAngles) -> None:
+        """Change where joints go; limbs that are not on their way begin when it is their turn."""
         actions = [command.action for command in self._commands()]
-        return {action.limb: action for action in actions if isinstance(action, Approach)}
+        approaches = {one.limb: one for one in actions if isinstance(one, Approach)}
+        for joint, angle in action.angles.items():
+            (limb,) = self.driver.limbs(SetAngles({joint: angle}))
+            if limb not in approaches:
+                approach = approaches[limb] = Approach(limb, {})
+                self.schedule.add(Command(f"{APPROACHING}_{limb}", approach, frozenset({limb})))
+            approaches[limb].targets[joint] = Target(angle, action.speed)
 
     def is_meant(self, request: SenseRequest) -> bool:
         """Whether a robot is told to sense something: by its name, or all robots."""
@@ -105,10 +107,6 @@ class Actor:
     def noticed(self) -> list[str]:
         """Return the human states that the robot noticed by itself since the last call."""
         return self.driver.noticed()
-
-    def _stop_moving(self) -> list[ActionResult]:
-        moving = [command.id for command in self._commands() if command.limbs & MOVING]
-        return self._end(moving, "cancelled", "stopped")
 
     def _end_free_walk(self) -> list[ActionResult]:
         """A walk without an end makes way for what else the legs are asked."""
@@ -158,12 +156,8 @@ class Actor:
     def _result(self, request_id: str, state: ActionState, fault: Fault = NOTHING) -> ActionResult:
         result = ActionResult(id=request_id, robot=self.robot, state=state, fault=fault)
         self._last_result[request_id] = result
-        self._forget_oldest()
+        if len(self._last_result) > REMEMBERED_REQUESTS:  # forget the oldest that has ended
+            known = self._last_result.items()
+            if oldest := next((id for id, result in known if result.state in FINAL), None):
+                del self._last_result[oldest]
         return result
-
-    def _forget_oldest(self) -> None:
-        surplus = len(self._last_result) - REMEMBERED_REQUESTS
-        if surplus > 0:
-            ended = (id for id, result in self._last_result.items() if result.state in FINAL)
-            for request_id in [id for id, _ in zip(ended, range(surplus), strict=False)]:
-                del self._last_result[request_id]

@@ -8,7 +8,6 @@ and, if wanted, Bezier handles (s, rad before; s, rad after), which programs wri
 
 from __future__ import annotations
 
-import json
 import math
 from collections.abc import Iterator
 from pathlib import Path
@@ -58,7 +57,9 @@ def tracks_of(poses: tuple[Pose, ...]) -> dict[str, Track]:
         now_s = pose.at
         for name, angle in joints_of(pose).items():
             times.setdefault(name, []).append(now_s)
-            keys.setdefault(name, []).append(_in_body_units(name, angle))
+            # Rad to a thousandth of a degree, hands as they are
+            in_rad = angle if name.endswith("Hand") else round(math.radians(angle), 5)
+            keys.setdefault(name, []).append(in_rad)
     return {name: Track(tuple(times[name]), tuple(keys[name])) for name in keys}
 
 
@@ -76,11 +77,6 @@ def _named(pose: Pose) -> Iterator[tuple[str, float]]:
     for angles, before in (*sides, (pose.right_leg, "R"), (pose.head, "Head"), (pose.joints, "")):
         for name, angle in angles.items():
             yield before + name, angle
-
-
-def _in_body_units(name: str, angle: float) -> float:
-    """Rad to a thousandth of a degree, hands as they are."""
-    return angle if name.endswith("Hand") else round(math.radians(angle), 5)
 
 
 Kind = Literal["animation", "animal", "gesture"]
@@ -147,10 +143,8 @@ class Animations:
 
 def load_animations(folder: Path, body: Body) -> Animations:
     """Read every ``*.toml`` of a folder. Raises FilesUnusable, which names file and place."""
-    found = {}
-    for path in sorted(folder.glob("*.toml")):
-        found[path.stem] = load_animation(path, body)
-    return Animations(found)
+    files = sorted(folder.glob("*.toml"))
+    return Animations({path.stem: load_animation(path, body) for path in files})
 
 
 def load_animation(path: Path, body: Body) -> Animation:
@@ -215,7 +209,7 @@ def with_own(known: Animations, folder: str, body: Body) -> tuple[Animations, li
     An own one takes the place of a known one of the same name. What cannot be read, or was made
     for a robot with other joints, is left out: the robot can do all else. "" is no folder.
     """
-    found: dict[str, Animation] = {name: known.get(name) for name in known.names()}
+    found = {name: known.get(name) for name in known.names()}
     problems = []
     for path in sorted(Path(folder).glob("*.toml")) if folder else ():
         try:
@@ -223,38 +217,3 @@ def with_own(known: Animations, folder: str, body: Body) -> tuple[Animations, li
         except FilesUnusable as error:
             problems.append(error.sentence)
     return Animations(found), problems
-
-
-# Writes an animation as the text of a file that ``load_animation`` reads back.
-
-DIGITS = 6
-"""Angles and times are kept to a millionth."""
-
-
-def write_animation(animation: Animation) -> str:
-    """Return the text of an animation's file; its name is the file's name."""
-    head = [
-        f"{name} = {_text(getattr(animation, name))}"
-        for name in ("title", "description", "kind", "starts_from", "says")
-        if getattr(animation, name) or name in ("title", "description", "kind")
-    ]
-    joints = [_joint(name, track) for name, track in animation.keyframes.tracks.items()]
-    return "\n".join([*head, "", *joints])
-
-
-def _joint(name: str, track: Track) -> str:
-    header = name if name.isascii() and name.isidentifier() else _text(name)
-    lines = [f"[joints.{header}]", f"times = {_row(track.times)}", f"keys = {_row(track.keys)}"]
-    if track.handles is not None:
-        rows = ", ".join(_row(handle) for handle in track.handles)
-        lines.append(f"handles = [{rows}]")
-    return "\n".join([*lines, ""])
-
-
-def _row(numbers: tuple[float, ...]) -> str:
-    return "[" + ", ".join(repr(round(float(number), DIGITS)) for number in numbers) + "]"
-
-
-def _text(text: str) -> str:
-    # JSON's texts are TOML's too, but for a control character that TOML wants escaped.
-    return json.dumps(text, ensure_ascii=False).replace("\x7f", "\\u007f")

@@ -288,19 +288,15 @@ def colour_number(colour: str) -> int:
 
 def mixed(start: int, end: int, part: float) -> int:
     """Return the colour that is ``part`` (0 to 1) of the way from one colour to another."""
-    colour = 0
-    for shift in (16, 8, 0):
-        first, last = (start >> shift) & 0xFF, (end >> shift) & 0xFF
-        colour |= round(first + (last - first) * part) << shift
-    return colour
+    pairs = zip(start.to_bytes(3), end.to_bytes(3), strict=True)
+    return int.from_bytes(round(first + (last - first) * part) for first, last in pairs)
 
 
 def brightest(colour: int) -> int:
     """Return a colour with the same hue, as bright as it can be."""
-    parts = [(colour >> shift) & 0xFF for shift in (16, 8, 0)]
+    parts = colour.to_bytes(3)
     most = max(parts) or 255
-    red, green, blue = (round(part * 255 / most) for part in parts)
-    return red << 16 | green << 8 | blue
+    return int.from_bytes(round(part * 255 / most) for part in parts)
 
 
 # Which posture a word means, and by which postures a robot gets from one to another.
@@ -323,27 +319,16 @@ def posture_name(body: Body, word: str) -> str:
 
 def posture_path(body: Body, start: str, goal: str) -> list[str]:
     """Return the postures to pass after ``start``, the goal last: the way with the fewest moves."""
-    came_from: dict[str, str | None] = {start: None}
-    waiting = deque([start])
-    while waiting:
-        here = waiting.popleft()
-        if here == goal:
-            return _way_back(came_from, goal)
-        for neighbour in body.postures[here].next:
-            if neighbour not in came_from:
-                came_from[neighbour] = here
-                waiting.append(neighbour)
+    known, paths = {start}, deque([[start]])
+    while paths:
+        path = paths.popleft()
+        if path[-1] == goal:
+            return path[1:] or [goal]
+        for neighbour in body.postures[path[-1]].next:
+            if neighbour not in known:
+                known.add(neighbour)
+                paths.append([*path, neighbour])
     raise ActionFailed("There is no way from {start} to {goal}.", start=start, goal=goal)
-
-
-def _way_back(came_from: dict[str, str | None], goal: str) -> list[str]:
-    path = []
-    here: str | None = goal
-    while here is not None:
-        path.append(here)
-        here = came_from[here]
-    path.reverse()
-    return path[1:] or [goal]
 
 
 def _word(name: str) -> str:

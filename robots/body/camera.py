@@ -23,6 +23,9 @@ from .pose import VirtualRobot
 from .surroundings import EYES_PART, HALF_VIEW_RAD, looked_at
 
 # Where the rays of a camera meet simple shapes: balls, upright posts, boxes and discs.
+#
+# ``eye`` (3,) is where they begin, ``rays`` (rows, columns, 3) their directions. Places, lengths
+# and radii are in m; ``heading`` is how something is turned on the floor, rad.
 
 Pixels = NDArray[np.float32]
 """A number, or several, for each pixel of a picture or of a part of it."""
@@ -39,47 +42,35 @@ class Hit(NamedTuple):
     faces: Pixels
 
 
-def places(eye: Points, rays: Pixels, ways: Pixels) -> Pixels:
+def _places(eye: Points, rays: Pixels, ways: Pixels) -> Pixels:
     """Return where rays are after so many of their lengths, seen from a place; 0 for inf."""
     reached = np.where(np.isfinite(ways), ways, 0.0)[..., None]
     return (eye + rays * reached).astype(np.float32)
 
 
-def ball(eye: Points, rays: Pixels, centre: Points, radius: float) -> Hit:
-    """Return where rays from an eye meet a ball.
-
-    ``eye`` (3,) is where they begin, ``rays`` their directions; ``centre`` (3,) and ``radius``
-    are the ball's, m.
-    """
+def _ball(eye: Points, rays: Pixels, centre: Points, radius: float) -> Hit:
+    """Return where rays from an eye meet a ball."""
     start = eye - centre
     ways = _first_way(
         (rays**2).sum(-1), (rays @ start).astype(np.float32), float(start @ start) - radius**2
     )
-    return Hit(ways, places(start, rays, ways) / np.float32(radius))
+    return Hit(ways, _places(start, rays, ways) / np.float32(radius))
 
 
-def post(eye: Points, rays: Pixels, foot: Points, height: float, radius: float) -> Hit:
-    """Return where rays from an eye meet a round post; it has no lid.
-
-    ``eye`` (3,) is where they begin, ``rays`` their directions; ``foot`` (3,), ``height`` and
-    ``radius`` are the post's, m.
-    """
+def _post(eye: Points, rays: Pixels, foot: Points, height: float, radius: float) -> Hit:
+    """Return where rays from an eye meet a round post; it has no lid."""
     start = eye - foot
     flat, flat_rays = start[:2], rays[..., :2]
     nearness = float(flat @ flat) - radius**2
     ways = _first_way((flat_rays**2).sum(-1), (flat_rays @ flat).astype(np.float32), nearness)
-    met = places(start, rays, ways)
+    met = _places(start, rays, ways)
     is_met = (met[..., 2] >= 0.0) & (met[..., 2] <= height)
     met[..., 2] = 0.0
     return Hit(np.where(is_met, ways, np.inf).astype(np.float32), met / np.float32(radius))
 
 
-def box(eye: Points, rays: Pixels, centre: Points, heading: float, half: Points) -> Hit:
-    """Return where rays from an eye meet a box, half as large as ``half``, turned on the floor.
-
-    ``eye`` (3,) is where they begin, ``rays`` their directions; ``centre`` (3,) is the box's,
-    m, ``heading`` how it is turned, rad.
-    """
+def _box(eye: Points, rays: Pixels, centre: Points, heading: float, half: Points) -> Hit:
+    """Return where rays from an eye meet a box, half as large as ``half``, turned on the floor."""
     turn = turned(heading)
     start, into = (eye - centre) @ turn, rays @ turn
     safe = np.where(np.abs(into) < 1e-9, 1e-9, into)
@@ -93,29 +84,21 @@ def box(eye: Points, rays: Pixels, centre: Points, heading: float, half: Points)
     return Hit(ways, (sides @ turn.T).astype(np.float32))
 
 
-def disc(eye: Points, rays: Pixels, centre: Points, heading: float, radius: float) -> Hit:
-    """Return where rays from an eye meet an upright disc; it faces where it heads, both sides.
-
-    ``eye`` (3,) is where they begin, ``rays`` their directions; ``centre`` (3,) and ``radius``
-    are the disc's, m, ``heading`` where it heads, rad.
-    """
+def _disc(eye: Points, rays: Pixels, centre: Points, heading: float, radius: float) -> Hit:
+    """Return where rays from an eye meet an upright disc; it faces where it heads, both sides."""
     ahead = np.array([math.cos(heading), math.sin(heading), 0.0])
     start, towards = eye - centre, rays @ ahead
     safe = np.where(np.abs(towards) < 1e-9, 1e-9, towards)
     ways = (-float(start @ ahead) / safe).astype(np.float32)
-    met = places(start, rays, ways)
+    met = _places(start, rays, ways)
     is_met = (ways > NEAREST) & ((met**2).sum(-1) <= radius**2)
     facing = np.broadcast_to(ahead.astype(np.float32), rays.shape)
     return Hit(np.where(is_met, ways, np.inf).astype(np.float32), facing)
 
 
-def on_disc(hit: Hit, eye: Points, rays: Pixels, centre: Points, heading: float) -> Pixels:
-    """Return where on a disc rays meet it: m to the right of who looks at it, and up.
-
-    ``hit`` is what ``disc`` gave for the same ``eye``, ``rays``, ``centre`` (m) and ``heading``
-    (rad).
-    """
-    met = places(eye - centre, rays, hit.ways)
+def _on_disc(hit: Hit, eye: Points, rays: Pixels, centre: Points, heading: float) -> Pixels:
+    """Return where on a disc rays meet it: m to the right of who looks at it, and up."""
+    met = _places(eye - centre, rays, hit.ways)
     right = met[..., :2] @ np.array([-math.sin(heading), math.cos(heading)])
     return np.stack([right, met[..., 2]], axis=-1).astype(np.float32)
 
@@ -219,8 +202,7 @@ def picture(robot: VirtualRobot, camera: Camera, size: tuple[int, int] = SIZE) -
     view.ways[is_floor] = ways
     for thing in robot.things:
         middle = _above(thing, 0.5 * thing.size[2])
-        window = view.window(middle, 0.5 * math.hypot(*thing.size))
-        if window:
+        if window := view.window(middle, 0.5 * math.hypot(*thing.size)):
             _PAINTERS[thing.kind](view, window, thing)
     return np.clip(view.colours, 0, 255).astype(np.uint8)
 
@@ -228,14 +210,14 @@ def picture(robot: VirtualRobot, camera: Camera, size: tuple[int, int] = SIZE) -
 def _paint_ball(view: _View, window: Window, thing: Thing) -> None:
     radius = 0.5 * thing.size[0]
     centre = _above(thing, 0.5 * thing.size[2])
-    view.paint(window, ball(view.eye, view.rays[window], centre, radius), RED)
+    view.paint(window, _ball(view.eye, view.rays[window], centre, radius), RED)
 
 
 def _paint_wall(view: _View, window: Window, thing: Thing) -> None:
     wide, deep, high = thing.size
     centre = _above(thing, 0.5 * high)
     half = 0.5 * np.array([deep, wide, high])
-    view.paint(window, box(view.eye, view.rays[window], centre, thing.heading, half), WALL)
+    view.paint(window, _box(view.eye, view.rays[window], centre, thing.heading, half), WALL)
 
 
 def _paint_mark(view: _View, window: Window, thing: Thing) -> None:
@@ -243,15 +225,15 @@ def _paint_mark(view: _View, window: Window, thing: Thing) -> None:
     wide, _, high = thing.size
     radius, rays = 0.5 * min(wide, high), view.rays[window]
     centre = _above(thing, high - radius)
-    hit = disc(view.eye, rays, centre, thing.heading, radius)
-    right, up = np.moveaxis(on_disc(hit, view.eye, rays, centre, thing.heading) / radius, -1, 0)
+    hit = _disc(view.eye, rays, centre, thing.heading, radius)
+    right, up = np.moveaxis(_on_disc(hit, view.eye, rays, centre, thing.heading) / radius, -1, 0)
     eighth = (np.arctan2(up, right) / (0.25 * math.pi)).astype(int) % 8
     way = np.hypot(right, up)
     filled = (sum(thing.name.encode()) >> eighth) & 1
     is_black = (way < 0.25) | ((way > 0.4) & (way < 0.8) & (filled > 0))
     view.paint(window, hit, np.where(is_black[..., None], BLACK, WHITE).astype(np.float32))
     behind = 0.15 * radius * np.array([math.cos(thing.heading), math.sin(thing.heading), 0.0])
-    stand = post(view.eye, rays, _above(thing) - behind, high - radius, 0.1 * radius)
+    stand = _post(view.eye, rays, _above(thing) - behind, high - radius, 0.1 * radius)
     view.paint(window, stand, STAND)
 
 
@@ -261,15 +243,15 @@ def _paint_person(view: _View, window: Window, thing: Thing) -> None:
     head = np.array(looked_at(thing, view.eye))
     high = (head[2] - thing.place[2]) / EYES_PART
     body, hip, neck = BODY_PART * wide, HIP_PART * high, NECK_PART * high
-    legs = post(view.eye, rays, _above(thing), hip, 0.8 * body)
+    legs = _post(view.eye, rays, _above(thing), hip, 0.8 * body)
     view.paint(window, legs, TROUSERS)
     chest_m = max(neck - hip - body, 0.0)
     for shape in (
-        post(view.eye, rays, _above(thing, hip), chest_m, body),
-        ball(view.eye, rays, _above(thing, hip + chest_m), body),
+        _post(view.eye, rays, _above(thing, hip), chest_m, body),
+        _ball(view.eye, rays, _above(thing, hip + chest_m), body),
     ):
         view.paint(window, shape, SHIRT)
-    hit = ball(view.eye, rays, head, max(HEAD_PART * thing.size[2], 0.04))
+    hit = _ball(view.eye, rays, head, max(HEAD_PART * thing.size[2], 0.04))
     view.paint(window, hit, _face(hit, thing.heading))
 
 
@@ -292,12 +274,7 @@ def _above(thing: Thing, up_m: float = 0.0) -> Points:
     return np.array([x, y, z + up_m])
 
 
-_PAINTERS = {
-    "ball": _paint_ball,
-    "wall": _paint_wall,
-    "mark": _paint_mark,
-    "person": _paint_person,
-}
+_PAINTERS = {"ball": _paint_ball, "wall": _paint_wall, "mark": _paint_mark, "person": _paint_person}
 
 
 # Writes pictures as PNG files and videos as animated PNG files, which browsers play.

@@ -69,6 +69,7 @@ class _Lists:
         self._found: list[tuple[Value, Value, Value]] = []
 
     def movements(self) -> list[tuple[Value, Value, Value]]:
+        """The (names, times, keys) of each movement, in their order."""
         self._close()
         return self._found
 
@@ -80,7 +81,10 @@ class _Lists:
                 case ast.Assign(targets=[ast.Subscript() as place], value=value):
                     self._put(place, self._value(value))
                 case ast.Assign(targets=[target], value=value):
-                    self._assign(_name(target), self._value(value))
+                    name, assigned = _name(target), self._value(value)
+                    if name == "names":
+                        self._close()
+                    self._values[name] = assigned
                 case ast.Expr(value=ast.Call(func=ast.Attribute(attr=call), args=arguments)) if (
                     call in CALLS and len(arguments) >= 3
                 ):
@@ -93,11 +97,6 @@ class _Lists:
                     self._row(_name(target)).append(self._value(value))
         except (SyntaxError, ValueError, RecursionError, MemoryError, _Unknown, ArithmeticError):
             return
-
-    def _assign(self, name: str, value: Value) -> None:
-        if name == "names":
-            self._close()
-        self._values[name] = value
 
     def _use(self, lists: dict[str, Value]) -> None:
         """Take the lists that a call plays; names of its own make it another movement."""
@@ -123,8 +122,7 @@ class _Lists:
 
     def _put(self, place: ast.Subscript, value: Value) -> None:
         """Follow ``times[0][1] = 0.8``, as in C++; rows grow as they are filled."""
-        path, target = [], place.value
-        path.append(_index(place.slice))
+        path, target = [_index(place.slice)], place.value
         while isinstance(target, ast.Subscript):
             path.insert(0, _index(target.slice))
             target = target.value
@@ -140,7 +138,13 @@ class _Lists:
                 return text
             case ast.Constant(value=int() | float() as number):
                 return float(number)
-            case ast.List(elts=parts) | ast.Tuple(elts=parts):
+            case ast.Call(func=ast.Name(id="list"), args=[]):
+                return []
+            case (
+                ast.List(elts=parts)
+                | ast.Tuple(elts=parts)
+                | ast.Call(func=ast.Name(id="array"), args=parts)
+            ):
                 return [self._value(part) for part in parts]
             case ast.UnaryOp(op=ast.USub() | ast.UAdd() as sign, operand=inner):
                 number = self._number(inner)
@@ -148,20 +152,11 @@ class _Lists:
             case ast.BinOp(left=left, op=operation, right=right) if type(operation) in OPERATIONS:
                 first, second = self._number(left), self._number(right)
                 return float(OPERATIONS[type(operation)](first, second))
-            case ast.Call(func=ast.Name(id="list"), args=[]):
-                return []
-            case ast.Call(func=ast.Name(id="array"), args=parts):
-                return [self._value(part) for part in parts]
-            case ast.Name() | ast.Attribute():
-                return self._known(node)
-        raise _Unknown
-
-    def _known(self, node: ast.Name | ast.Attribute) -> Value:
-        name = node.id if isinstance(node, ast.Name) else node.attr
-        if name in CONSTANTS:
-            return CONSTANTS[name]
-        if (value := self._values.get(_name(node))) is not None:
-            return value
+            case ast.Name(id=name) | ast.Attribute(attr=name):
+                if name in CONSTANTS:
+                    return CONSTANTS[name]
+                if (value := self._values.get(_name(node))) is not None:
+                    return value
         raise _Unknown
 
     def _number(self, node: ast.expr) -> float:
@@ -220,27 +215,25 @@ class KeyframesUnreadable(RobotError):
 
     title = "This text holds no movement that can be read"
 
+    def __init__(self, sentence: str, **values: Any) -> None:
+        super().__init__(sentence, checklist=EXPORTING, **values)
+
 
 def read_choregraphe(text: str) -> Keyframes:
     """Return the movement in a text that Choregraphe exported. Raises KeyframesUnreadable."""
     if len(text) > LONGEST_TEXT:
         raise KeyframesUnreadable(
             "The text is too long for a movement: it has more than 2 million letters.",
-            checklist=EXPORTING,
         )
-    # The (names, times, keys) of each movement in a program, in their order
     lists = _Lists()
     for statement in _statements(text):
         lists.take(statement)
     found = lists.movements()
     if not found:
-        raise KeyframesUnreadable(
-            "The text has no joint names, times and keys in it.", checklist=EXPORTING
-        )
+        raise KeyframesUnreadable("The text has no joint names, times and keys in it.")
     if len(found) > 1:
         raise KeyframesUnreadable(
             "The text has {count} movements in it; one at a time can be read.",
-            checklist=EXPORTING,
             count=len(found),
         )
     names, times, keys = found[0]
@@ -252,7 +245,6 @@ def _keyframes(names: list[Value], times: list[Value], keys: list[Value]) -> Key
         raise KeyframesUnreadable(
             "The text has {count} joint names, but {count_2} lists of times and {count_3} lists of "
             "keys.",
-            checklist=EXPORTING,
             count=len(names),
             count_2=len(times),
             count_3=len(keys),
@@ -260,11 +252,9 @@ def _keyframes(names: list[Value], times: list[Value], keys: list[Value]) -> Key
     tracks: dict[str, Track] = {}
     for name, joint_times, joint_keys in zip(names, times, keys, strict=True):
         if not isinstance(name, str) or not name:
-            raise KeyframesUnreadable(
-                "A joint's name is not a text in quotes.", checklist=EXPORTING
-            )
+            raise KeyframesUnreadable("A joint's name is not a text in quotes.")
         if name in tracks:
-            raise KeyframesUnreadable("{name} is there twice.", checklist=EXPORTING, name=name)
+            raise KeyframesUnreadable("{name} is there twice.", name=name)
         tracks[name] = _track(name, _rows(joint_times), _rows(joint_keys))
     return Keyframes(tracks)
 
@@ -273,7 +263,6 @@ def _track(name: str, times: list[Value], keys: list[Value]) -> Track:
     if len(times) != len(keys) or not keys:
         raise KeyframesUnreadable(
             "{name} has {count} times for {count_2} keys.",
-            checklist=EXPORTING,
             name=name,
             count=len(times),
             count_2=len(keys),
@@ -282,38 +271,28 @@ def _track(name: str, times: list[Value], keys: list[Value]) -> Track:
     if seconds[0] < 0.0 or any(b - a < SHORTEST_STEP_S - 1e-9 for a, b in pairwise(seconds)):
         raise KeyframesUnreadable(
             "The times of {name} do not rise by {shortest_step_s} s or more.",
-            checklist=EXPORTING,
             name=name,
             shortest_step_s=SHORTEST_STEP_S,
         )
     read = [_key(name, key) for key in keys]
     handles = tuple(handle or NO_HANDLE for _, handle in read)
     has_handles = any(handle for _, handle in read)
-    return Track(
-        _later(seconds), tuple(angle for angle, _ in read), handles if has_handles else None
-    )
-
-
-def _later(seconds: tuple[float, ...]) -> tuple[float, ...]:
-    """A movement begins where the robot is: a key at 0 s is reached a moment later."""
+    # A movement begins where the robot is: a key at 0 s is reached a moment later
     late = max(0.0, SHORTEST_STEP_S - seconds[0])
-    return tuple(time + late for time in seconds)
+    later, angles = tuple(time + late for time in seconds), tuple(angle for angle, _ in read)
+    return Track(later, angles, handles if has_handles else None)
 
 
 def _key(name: str, key: Value) -> tuple[float, Handle | None]:
     """A key's angle and its handles: 0.3, [0.3], or [0.3, [3, -0.2, 0.0], [3, 0.2, 0.0]]."""
-    if not isinstance(key, list):
-        return _number(name, key), None
     match key:
-        case [angle]:
+        case [angle, [_, *before], [_, *after]] if len(before) == len(after) == 2:
+            before_s, before_rad, after_s, after_rad = (_number(name, n) for n in before + after)
+            return _number(name, angle), (before_s, before_rad, after_s, after_rad)
+        case [angle] | (float() | str() as angle):
             return _number(name, angle), None
-        case [angle, [_, before_s, before], [_, after_s, after]]:
-            offsets = (before_s, before, after_s, after)
-            numbers = [_number(name, offset) for offset in offsets]
-            return _number(name, angle), (numbers[0], numbers[1], numbers[2], numbers[3])
     raise KeyframesUnreadable(
         "A key of {name} is neither an angle nor an angle with two handles.",
-        checklist=EXPORTING,
         name=name,
     )
 
@@ -321,9 +300,7 @@ def _key(name: str, key: Value) -> tuple[float, Handle | None]:
 def _number(name: str, value: Value) -> float:
     if isinstance(value, float) and math.isfinite(value):
         return value
-    raise KeyframesUnreadable(
-        "One of the numbers of {name} cannot be read.", checklist=EXPORTING, name=name
-    )
+    raise KeyframesUnreadable("One of the numbers of {name} cannot be read.", name=name)
 
 
 def _rows(value: Value) -> list[Value]:

@@ -137,6 +137,11 @@ def state_of_thing(thing: str) -> str:
     return f"heard_{thing}" if thing == "sound" else f"seen_{thing}"
 
 
+def states_of_touch(sensor: str) -> list[str]:
+    """The human states of a touch: of the sensor by itself, then of the part that it is on."""
+    return [f"touched_{sensor}", f"touched_{sensor.partition('_')[0]}"]
+
+
 def plain(words: str) -> str:
     """Words as part of a human state: "Good morning!" is good_morning."""
     return re.sub(r"[\W_]+", "_", words.casefold()).strip("_")

@@ -124,7 +124,8 @@ def _walk(
     frames = skeleton.transforms(standing)
     middle = lean @ skeleton.feet_middle(frames)
     offset = lean @ skeleton.mass_centre(frames)
-    base = _base(feet, way)
+    base = np.column_stack([(feet.places["L"] + feet.places["R"])[:, :2] / 2.0, feet.yaw])
+    base[-1] = way
     ends = base[[0, -1], :2] + _turned(base[[0, -1], 2], np.tile((offset - middle)[:2], (2, 1)))
     wanted = _swayed(feet.weight, float(offset[2] - middle[2]), ends)
     angles = np.repeat(standing[None, :], len(base), axis=0)
@@ -133,7 +134,7 @@ def _walk(
         _pose_legs(body, angles, feet, path, lean, -float(middle[2]))
         path.correct(skeleton.transforms(angles), skeleton, lean, feet, wanted)
     _pose_legs(body, angles, feet, path, lean, -float(middle[2]))
-    columns = tuple(i for i, joint in enumerate(body.joints) if joint.limb == "legs")
+    columns = tuple(body.columns({Limb.LEGS}))
     angles, _ = body.clamped(angles)
     torso = np.column_stack([path.torso, path.yaw])
     return angles, Walk(Motion(columns, angles[:, columns]), base, torso, lean, feet.weight)
@@ -162,10 +163,9 @@ class _Path:
             heading = frames[:, skeleton.index[link], :3, 0] @ lean.T
             turned = yaw + np.arctan2(heading[:, 1], heading[:, 0])
             self.yaws[link[0]] = self.yaws[link[0]] - (turned - feet.yaws[link[0]])
-        # Return a correction that is 0 at the beginning and at the end
-        correction = there - wanted
-        at_rest = _fading(len(correction))
-        self.torso = self.torso - (correction * np.minimum(1.0 - at_rest, 1.0 - at_rest[::-1]))
+        moving = 1.0 - _fading(len(there))
+        # nothing is corrected at the beginning and at the end
+        self.torso = self.torso - (there - wanted) * np.minimum(moving, moving[::-1])
 
 
 def _fastest_part(body: Body, standing: Angles, angles: Angles) -> float:
@@ -186,9 +186,10 @@ def _feet(step: Angles, steps: int, step_s: float, hip_left_m: float) -> _Feet:
         gone, part = _in_turn(times_s, begins_s[own], swing_s, landings)
         height = np.sin(np.pi * part) ** 2 * FOOT_LIFT_M
         places[side], yaws[side] = _foot(gone, step, sign * hip_left_m, height), gone * step[2]
-        middle, _ = _foot(gone, step, sign * (hip_left_m - INWARD_M), height), None
-        stands[side] = middle[:, :2] + SOLE_MIDDLE_M * _heading(yaws[side])
-    # Return where the weight is carried: between the feet, then on each standing one in turn
+        middle = _foot(gone, step, sign * (hip_left_m - INWARD_M), height)
+        heading = np.column_stack([np.cos(yaws[side]), np.sin(yaws[side])])
+        stands[side] = middle[:, :2] + SOLE_MIDDLE_M * heading
+    # The weight is carried between the feet, then on each standing one in turn
     changing_s = np.full(swings + 1, step_s * BOTH_FEET_PART)
     ends_s = LEAVING_S + step_s * np.arange(swings + 1.0)
     ends_s[-1] += changing_s[-1]
@@ -258,17 +259,6 @@ def _pose_legs(
     write_legs(body, angles, ankles, lean[2], path.yaws["L"] - path.yaws["R"])
 
 
-def _base(feet: _Feet, way: Angles) -> Angles:
-    middle = (feet.places["L"] + feet.places["R"])[:, :2] / 2.0
-    base = np.column_stack([middle, feet.yaw])
-    base[-1] = way
-    return base
-
-
-def _heading(yaw: Angles) -> Points:
-    return np.column_stack([np.cos(yaw), np.sin(yaw)])
-
-
 def _turned(yaw: Angles, vectors: Points) -> Points:
     cosine, sine = np.cos(yaw), np.sin(yaw)
     x, y = vectors[:, 0], vectors[:, 1]
@@ -305,18 +295,13 @@ def plan_joining(robot: VirtualRobot, standing: Angles) -> Joining:
     """Return how a walking robot comes to stand. ``standing``: every joint when it stands still."""
     feet = {side: _foot_at(robot, side) for side in SIDES}
     firm = min(feet, key=lambda side: _looseness(robot, feet[side]))
-    there = _Foot(feet[firm].place, feet[firm].heading)
-    middle = there.place + turned(there.heading) @ [
-        0.0,
-        -SIDES[firm] * leg_sizes(robot.body).hip_left,
-        0.0,
-    ]
+    there, aside_m = feet[firm], -SIDES[firm] * leg_sizes(robot.body).hip_left
+    middle = there.place + turned(there.heading) @ [0.0, aside_m, 0.0]
     base = np.array([middle[0], middle[1], there.heading])
     seconds = JOINING_S
     for _ in range(JOINING_TRIES):
         angles, guides = _planned(robot, standing, feet, firm, base, seconds)
-        steps = np.abs(np.diff(angles, axis=0, prepend=robot.angles[None]))
-        part = float((steps / TICK_S / robot.body.max_speed).max())
+        part = _fastest_part(robot.body, robot.angles, angles)
         if part <= JOINING_FASTEST_PART:
             break
         seconds *= part / JOINING_FASTEST_PART
@@ -344,11 +329,11 @@ def _planned(
     for side, sign in SIDES.items():
         aside_m = sign * leg_sizes(robot.body).hip_left
         places, yaws[side] = _way(feet[side], base, aside_m, part)
-        ankles[side] = _level(places - torso, yaw) @ lean
+        level = _turned(-yaw, (places - torso)[:, :2])
+        ankles[side] = np.column_stack([level, (places - torso)[:, 2]]) @ lean
     angles = np.repeat(standing[None, :], len(part), axis=0)
     write_legs(robot.body, angles, ankles, lean[2], yaws["L"] - yaws["R"])
-    first = angles[0].copy()
-    angles += (1.0 - part)[:, None] * (robot.angles - first)
+    angles += (1.0 - part)[:, None] * (robot.angles - angles[0])
     guides = [
         Carried(turned(float(turn)) @ lean, float(x), float(y))
         for turn, (x, y, _) in zip(yaw, torso, strict=True)
@@ -380,15 +365,6 @@ def _way(foot: _Foot, base: Angles, aside_m: float, part: Angles) -> tuple[Point
     return places, foot.heading + part * turn
 
 
-def _level(vectors: Points, yaw: Angles) -> Points:
-    """Return vectors (ticks, 3) of the room as something sees them that is turned by ``yaw``."""
-    cosine, sine = np.cos(yaw), np.sin(yaw)
-    x, y, z = vectors.T
-    return np.column_stack([x * cosine + y * sine, y * cosine - x * sine, z])
-
-
-# How a virtual robot walks over the floor, and comes to rest when it is told to stop.
-
 # How a robot on wheels drives: all at once, speeding up and slowing down evenly.
 
 FASTEST = np.array([0.35, 0.35, 1.0])
@@ -399,9 +375,10 @@ def plan_roll(way: Angles) -> Angles:
     """Return the base (ticks, 3) on a way of m, m and rad, relative to where it starts."""
     duration_s = float(np.max(MINIMUM_JERK_PEAK * np.abs(way) / FASTEST))
     times_s = ticks(duration_s, TICK_S)
-    path: Angles = minimum_jerk(times_s / times_s[-1])[:, None] * way
-    return path
+    return minimum_jerk(times_s / times_s[-1])[:, None] * way
 
+
+# How a virtual robot walks over the floor, and comes to rest when it is told to stop.
 
 WALKING_POSTURE = "StandInit"
 QUICKLY_PLANNED_STEPS = 100
@@ -412,12 +389,7 @@ MERGING_S = 0.3
 
 
 def walk(
-    robot: VirtualRobot,
-    forward_m: float,
-    left_m: float,
-    turn: float,
-    *,
-    at_least_steps: int = 1,
+    robot: VirtualRobot, forward_m: float, left_m: float, turn: float, *, at_least_steps: int = 1
 ) -> Task:
     """Walk over the floor with steps, turning by ``turn`` rad on the way.
 

@@ -17,6 +17,7 @@ from faults import Text, text_of
 from robots.errors import ActionFailed
 
 from .body import Angles, Body
+from .keyframes import mirror_angle
 from .kinematics import TORSO, Frames, Points, Skeleton
 from .motion import move
 from .pose import VirtualRobot
@@ -180,16 +181,15 @@ class Reach:
         return True
 
 
+def twist_of(turn: Frames) -> Points:
+    """Return the axis of a rotation, twice as long as the sine of its angle."""
+    return np.array([turn[2, 1] - turn[1, 2], turn[0, 2] - turn[2, 0], turn[1, 0] - turn[0, 1]])
+
+
 def turn_between(now: Frames, goal: Frames) -> Points:
     """Return the turn (axis times rad, in the outer frame) that brings one rotation to another."""
     between = goal @ now.T
-    axis = np.array(
-        [
-            between[2, 1] - between[1, 2],
-            between[0, 2] - between[2, 0],
-            between[1, 0] - between[0, 1],
-        ]
-    )
+    axis = twist_of(between)
     sine, cosine = float(np.linalg.norm(axis)) / 2.0, (float(np.trace(between)) - 1.0) / 2.0
     if sine < 1e-9:
         return np.zeros(3) if cosine > 0.0 else np.array([np.pi, 0.0, 0.0])
@@ -202,8 +202,7 @@ def mirrored_pose(angles: dict[str, float]) -> dict[str, float]:
     found = {}
     for name, angle in angles.items():
         if name[:1] in "LR" and not name.startswith("Head"):
-            sign = -1.0 if name.endswith(("Roll", "Yaw")) else 1.0
-            found[{"L": "R", "R": "L"}[name[0]] + name[1:]] = sign * angle
+            found[{"L": "R", "R": "L"}[name[0]] + name[1:]] = mirror_angle(name, angle)
     return found
 
 

@@ -88,14 +88,11 @@ class Keyframes:
 
     def mirrored(self) -> Keyframes:
         """Return the movement as seen in a mirror: left is right and right is left."""
-        return Keyframes(
-            {
-                ({"L": "R", "R": "L"}.get(name[0], name[0]) + name[1:]): track.negated()
-                if _turns_sideways(name)
-                else track
-                for name, track in self.tracks.items()
-            }
-        )
+        tracks = {}
+        for name, track in self.tracks.items():
+            other = {"L": "R", "R": "L"}.get(name[0], name[0]) + name[1:]
+            tracks[other] = track.negated() if _turns_sideways(name) else track
+        return Keyframes(tracks)
 
     def reversed(self) -> Keyframes:
         """Return the movement from its last key back to its first."""
@@ -148,8 +145,7 @@ def minimum_jerk(s: Angles) -> Angles:
 
     Source: T. Flash and N. Hogan, The coordination of arm movements, J. Neurosci. 5, 1985.
     """
-    progress: Angles = s * s * s * (10.0 - s * (15.0 - 6.0 * s))  # powers are slow
-    return progress
+    return s * s * s * (10.0 - s * (15.0 - 6.0 * s))  # powers are slow
 
 
 def ticks(duration_s: float, tick_s: float) -> Angles:
@@ -171,7 +167,7 @@ def track_angles(track: Track, start_rad: float, times_s: Angles, fastest: float
     x, y = control_points(track, start_rad, fastest)
     piece = np.clip(np.searchsorted(x[0], times_s, side="right") - 1, 0, len(x[0]) - 1)
     t = np.clip(times_s, 0.0, track.times[-1])
-    # Return where on each Bezier piece (0 to 1) its time is ``t``, by bisection
+    # Where on each Bezier piece (0 to 1) its time is ``t``, by bisection
     powers = _powers(x[:, piece])
     u, step = np.full_like(t, 0.5), 0.25
     for _ in range(BISECTIONS):

@@ -138,10 +138,7 @@ class Skeleton:
         return tipped(points, tilt_for(np.array(down)), math.inf)[0]  # until it is steady
 
     def torso_over_floor(
-        self,
-        angles: Angles,
-        base: Vector = (0.0, 0.0, 0.0),
-        down: Vector = UPRIGHT,
+        self, angles: Angles, base: Vector = (0.0, 0.0, 0.0), down: Vector = UPRIGHT
     ) -> TorsoPose:
         """Return where the torso is when the body has come to rest on the floor.
 

@@ -6,7 +6,7 @@ A joint whose motor is off does not move, and nobody is told: so it is on the ro
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Collection, Iterable, Sequence
 
 import numpy as np
 
@@ -206,7 +206,7 @@ def set_stiffness(robot: VirtualRobot, action: m.SetStiffness) -> Task:
     loose = {
         part
         for part in SINGLE_PARTS
-        if not any(robot.stiffness[name] for name in _joints_of(robot.body, part))
+        if not any(robot.stiffness[n] for n in robot.body.names if part_of(robot.body, n) == part)
     }
     robot.released = robot.released - parts | (loose & parts)
     yield
@@ -241,8 +241,7 @@ def _goal(robot: VirtualRobot, angles: dict[str, float]) -> Angles:
     """Return the nearest allowed angles of every joint with some of them changed."""
     goal = robot.angles.copy()
     for name, angle in angles.items():
-        for column in _columns(robot.body, [name]):
-            goal[column] = angle
+        goal[_columns(robot.body, [name])] = angle
     allowed, _ = robot.body.clamped(goal)
     return allowed
 
@@ -269,21 +268,16 @@ def _columns(body: Body, joints: Iterable[str]) -> list[int]:
     return [i for i, name in enumerate(body.names) if body.same_motor.get(name, name) in motors]
 
 
-def limbs_of_joints(body: Body, joints: Iterable[str]) -> frozenset[Limb]:
+def limbs_of_joints(body: Body, joints: Collection[str]) -> frozenset[Limb]:
     """Return the limbs that joints are in. Raises ActionFailed when there is no such joint."""
-    names = list(joints)
-    for joint in names:
+    for joint in joints:
         if joint not in body.index:
             raise ActionFailed(
                 'There is no joint "{joint}". Possible: {names}.',
                 joint=joint,
                 names=", ".join(body.names),
             )
-    return body.limbs_of(names)
-
-
-def _joints_of(body: Body, part: str) -> list[str]:
-    return [name for name in body.names if part_of(body, name) == part]
+    return body.limbs_of(joints)
 
 
 def _allowed(robot: VirtualRobot, joint: str, track: Track, *, relative: bool) -> Track:

@@ -161,22 +161,7 @@ class Sagging:
         columns = [
             i for i, name in enumerate(robot.body.names) if part_of(robot.body, name) in loose
         ]
-        # How hard the weight of what hangs on each joint turns it, Nm
-        stance = self._robot.stance
-        centres, masses = stance.skeleton.mass_centres(stance.frames), stance.skeleton.masses_kg
-        torques = np.zeros(len(self._robot.body.names))
-        down = stance.down
-        for column, (link, carried) in self._lever.items():
-            frame = stance.frames[link]
-            axis = frame[:3, :3] @ self._robot.body.joints[column].axis
-            # the pull of all links together: numpy's cross product is slow for single vectors
-            arm = masses[carried] @ (centres[carried] - frame[:3, 3])
-            # Return how much of the cross product of b and c is along a
-            (ax, ay, az), (bx, by, bz), (cx, cy, cz) = axis.tolist(), arm.tolist(), down.tolist()
-            torques[column] = GRAVITY_M_S2 * float(
-                ax * (by * cz - bz * cy) + ay * (bz * cx - bx * cz) + az * (bx * cy - by * cx)
-            )
-        torque = torques[columns]
+        torque = self._torques_nm()[columns]
         pulled = np.sign(torque) * np.maximum(np.abs(torque) - STICKING_NM, 0.0)
         fastest = FASTEST_PART * robot.body.max_speed[columns]
         goal = robot.angles.copy()
@@ -185,6 +170,24 @@ class Sagging:
         moved = np.abs(allowed[columns] - robot.angles[columns]).max(initial=0.0)
         robot.angles[columns] = allowed[columns]
         self._rested = loose if moved < 1e-5 else None
+
+    def _torques_nm(self) -> Angles:
+        """Return how hard the weight of what hangs on each joint turns it."""
+        robot, stance = self._robot, self._robot.stance
+        centres, masses = stance.skeleton.mass_centres(stance.frames), stance.skeleton.masses_kg
+        torques = np.zeros(len(robot.body.names))
+        down = stance.down
+        for column, (link, carried) in self._lever.items():
+            frame = stance.frames[link]
+            axis = frame[:3, :3] @ robot.body.joints[column].axis
+            # the pull of all links together
+            arm = masses[carried] @ (centres[carried] - frame[:3, 3])
+            # axis @ cross(arm, down); numpy's cross product is slow for single vectors
+            (ax, ay, az), (bx, by, bz), (cx, cy, cz) = axis.tolist(), arm.tolist(), down.tolist()
+            torques[column] = GRAVITY_M_S2 * float(
+                ax * (by * cz - bz * cy) + ay * (bz * cx - bx * cz) + az * (bx * cy - by * cx)
+            )
+        return torques
 
 
 # What a virtual robot does by itself with limbs that nothing uses: breathe, look at people.

@@ -299,7 +299,14 @@ PLAYING = "playing"
 
 def play_sound(robot: VirtualRobot, action: PlaySound) -> Task:
     """Play a sound file of this computer to its end, or until it is stopped."""
-    path = _file(robot, action.file)
+    path = found(action.file)
+    if path is None:
+        raise ActionFailed(
+            "{name} finds no sound file “{file}”. Put it into your home folder or its folder "
+            "Music, or write the whole path.",
+            name=robot.name,
+            file=action.file,
+        )
     seconds = _seconds(robot, path)
     robot.settings[PLAYING] = str(path)
     try:
@@ -316,26 +323,13 @@ def _pass(seconds: float) -> Iterator[None]:
         yield
 
 
-def _file(robot: VirtualRobot, file: str) -> Path:
-    path = found(file)
-    if path is None:
-        raise ActionFailed(
-            "{name} finds no sound file “{file}”. Put it into your home folder or its folder "
-            "Music, or write the whole path.",
-            name=robot.name,
-            file=file,
-        )
-    return path
-
-
 def _seconds(robot: VirtualRobot, path: Path) -> float:
     try:
         return length_s(path)
     except (ValueError, OSError) as error:
-        kinds = ", ".join(KINDS)
         raise ActionFailed(
             "{name} cannot play “{name_2}”: it is not a sound that it knows. Possible: {kinds}.",
             name=robot.name,
             name_2=path.name,
-            kinds=kinds,
+            kinds=", ".join(KINDS),
         ) from error

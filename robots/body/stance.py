@@ -114,10 +114,7 @@ class Stance:
             return
         before = self.places
         touched = self.touching
-        self._angles = angles.copy()
-        self.frames = self.skeleton.transforms(angles)
-        self._centre = self.skeleton.mass_centre(self.frames)
-        outline = self.skeleton.outline(self.frames)
+        outline = self._bend(angles)
         self._turn_by(guide, outline, tick_s)
         places = outline @ self.turn.T
         if isinstance(guide, Carried):
@@ -159,11 +156,15 @@ class Stance:
         if float(self.down @ self._steady_down) < math.cos(LOST_RAD):
             self.has_lost_balance = True
 
-    def _take_places(self, angles: Angles) -> None:
+    def _bend(self, angles: Angles) -> Points:
+        """Have joints at angles; return the body's outline in the torso's frame."""
         self._angles = angles.copy()
         self.frames = self.skeleton.transforms(angles)
         self._centre = self.skeleton.mass_centre(self.frames)
-        places = self.skeleton.outline(self.frames) @ self.turn.T
+        return self.skeleton.outline(self.frames)
+
+    def _take_places(self, angles: Angles) -> None:
+        places = self._bend(angles) @ self.turn.T
         self.place[2] = -places[:, 2].min()
         self.places = places + self.place
 

@@ -117,7 +117,10 @@ def look(robot: VirtualRobot, yaw: float, pitch: float) -> Task:
     yield from play_motion(
         robot, move(robot.body, robot.angles, goal, head, speed=LOOKING_SPEED, at_least_s=0.3)
     )
-    return _as_far_as_it_goes(goal[head]) if clamped else ""
+    if not clamped:
+        return ""
+    left, down = np.degrees(goal[head])
+    return f"looked as far as its head goes: {left:.0f} degrees to the left, {down:.0f} down"
 
 
 def light(robot: VirtualRobot, group: str, colour: int, seconds: float) -> Task:
@@ -205,11 +208,6 @@ def moved_base(base: Angles, way: Angles) -> Angles:
     x, y = forward * cosine - left * sine, forward * sine + left * cosine
     moved: Angles = base + np.array([x, y, turn])
     return moved
-
-
-def _as_far_as_it_goes(head: Angles) -> str:
-    yaw, pitch = np.degrees(head)
-    return f"looked as far as its head goes: {yaw:.0f} degrees to the left, {pitch:.0f} down"
 
 
 # What a virtual robot does to say something: it speaks for its time, and makes gestures.

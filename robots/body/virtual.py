@@ -25,9 +25,10 @@ from .driver import (
     plain,
     state_of_thing,
     state_of_word,
+    states_of_touch,
 )
-from .gait import come_to_rest
-from .inverse import from_world, to_world
+from .gait import SOLE_DOWN_M, come_to_rest
+from .inverse import Place, from_world, to_world, twist_of
 from .limbs import MOVING, TOUCH_SENSORS, Limb
 from .motion import TICK_S
 from .pose import TOLD, VirtualRobot
@@ -48,10 +49,7 @@ from .surroundings import Notice, distance_word, sonar_m
 
 GRAVITY_M_S2 = 9.81
 HOLDING_A, MOVING_A = 0.05, 0.6
-FOOT_SENSORS = {
-    "foot_left": ("L_ankle", 1.0),
-    "foot_right": ("R_ankle", -1.0),
-}
+FOOT_SENSORS = {"foot_left": ("L_ankle", 1.0), "foot_right": ("R_ankle", -1.0)}
 """The link of each foot, and the sign of what is outside on it."""
 FOOT_CORNERS = {
     "front_left": (0.07025, 0.0299, 0.0231),
@@ -61,7 +59,6 @@ FOOT_CORNERS = {
 }
 """Where a left and a right foot measure: forward of the ankle, and to the left of it on the left
 and on the right foot, m. Source: nao_description V50 URDF."""
-SOLE_DOWN_M = 0.04511
 
 
 def measured(robot: VirtualRobot, joint_speed: Angles, turning: Angles) -> dict[str, float]:
@@ -85,11 +82,7 @@ def measured(robot: VirtualRobot, joint_speed: Angles, turning: Angles) -> dict[
 
 def turning_rad_s(before: Angles, after: Angles, seconds: float) -> Angles:
     """Return how fast a torso turns about its own axes, from how it was and is turned (3, 3)."""
-    change = before.T @ after
-    rates = np.array(
-        [change[2, 1] - change[1, 2], change[0, 2] - change[2, 0], change[1, 0] - change[0, 1]]
-    )
-    return rates / 2.0 / seconds
+    return twist_of(before.T @ after) / 2.0 / seconds
 
 
 def weights_kg(stance: Stance) -> dict[str, float]:
@@ -148,11 +141,7 @@ def _currents(robot: VirtualRobot, joint_speed: Angles) -> dict[str, float]:
     }
 
 
-# The driver of the NAO on the screen: a body in numpy that moves on a clock of its own.
-
 # What hands do to a virtual robot: they push it, and put it somewhere else.
-
-Place = tuple[float, float, float]
 
 
 def push(robot: VirtualRobot, towards: Place) -> None:
@@ -192,10 +181,7 @@ def sense(robot: VirtualRobot, request: SenseRequest) -> list[str]:
     was_touched = robot.felt.get(request.sense, 0.0) > 0.0
     robot.felt[request.sense] = request.value
     if request.sense in TOUCH_SENSORS and request.value > 0.0 and not was_touched:
-        # The sensor by itself, then the part of the body that it is on
-        sensor = request.sense
-        part = sensor.partition("_")[0]
-        return [f"touched_{sensor}", f"touched_{part}"]
+        return states_of_touch(request.sense)
     return []
 
 
@@ -259,18 +245,13 @@ class VirtualDriver:
     @property
     def is_busy(self) -> bool:
         """Whether the robot does something that it was asked for, or falls."""
-        return bool(self._running or self._held_up or self._braking or not self._is_steady)
-
-    @property
-    def _is_steady(self) -> bool:
-        return self.robot.stance.is_steady
+        is_steady = self.robot.stance.is_steady
+        return bool(self._running or self._held_up or self._braking or not is_steady)
 
     def connect(self) -> None:
         """Be connected at once: the robot is in this process."""
         words = fault_of(
-            "virtual {kind}, {family}",
-            kind=self.robot.body.title,
-            family=Text(self.robot.family),
+            "virtual {kind}, {family}", kind=self.robot.body.title, family=Text(self.robot.family)
         )
         self.connection = Connection("connected", words)
 
@@ -348,7 +329,9 @@ class VirtualDriver:
             battery=round(robot.felt.get("battery", robot.battery), 3),
             sensors=measured(robot, self._joint_speed, self._turning),
             sees={thing: from_world(robot, place) for thing, place in robot.seen.items()},
-            settings=self._settings(),
+            settings=robot.settings
+            | {"awake": not robot.released and robot.posture != "Rest"}
+            | {f"locked_{part}": part not in robot.released for part in SINGLE_PARTS},
             listening=list(robot.listening),
         )
 
@@ -373,12 +356,6 @@ class VirtualDriver:
         running = [*self._running.values(), *self._held_up.values()]
         return bool(self._braking or any(one.limbs & MOVING for one in running))
 
-    def _settings(self) -> dict[str, bool | float | str]:
-        robot = self.robot
-        locked = {f"locked_{part}": part not in robot.released for part in SINGLE_PARTS}
-        awake = not robot.released and robot.posture != "Rest"
-        return {**robot.settings, "awake": awake, **locked}
-
     def _tick(self) -> list[Ended]:
         angles = self.robot.angles.copy()
         self._use_battery(TICK_S)
@@ -387,15 +364,13 @@ class VirtualDriver:
         if not self._braking:
             self._running |= self._held_up
             self._held_up.clear()
-        # Return the limbs that move for a command, or come to rest
-        running = [*self._running.values(), *self._held_up.values(), *self._braking]
-        self._idling.step(frozenset(limb for one in running for limb in one.limbs), self._clock_s)
+        acting = [*self._running.values(), *self._held_up.values(), *self._braking]
+        self._idling.step(frozenset(limb for one in acting for limb in one.limbs), self._clock_s)
         self._sagging.step()
         self._ticks_since_look += 1
         self._follow(must=bool(ended))
         self._joint_speed = (self.robot.angles - angles) / TICK_S
         if self.robot.stance.has_lost_balance and not self.robot.fallen:
-            # Fall down; what moved the body has failed
             self._noticed.append(FELL)
             ended += self._instead(fall(self.robot), fallen_sentence(self.robot), MOVING)
         elif gives_way(self.robot):

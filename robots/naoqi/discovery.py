@@ -36,21 +36,10 @@ def read_address(text: str) -> Address:
         host, port = text.strip(), str(NAOQI_PORT)
     # int() would also take "1_0" and signs; str.isdigit() alone would take "²".
     is_number = port.isascii() and port.isdigit()
-    if not host or any(c.isspace() or c in ":/" for c in host) or not is_number:
-        raise _not_an_address(text)
-    if not 0 < int(port) < 65536:
-        raise _not_an_address(text)
-    return host, int(port)
-
-
-def plain_address(address: Address) -> str:
-    """Return an address as a person writes it: the usual port is left out."""
-    host, port = address
-    return host if port == NAOQI_PORT else f"{host}:{port}"
-
-
-def _not_an_address(text: str) -> WrongAddress:
-    return WrongAddress(
+    is_host = host and not any(c.isspace() or c in ":/" for c in host)
+    if is_host and is_number and 0 < int(port) < 65536:
+        return host, int(port)
+    raise WrongAddress(
         '"{text}" is not the address of a robot.',
         checklist=(
             "Press NAO's chest button once: it says its address, such as 192.168.1.10.",
@@ -59,6 +48,12 @@ def _not_an_address(text: str) -> WrongAddress:
         ),
         text=text,
     )
+
+
+def plain_address(address: Address) -> str:
+    """Return an address as a person writes it: the usual port is left out."""
+    host, port = address
+    return host if port == NAOQI_PORT else f"{host}:{port}"
 
 
 SERVICE = "_naoqi._tcp.local."
@@ -132,15 +127,9 @@ def _ask(network: Any, name: str) -> FoundRobot | None:
 
 def _host(info: Any) -> str:
     """The address to reach a robot at, out of its ServiceInfo: a short, usual one if it can."""
-    addresses = [ipaddress.ip_address(text) for text in _without_zones(info.parsed_addresses())]
-    usual = [one for one in addresses if one.version == 4]
-    if usual:
-        return str(usual[0])
-    return (info.server or "").rstrip(".")
-
-
-def _without_zones(addresses: Sequence[str]) -> list[str]:
-    return [text.partition("%")[0] for text in addresses]
+    without_zones = (text.partition("%")[0] for text in info.parsed_addresses())
+    usual = [text for text in without_zones if ipaddress.ip_address(text).version == 4]
+    return usual[0] if usual else (info.server or "").rstrip(".")
 
 
 # User and password of robots that ask for them: in a file of this person's, never in a project.

@@ -2,21 +2,20 @@
 
 from __future__ import annotations
 
-import queue
 import socket
-import threading
-from collections.abc import Callable, Iterator
+import time
+from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any, Literal
 
 from faults import Fault, Text, Words, text_of
 from robots.errors import WrongAddress
 
-from .client.session import Session
+from .client.session import Session, numeric_hosts
 from .discovery import Address, plain_address, read_address
 from .driver import link
 from .driver.link import NEEDED, open_session
-from .wire.errors import LoginRefused, NaoqiError, NeedsTls
+from .wire.errors import LoginRefused, NaoqiError, NeedsTls, NoAnswer
 from .wire.line import Login
 
 StepName = Literal["name", "port", "naoqi", "login", "services", "robot"]
@@ -76,9 +75,12 @@ def probe(address: str, login: Login | None, robot: str = ROBOT) -> Iterator[Che
 def _steps(text: str, login: Login | None, robot: str) -> Iterator[Check]:
     address = _read(text)
     place = plain_address(address)
-    where = _resolve(address, robot)
+    host = _resolve(address, robot)
     yield Check("name", True, text_of("The address {place} is known in this network.", place=place))
-    _knock(where, address, robot)
+    try:
+        socket.create_connection((host, address[1]), timeout=LIMIT_S).close()
+    except OSError as error:
+        raise _failed("port", link.no_answer(robot=robot, place=place)) from error
     yield Check("port", True, text_of("A program answers at {place}.", place=place))
     session = _connect(address, login, robot)
     try:
@@ -109,29 +111,18 @@ def _read(text: str) -> Address:
         raise _failed("name", problem.fault) from problem
 
 
-def _resolve(address: Address, robot: str) -> list[Any]:
-    """Look the name up; that may take the system very long, and cannot be ended."""
-    host, port = address
+def _resolve(address: Address, robot: str) -> str:
+    """Look the name up, and return the first address that it stands for."""
+    host, _ = address
     try:
-        found: list[Any] = _at_most(
-            LIMIT_S, lambda: socket.getaddrinfo(host, port, type=socket.SOCK_STREAM)
-        )
-        return found
-    except (OSError, UnicodeError) as error:
+        return numeric_hosts(host, time.monotonic() + LIMIT_S)[0]
+    except NoAnswer as error:
         steps = (
             "Is the name written right? Press the robot's chest button once: it says its address.",
             text_of("Is this computer on the same network as {robot}?", robot=robot),
         )
         sentence = text_of("Nobody in this network knows the address {host}.", host=host)
         raise _Failed(Check("name", False, sentence, steps)) from error
-
-
-def _knock(where: list[Any], address: Address, robot: str) -> None:
-    try:
-        with socket.create_connection(where[0][4][:2], timeout=LIMIT_S):
-            return
-    except OSError as error:
-        raise _failed("port", link.no_answer(robot=robot, place=plain_address(address))) from error
 
 
 def _connect(address: Address, login: Login | None, robot: str) -> Session:
@@ -187,23 +178,3 @@ def _introduction(about: AboutRobot) -> Text:
         name=name,
         battery=f"{about.battery * 100:.0f}",
     )
-
-
-def _at_most(seconds: float, look: Callable[[], Any]) -> Any:
-    """Give what a call gives that cannot be ended; raises OSError when it takes too long."""
-    answers: queue.SimpleQueue[Any] = queue.SimpleQueue()
-
-    def run() -> None:
-        try:
-            answers.put(look())
-        except (OSError, UnicodeError) as error:
-            answers.put(error)
-
-    threading.Thread(target=run, daemon=True).start()
-    try:
-        answer = answers.get(timeout=seconds)
-    except queue.Empty as late:
-        raise OSError("the name could not be looked up in time") from late
-    if isinstance(answer, Exception):
-        raise answer
-    return answer

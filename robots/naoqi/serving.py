@@ -41,9 +41,7 @@ class ServedRobot:
         """The robot's name."""
         return self.robot.name
 
-    def ask(
-        self, action: str, on_end: OnEnd | None = None, *, priority: int = 0, **args: Any
-    ) -> str:
+    def ask(self, action: str, on_end: OnEnd | None = None, **args: Any) -> str:
         """Let the robot do something; the request's id. ``on_end`` gets its last result.
 
         What the robot refuses ends as failed before this returns.
@@ -51,9 +49,7 @@ class ServedRobot:
         with self.lock:
             request_id = f"naoqi {self.name} {next(self._numbers)}"
             self._on_end[request_id] = on_end or (lambda result: None)
-            request = ActionRequest(
-                id=request_id, robots=[self.name], action=action, args=args, priority=priority
-            )
+            request = ActionRequest(id=request_id, robots=[self.name], action=action, args=args)
             endings = self._sort(self.actor.request(request))
         _tell(endings)
         return request_id

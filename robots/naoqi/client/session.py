@@ -97,7 +97,7 @@ def reach(address: tuple[str, int], until_s: float) -> socket.socket:
 def _connected(address: tuple[str, int], until_s: float) -> socket.socket:
     """Connect to the first of a name's addresses that answers. Raises OSError, NoAnswer."""
     problem: OSError = TimeoutError("no address answered")
-    for host in _numeric(address[0], until_s):
+    for host in numeric_hosts(address[0], until_s):
         try:
             left_s = max(0.01, until_s - time.monotonic())
             return socket.create_connection((host, address[1]), left_s)
@@ -106,8 +106,11 @@ def _connected(address: tuple[str, int], until_s: float) -> socket.socket:
     raise problem
 
 
-def _numeric(host: str, until_s: float) -> list[str]:
-    """Return the numeric addresses of a name; looking it up may take longer than we wait."""
+def numeric_hosts(host: str, until_s: float) -> list[str]:
+    """Return the numeric addresses of a name. Raises NoAnswer.
+
+    Looking it up may take the system longer than we wait, and cannot be ended.
+    """
     with contextlib.suppress(ValueError):
         ipaddress.ip_address(host)
         return [host]
@@ -191,7 +194,8 @@ def enter(peer: Peer, login: Login | None, until_s: float) -> None:
     except CallFailed as problem:
         if is_about_login(str(problem)):
             raise _refused(login, str(problem)) from problem
-        _enter_old(peer)  # NAOqi up to 2.1 does not know the call
+        # NAOqi up to 2.1 does not know the call
+        peer.send(Frame(Kind.CAPABILITY, 0, 0, 0, 0, encode("{sm}", CAPABILITIES)))
         return
     if answer.get(STATE) != DONE:
         raise _refused(login, str(answer.get(STATE)))
@@ -217,10 +221,6 @@ def _authenticate(peer: Peer, said: dict[str, Any], until_s: float) -> dict[str,
     return answer
 
 
-def _enter_old(peer: Peer) -> None:
-    peer.send(Frame(Kind.CAPABILITY, 0, 0, 0, 0, encode("{sm}", CAPABILITIES)))
-
-
 def _refused(login: Login | None, details: str) -> LoginRefused:
     what = "does not accept this user and password" if login else "wants a user and a password"
     return LoginRefused("NAO {what}.", checklist=CHECK_LOGIN, details=details, what=Text(what))
@@ -240,9 +240,6 @@ def object_of(peer: Peer, service: int, until_s: float) -> RemoteObject:
     pending = peer.begin(service, MAIN, META, payload, reader_of(META_OBJECT))
     meta = MetaObject.from_wire(result_of(pending, until_s))
     return RemoteObject(peer, meta, service)
-
-
-__all__ = ["DIRECTORY", "ConnectionLost", "NaoqiError", "enter", "object_of", "result_of"]
 
 
 # Where services are: which of the addresses that a robot tells can be reached from here.
@@ -289,19 +286,6 @@ def _parsed(endpoint: str) -> tuple[str, int, bool] | None:
     if not mark or scheme not in ("tcp", "tcps") or not port.isdigit() or not host:
         return None
     return host.strip("[]"), int(port), scheme == "tcps"
-
-
-def own_information(name: str) -> dict[str, Any]:
-    """Return what this program tells a robot of a service that it offers."""
-    return {
-        "name": name,
-        "serviceId": 0,
-        "machineId": str(MACHINE),
-        "processId": os.getpid(),
-        "endpoints": [],
-        "sessionId": str(MACHINE),
-        "objectUid": "",
-    }
 
 
 # One connection to a NAOqi robot, which can be made again when it was lost.
@@ -358,8 +342,7 @@ class Session:
                 return
             self.close()
             until_s = time.monotonic() + self._timeout_s
-            self._peer = self._open_somehow(until_s)
-            peer = self._peer
+            peer = self._peer = self._open_somehow(until_s)
             try:
                 self._directory = object_of(peer, DIRECTORY, until_s)
                 left_s = max(0.01, until_s - time.monotonic())
@@ -371,8 +354,8 @@ class Session:
             except NaoqiError:
                 peer.close()
                 raise
-            self._peer.when_closed.append(self._note_lost(self._peer))
-            if self._peer.is_closed:
+            peer.when_closed.append(lambda why: self._note_lost(peer, why))
+            if peer.is_closed:
                 raise ConnectionLost("NAO has closed the connection.", checklist=WRONG_PORT)
 
     def service(self, name: str) -> RemoteObject:
@@ -391,7 +374,17 @@ class Session:
     def register(self, name: str, service: object) -> int:
         """Offer a service of this program to the robot; its number. Raises NaoqiError."""
         directory = self._asked()
-        number: int = directory.call("registerService", own_information(name))
+        # by name, for robots differ in how many parts of it they know
+        information = {
+            "name": name,
+            "machineId": str(MACHINE),
+            "processId": os.getpid(),
+            "endpoints": [],
+            "sessionId": str(MACHINE),
+            "serviceId": 0,
+            "objectUid": "",
+        }
+        number: int = directory.call("registerService", information)
         self._own[number] = Bound(service, number)
         directory.call("serviceReady", number)
         return number
@@ -529,12 +522,6 @@ class Session:
         """A service is gone; if it comes again it has another number."""
         self._services.pop(name, None)
 
-    def _note_lost(self, peer: Peer) -> Callable[[str], None]:
-        def note(why: str) -> None:
-            if self._peer is not peer:
-                return  # closed by this program
-            on_lost = self.on_lost
-            if on_lost is not None:
-                threading.Thread(target=on_lost, args=(why,), daemon=True).start()
-
-        return note
+    def _note_lost(self, peer: Peer, why: str) -> None:
+        if self._peer is peer and self.on_lost is not None:  # else closed by this program
+            threading.Thread(target=self.on_lost, args=(why,), daemon=True).start()

@@ -6,24 +6,25 @@ import logging
 import math
 import queue
 from collections.abc import Callable, Collection, Sequence
+from functools import partial
 from typing import Any
 
 from faults import fault_of
 from robots.body import actions as a
-from robots.body import repertoire as virtual
 from robots.body.actions import Action, Listen
 from robots.body.body import SINGLE_PARTS
 from robots.body.driver import Connection, Ended, RobotState, SenseRequest, Thing
 from robots.body.inverse import from_world
 from robots.body.limbs import MOVING, Limb
 from robots.body.pose import VirtualRobot
+from robots.body.repertoire import limbs_of
 from robots.body.schedule import Running, Task, advance
 from robots.errors import ActionFailed
 from robots.naoqi.discovery import read_address
 
 from . import link, moving, speech
 from .calls import Calls, waited
-from .link import Heard, Link, Reached, reach
+from .link import Heard, Link, reach
 from .real import RealRobot
 from .speech import Hearing
 from .watching import Noticing, Watching
@@ -31,13 +32,8 @@ from .watching import Noticing, Watching
 log = logging.getLogger(__name__)
 
 
-# Which limbs each action needs, and the task by which a real robot does it.
+# The task by which a real robot does each action; it needs the limbs that the virtual one needs.
 
-LIMBS: dict[type[a.Action], frozenset[Limb]] = {
-    a.TakePicture: frozenset(),
-    a.RecordVideo: frozenset(),
-}
-"""What the virtual robot cannot do needs these; all else needs what it needs there."""
 ANY_MOTORS = (a.Do, a.WakeUp, a.Rest, a.Stiffness, a.SetStiffness, a.Approach)
 """What is done with motors that are off as well."""
 
@@ -86,16 +82,10 @@ TASKS: dict[type[a.Action], Callable[[RealRobot, Any], Task]] = {
 """How a real robot does each action; a test sees that none is missing."""
 
 
-def limbs_of(robot: RealRobot, action: a.Action) -> frozenset[Limb]:
-    """Return the limbs that an action needs. Raises ActionFailed if it cannot be done."""
-    known = LIMBS.get(type(action))
-    return virtual.limbs_of(robot.known, action) if known is None else known
-
-
 def task_of(robot: RealRobot, action: a.Action) -> Task:
     """Return the task that does an action; what it moves must be locked."""
     task = TASKS[type(action)](robot, action)
-    limbs = limbs_of(robot, action)
+    limbs = limbs_of(robot.known, action)
     if isinstance(action, ANY_MOTORS) or not limbs & MOVING:
         return task
     return _moving(robot, limbs, task)
@@ -112,9 +102,10 @@ class NaoqiDriver:
 
     def __init__(self, known: VirtualRobot, address: str) -> None:
         """``known``: a body like the robot's, which becomes a picture of it."""
-        self._address = read_address(address)
+        place = read_address(address)
         self._heard: Heard = queue.SimpleQueue()
-        self._link = Link(known.name, self._address, self._reach)
+        connect = partial(reach, place, self._heard)
+        self._link = Link(known.name, place, connect)
         self._robot = RealRobot(known, Calls(known.name, {}))
         self._noticing = Noticing(self._robot)
         self._watching = Watching(self._robot)
@@ -147,7 +138,7 @@ class NaoqiDriver:
         """Return the limbs that an action needs. Raises ActionFailed if it cannot be done."""
         if self._link.state != "ready" or not self._watching.has_met:
             raise ActionFailed.of(self._link.connection.fault)
-        return limbs_of(self._robot, action)
+        return limbs_of(self._robot.known, action)
 
     def start(self, command_id: str, action: Action) -> None:
         """Begin an action; ``step`` tells when it has ended."""
@@ -156,7 +147,7 @@ class NaoqiDriver:
         else:
             task = task_of(self._robot, action)
         task = self._robot.calls.after_stops(task)
-        self._running[command_id] = Running(task, limbs_of(self._robot, action))
+        self._running[command_id] = Running(task, limbs_of(self._robot.known, action))
 
     def stop(self, command_ids: Collection[str]) -> None:
         """End some actions at once: each ends what it has begun on the robot."""
@@ -226,7 +217,8 @@ class NaoqiDriver:
             battery=self._robot.battery,
             sensors=self._robot.sensors | self._noticing.touched,
             sees={thing: from_world(known, place) for thing, place in known.sees.items()},
-            settings=self._settings(),
+            settings=known.settings
+            | {f"locked_{part}": part not in known.released for part in SINGLE_PARTS},
             listening=list(known.listening),
         )
 
@@ -236,9 +228,6 @@ class NaoqiDriver:
 
     def surroundings(self, things: Sequence[Thing]) -> None:
         """Do nothing: a real robot sees by itself what stands around it."""
-
-    def _reach(self, on_lost: Callable[[str], None]) -> Reached:
-        return reach(self._address, self._heard, on_lost)
 
     def _fail_all(self) -> list[Ended]:
         """The robot is gone: what it was doing has failed, with the reason."""
@@ -264,11 +253,6 @@ class NaoqiDriver:
             self._link.connection = Connection("connected", words)
         else:
             self._link.connection = Connection("warning", warning)
-
-    def _settings(self) -> dict[str, bool | float | str]:
-        known = self._robot.known
-        locked = {f"locked_{part}": part not in known.released for part in SINGLE_PARTS}
-        return {**known.settings, **locked}
 
     def _advance(self, command_id: str) -> Ended | None:
         try:

@@ -41,8 +41,6 @@ log = logging.getLogger(__name__)
 
 # How the link to a NAOqi robot is, in sentences, with a checklist of what to try.
 
-Event = Literal["connecting", "connected", "connection_failed", "disconnected", "warning"]
-
 LOWEST_BATTERY = 0.15
 HOTTEST_C = 75.0
 """Motors of NAO slow down from about here on, and stop not much later."""
@@ -129,10 +127,7 @@ too_hot = partial(
     fault_of,
     "{robot} is hot: the motor of {joint} has {celsius} °C.",
     code="too_hot",
-    checklist=(
-        "Let {robot} rest for some minutes.",
-        "Let it sit between what it does standing.",
-    ),
+    checklist=("Let {robot} rest for some minutes.", "Let it sit between what it does standing."),
 )
 """A motor is hot; it will soon have no strength."""
 
@@ -155,6 +150,15 @@ strange_answer = partial(
 )
 """The robot has answered something that nobody understands."""
 
+
+FAULTS: dict[type[NaoqiError], Callable[..., Fault]] = {
+    NotNaoqi: not_naoqi,
+    LoginRefused: login_refused,
+    NeedsTls: needs_tls,
+    NoAnswer: no_answer,
+    Refused: no_answer,
+}
+"""What is told instead of these; all others have their own sentence."""
 
 State = Literal["offline", "connecting", "ready", "lost"]
 TRY_S = 2.6
@@ -216,29 +220,28 @@ class Link:
                 self._pause_s = FIRST_PAUSE_S
                 return what
             elif isinstance(what, NaoqiError):
-                self._fail(self._told(what))
+                self.connection = Connection("connection_failed", self._told(what))
+                self._wait()
             else:
-                self.lose(lost(robot=self.robot, place=self.place))
+                self._lose(lost)
         now_s = time.monotonic()
         if self.state == "connecting" and now_s > self._try_until_s:
             self._try_until_s = float("inf")
-            self.connection = Connection(
-                "connection_failed", no_answer(robot=self.robot, place=self.place)
-            )
+            self.connection = Connection("connection_failed", self._fault(no_answer))
         elif self.state == "lost" and now_s >= self._next_s:
             self._begin()
         return None
 
-    def lose(self, why: Fault) -> None:
-        """The link is gone, or no use any more; look for the robot again soon."""
-        self._drop()
-        self.connection = Connection("disconnected", why)
-        self._pause_s = FIRST_PAUSE_S
-        self._wait()
-
     def freeze(self) -> None:
         """Nothing comes over the link any more."""
-        self.lose(frozen(robot=self.robot, place=self.place))
+        self._lose(frozen)
+
+    def _lose(self, why: Callable[..., Fault]) -> None:
+        """The link is gone, or no use any more; look for the robot again soon."""
+        self._drop()
+        self.connection = Connection("disconnected", self._fault(why))
+        self._pause_s = FIRST_PAUSE_S
+        self._wait()
 
     def _begin(self) -> None:
         self.state = "connecting"
@@ -256,10 +259,6 @@ class Link:
             log.exception("connecting to %s", self.robot)
             self._news.put((number, NaoqiError(str(error))))
 
-    def _fail(self, why: Fault) -> None:
-        self.connection = Connection("connection_failed", why)
-        self._wait()
-
     def _wait(self) -> None:
         self.state = "lost"
         self._next_s = time.monotonic() + self._pause_s
@@ -272,18 +271,14 @@ class Link:
         self.reached = None
 
     def _told(self, problem: NaoqiError) -> Fault:
-        match problem:
-            case NotNaoqi():
-                return not_naoqi(robot=self.robot, place=self.place)
-            case LoginRefused():
-                return login_refused(robot=self.robot, place=self.place)
-            case NeedsTls():
-                return needs_tls(robot=self.robot, place=self.place)
-            case NoAnswer() | Refused():
-                return no_answer(robot=self.robot, place=self.place)
-        usual = no_answer(robot=self.robot, place=self.place)
+        if known := FAULTS.get(type(problem)):
+            return self._fault(known)
+        usual = self._fault(no_answer)
         steps = problem.checklist or usual.checklist
         return replace(problem.fault, sentence=problem.sentence or usual.sentence, checklist=steps)
+
+    def _fault(self, kind: Callable[..., Fault]) -> Fault:
+        return kind(robot=self.robot, place=self.place)
 
 
 def _close(what: object) -> None:

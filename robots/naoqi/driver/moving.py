@@ -11,7 +11,7 @@ from robots.body import actions as a
 from robots.body.body import Angles, Body, part_of, posture_name, single_parts
 from robots.body.inverse import arm_for, head_angles, in_torso, pointing
 from robots.body.keyframes import Keyframes, Track, control_points
-from robots.body.limbs import MOVING
+from robots.body.limbs import MOVING, Limb
 from robots.body.motion import playable
 from robots.body.motor_tasks import SIDES
 from robots.body.schedule import Task, is_over
@@ -114,8 +114,11 @@ def to_posture(robot: RealRobot, name: str, speed: float = POSTURE_SPEED) -> Tas
     reached = yield from robot.call(
         "ALRobotPosture", "goToPosture", name, speed, limit_s=POSTURE_S, uses=joints
     )
-    found = yield from robot.call("ALRobotPosture", "getPosture")
-    if not reached or not _is_alike(robot, str(found), name):
+    postures = robot.known.body.postures
+    found = postures.get(str((yield from robot.call("ALRobotPosture", "getPosture"))))
+    # one of its kind will do: some look the same to NAOqi
+    is_alike = found is not None and found.family == postures[name].family
+    if not reached or not is_alike:
         raise ActionFailed(
             "{name} did not get into the posture {name_2}. Put it on flat ground with space around "
             "it, and try again.",
@@ -127,12 +130,6 @@ def to_posture(robot: RealRobot, name: str, speed: float = POSTURE_SPEED) -> Tas
     return ""
 
 
-def _is_alike(robot: RealRobot, found: str, name: str) -> bool:
-    """Whether a posture is the wanted one, or one of its kind: some look the same to NAOqi."""
-    postures = robot.known.body.postures
-    return found in postures and postures[found].family == postures[name].family
-
-
 def wake_up(robot: RealRobot) -> Task:
     """Switch all motors on and stand up."""
     yield from robot.take_over()
@@ -141,7 +138,9 @@ def wake_up(robot: RealRobot) -> Task:
     if not awake:
         raise ActionFailed("{name} did not wake up. Press its chest button twice.", name=robot.name)
     robot.known.released = frozenset()
-    yield from _look_at_posture(robot)
+    found = yield from robot.call("ALRobotPosture", "getPosture")
+    robot.known.posture = str(found)
+    yield from robot.measure(robot.names(MOVING))
     return ""
 
 
@@ -311,10 +310,9 @@ def return_to_posture(robot: RealRobot, joints: Collection[str]) -> Task:
     posture = robot.known.posture
     if posture not in robot.known.body.postures:
         return ""
-    goal = robot.picked(robot.known.body.posture_angles(posture), joints)
-    legs = any("Hip" in name or "Knee" in name or "Ankle" in name for name in joints)
-    if legs:  # NAOqi keeps the balance on the way
+    if Limb.LEGS in robot.known.body.limbs_of(joints):  # NAOqi keeps the balance on the way
         return (yield from to_posture(robot, posture))
+    goal = robot.picked(robot.known.body.posture_angles(posture), joints)
     yield from robot.go_to(goal, RETURN_SPEED)
     return ""
 
@@ -322,13 +320,6 @@ def return_to_posture(robot: RealRobot, joints: Collection[str]) -> Task:
 def posture_task(robot: RealRobot, action: a.Do) -> Task:
     """Take a posture."""
     return take_posture(robot, action.posture, min(POSTURE_SPEED * action.pace, 1.0))
-
-
-def _look_at_posture(robot: RealRobot) -> Task:
-    found = yield from robot.call("ALRobotPosture", "getPosture")
-    robot.known.posture = str(found)
-    yield from robot.measure(robot.names(MOVING))
-    return ""
 
 
 def _check_motors(robot: RealRobot, parts: dict[str, list[str]], *, on: bool) -> Task:
@@ -379,8 +370,9 @@ def walk(robot: RealRobot, forward_m: float, left_m: float, turn: float) -> Task
         return ""
     start = yield from _place(robot)
     pieces = max(1, math.ceil(abs(turn) / LONGEST_TURN_RAD))
-    for piece in range(pieces):
-        way = _piece(forward_m, left_m, turn, piece, pieces)
+    # All of the way is in the first of several equal parts of a turn
+    first = (float(forward_m), float(left_m), turn / pieces)
+    for way in (first, *[(0.0, 0.0, turn / pieces)] * (pieces - 1)):
         limit_s = 15.0 + math.hypot(*way[:2]) / SLOWEST_M_S + abs(way[2]) / SLOWEST_RAD_S
         yield from robot.call("ALMotion", "moveTo", *way, limit_s=limit_s, uses=robot.names(MOVING))
     end = yield from _place(robot)
@@ -491,15 +483,6 @@ def _check_standing(robot: RealRobot) -> None:
             name=robot.name,
             family=Text(DOES_NOT_STAND[family]),
         )
-
-
-def _piece(
-    forward_m: float, left_m: float, turn: float, piece: int, pieces: int
-) -> tuple[float, float, float]:
-    """One of several equal parts of a turn; all of the way is in the first."""
-    if piece == 0:
-        return float(forward_m), float(left_m), turn / pieces
-    return 0.0, 0.0, turn / pieces
 
 
 def _check_way(

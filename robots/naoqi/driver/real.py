@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import time
-from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any, TypeGuard
 
@@ -54,8 +54,6 @@ TOUCH_EVENTS: dict[str, tuple[str, ...]] = {
 CLICKED_EVENT = "ALChestButton/SimpleClickOccurred"
 """On many robots the only event of the chest button: when it was let go after a short press."""
 
-Read = Callable[[Any], None]
-
 
 def quick_keys(body: Body) -> list[str]:
     """What changes while a robot moves."""
@@ -74,20 +72,18 @@ def slow_keys(body: Body) -> list[str]:
 
 def joint_angles(body: Body, values: dict[str, Any]) -> dict[str, float]:
     """The joints that were told, rad."""
-    told = {name: values.get(_key(f"{name}/Position/Sensor")) for name in body.names}
-    return {name: float(value) for name, value in told.items() if _is_number(value)}
+    return _of_joints(body, values, "Position/Sensor")
 
 
 def sensors(body: Body, values: dict[str, Any]) -> dict[str, float]:
     """Our sensors, as far as they were told."""
-    found = dict(_sensors(values))
-    for name, key in WEIGHT_KEYS.items():
-        if name not in found and _is_number(values.get(key)):
-            found[name] = float(values[key])
-    for name in body.names:
-        current = values.get(_key(f"{name}/ElectricCurrent/Sensor"))
-        if _is_number(current):
-            found[f"current_{name}"] = float(current)
+    currents = _of_joints(body, values, "ElectricCurrent/Sensor")
+    found = {f"current_{name}": current for name, current in currents.items()}
+    for name, keys in SENSOR_KEYS.items():
+        told = [values.get(key) for key in (*map(_key, keys), WEIGHT_KEYS.get(name, ""))]
+        value = next((one for one in told if _is_number(one)), None)
+        if value is not None:
+            found[name] = float(value)
     return found
 
 
@@ -116,8 +112,7 @@ def battery(values: dict[str, Any]) -> float | None:
 
 def hottest(body: Body, values: dict[str, Any]) -> tuple[str, float]:
     """The joint with the hottest motor, and °C; "" when nobody says."""
-    heat = {name: values.get(_key(f"{name}/Temperature/Sensor")) for name in body.names}
-    told = {name: float(value) for name, value in heat.items() if _is_number(value)}
+    told = _of_joints(body, values, "Temperature/Sensor")
     return max(told.items(), key=lambda one: one[1], default=("", 0.0))
 
 
@@ -126,12 +121,10 @@ def language_code(name: object) -> str:
     return CODES.get(str(name), str(name))
 
 
-def _sensors(values: dict[str, Any]) -> Iterator[tuple[str, float]]:
-    for name, keys in SENSOR_KEYS.items():
-        told = [values.get(_key(key)) for key in keys]
-        value = next((one for one in told if _is_number(one)), None)
-        if value is not None:
-            yield name, float(value)
+def _of_joints(body: Body, values: dict[str, Any], what: str) -> dict[str, float]:
+    """Something that is measured at each joint, as far as it was told."""
+    told = {name: values.get(_key(f"{name}/{what}")) for name in body.names}
+    return {name: float(value) for name, value in told.items() if _is_number(value)}
 
 
 def _key(name: str) -> str:
@@ -281,8 +274,11 @@ class RealRobot:
         """Move joints to angles, with at most a part of their top speed, and look that they are."""
         if not goal:
             return
-        names, angles = list(goal), list(goal.values())
-        limit_s = 4.0 + self._time_s(goal) / speed
+        names, angles, body = list(goal), list(goal.values()), self.known.body
+        columns = [body.index[name] for name in names]
+        # How long the slowest joint needs at its top speed, generously
+        needed_s = 3.0 * np.abs(self.known.angles[columns] - angles) / body.max_speed[columns]
+        limit_s = 4.0 + float(needed_s.max()) / speed
         yield from self.call(
             "ALMotion",
             "angleInterpolationWithSpeed",
@@ -293,15 +289,6 @@ class RealRobot:
             uses=names,
         )
         yield from self.check_reached(goal)
-
-    def _time_s(self, goal: Mapping[str, float]) -> float:
-        """How long the slowest joint needs at its top speed, generously."""
-        body = self.known.body
-        ways = [
-            abs(self.known.angles[body.index[name]] - angle) / body.max_speed[body.index[name]]
-            for name, angle in goal.items()
-        ]
-        return 3.0 * float(np.max(ways, initial=0.0))
 
 
 def _missed(goal: Mapping[str, float], measured: Mapping[str, float]) -> str:

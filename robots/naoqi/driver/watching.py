@@ -12,8 +12,8 @@ from collections.abc import Callable, Iterator
 from functools import partial
 from typing import Any
 
-from robots.body.driver import plain, state_of_thing, state_of_word
-from robots.body.inverse import to_world, torso_height_m
+from robots.body.driver import plain, state_of_thing, state_of_word, states_of_touch
+from robots.body.inverse import from_world, to_world, torso_height_m
 from robots.body.surroundings import distance_word
 from robots.errors import ActionFailed
 from robots.naoqi.wire.errors import NaoqiError
@@ -195,17 +195,13 @@ class Noticing:
     def hear(self, event: str, value: Any) -> list[str]:
         """Take in an event; return the human states that follow from it."""
         if event == CLICKED_EVENT:
-            return _touched("chest_button")
+            return states_of_touch("chest_button")
         if event == FALLEN:
             self._robot.has_fallen = bool(value)
             return []
         if event in SENSOR_OF:
             return self._feel(SENSOR_OF[event], event, value)
         return list(self._see(event, value))
-
-    def feel(self, sensor: str, value: float) -> list[str]:
-        """Take in what a touch sensor measures; return the human states when that is new."""
-        return self._feel(sensor, sensor, value)
 
     def forget(self) -> None:
         """Forget what was not seen for a while."""
@@ -220,7 +216,7 @@ class Noticing:
         places[source] = float(value) if isinstance(value, int | float) else 0.0
         was, now = self.touched.get(sensor, 0.0), max(places.values())
         self.touched[sensor] = 1.0 if now > 0.0 else 0.0
-        return _touched(sensor) if now > 0.0 and was <= 0.0 else []
+        return states_of_touch(sensor) if now > 0.0 and was <= 0.0 else []
 
     def _see(self, event: str, value: Any) -> Iterator[str]:
         readers = {
@@ -237,34 +233,29 @@ class Noticing:
             return  # versions of NAOqi differ: what is not understood is not noticed
 
     def _faces(self, value: Any) -> Iterator[str]:
-        camera = value[3] if len(value) > 3 else None
         for face in value[1]:
             if not face or not isinstance(face[0], list) or len(face[0]) < 5:
                 continue  # the last entry says who was recognised over time
             _, alpha, beta, width, _ = face[0][:5]
-            place = self._place(camera, alpha, beta, FACE_M, width)
+            place = self._place(value, alpha, beta, FACE_M, width)
             name = str(face[1][2]) if len(face) > 1 and len(face[1]) > 2 else ""
             yield from self._noticed("face", name if name not in UNKNOWN_FACE else "", place)
 
     def _marks(self, value: Any) -> Iterator[str]:
-        camera = value[3] if len(value) > 3 else None
         for mark in value[1]:
             _, alpha, beta, width = mark[0][:4]
-            place = self._place(camera, alpha, beta, MARK_M, width)
+            place = self._place(value, alpha, beta, MARK_M, width)
             yield from self._noticed("mark", str(int(mark[1][0])), place)
 
     def _ball(self, value: Any) -> Iterator[str]:
         centre_x, centre_y, width, _ = value[1][:4]
-        camera = value[3] if len(value) > 3 else None
-        place = self._place(camera, centre_x, centre_y, BALL_M, width)
+        place = self._place(value, centre_x, centre_y, BALL_M, width)
         yield from self._noticed("ball", "", place)
 
     def _sound(self, value: Any) -> Iterator[str]:
         azimuth, elevation = (float(angle) for angle in value[1][:2])
-        head_yaw = float(value[2][5]) if len(value) > 2 and len(value[2]) > 5 else 0.0
-        head_pitch = float(value[2][4]) if len(value) > 2 and len(value[2]) > 5 else 0.0
-        up = elevation - head_pitch
-        yaw = azimuth + head_yaw
+        head_pitch, head_yaw = value[2][4:6] if len(value) > 2 and len(value[2]) > 5 else (0.0, 0.0)
+        up, yaw = elevation - float(head_pitch), azimuth + float(head_yaw)
         flat = SOUND_M * math.cos(up)
         eyes = torso_height_m(self._robot.known) + 0.13
         place = flat * math.cos(yaw), flat * math.sin(yaw), eyes + SOUND_M * math.sin(up)
@@ -291,25 +282,25 @@ class Noticing:
             yield state_of_thing(thing)
         if kind == "face":
             word = distance_word(place)
-            was = distance_word(_from_robot(self._robot, before)) if before else ""
-            if word != was:
+            if not before or word != distance_word(from_world(known, before)):
                 yield f"person_{word}"
 
     def _place(
-        self, camera: Any, left: float, down: float, size_m: float, width: float
+        self, value: Any, left: float, down: float, size_m: float, width: float
     ) -> tuple[float, float, float]:
-        """Return where something is, from the robot's feet: its direction from the camera (rad),
+        """Return where something is, from the robot's feet, m.
 
-        its distance by how wide (rad) it looks. ``camera``: x, y, z m and rotations rad, as NAOqi
-        tells them; without it, where the head is.
+        It is ``left`` and ``down`` of where the camera looks (rad), which the fourth part of the
+        event's value tells; and as far as something of its size looks so wide (rad).
         """
         away = min(max(size_m / max(float(width), 1e-3), NEAREST_M), FARTHEST_M)
-        x, y, z, yaw, pitch = self._camera(camera)
+        x, y, z, yaw, pitch = self._camera(value[3] if len(value) > 3 else None)
         yaw, pitch = yaw + float(left), pitch + float(down)
         flat = away * math.cos(pitch)
         return x + flat * math.cos(yaw), y + flat * math.sin(yaw), z - away * math.sin(pitch)
 
     def _camera(self, told: Any) -> tuple[float, float, float, float, float]:
+        """Return x, y, z m, yaw and pitch rad, as NAOqi tells them, or else where the head is."""
         if isinstance(told, list | tuple) and len(told) >= 6:
             x, y, z, _, pitch, yaw = (float(part) for part in told[:6])
             return x, y, z, yaw, pitch
@@ -319,15 +310,5 @@ class Noticing:
         return 0.05, 0.0, eyes, float(known.angles[yaw_column]), float(known.angles[pitch_column])
 
 
-def _from_robot(robot: RealRobot, place: tuple[float, float, float]) -> tuple[float, float, float]:
-    x, y = place[0] - float(robot.known.base[0]), place[1] - float(robot.known.base[1])
-    return x, y, place[2]
-
-
 def _keep(settings: dict[str, Any], name: str, read: Callable[[Any], Any], value: Any) -> None:
     settings[name] = read(value)
-
-
-def _touched(sensor: str) -> list[str]:
-    """The sensor by itself, then the part of the body that it is on."""
-    return [f"touched_{sensor}", f"touched_{sensor.partition('_')[0]}"]

@@ -21,7 +21,7 @@ from typing import Any
 from faults import Words, text_of
 from robots.errors import PortTaken
 from robots.naoqi.wire.codec import Reader, encode, read_value, reader_of
-from robots.naoqi.wire.errors import BadFrame, CallCancelled, CallFailed, ConnectionLost, NaoqiError
+from robots.naoqi.wire.errors import BadFrame, CallFailed, ConnectionLost, NaoqiError
 from robots.naoqi.wire.line import (
     AUTHENTICATE,
     CAPABILITIES,
@@ -262,18 +262,9 @@ class Visitor:
         except ConnectionLost as problem:
             peer.answer_error(frame, problem.sentence)
             return
-        peer.running[frame.number] = pending
-
-        def answer(done: Pending) -> None:
-            peer.running.pop(frame.number, None)
-            if isinstance(done.failure, CallCancelled):
-                peer.answer(frame.answer(Kind.CANCELLED))
-            elif done.failure is not None:
-                peer.answer_error(frame, done.failure.sentence)
-            else:
-                peer.answer(frame.answer(Kind.REPLY, done.value))
-
-        pending.when_done(answer)
+        peer.answer_later(
+            frame, pending, lambda value: peer.answer(frame.answer(Kind.REPLY, value))
+        )
 
     def leave(self, peer: Peer) -> None:
         """A client that listened is gone."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 import contextlib
 import os
 import time
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -30,6 +30,13 @@ from .tracker import ALTracker
 
 NEAR_M = 0.5
 """NAOqi tells of something in front of the sonar when it is nearer than this."""
+SIGHTS = {
+    "FaceDetected": perception.faces,
+    "LandmarkDetected": perception.marks,
+    "redBallDetected": perception.ball,
+    "ALSoundLocalization/SoundLocated": perception.sound,
+}
+"""What gives the value of each event of what is seen or heard."""
 EVENTS = (
     *TOUCH_EVENTS.values(),
     "TouchChanged",
@@ -38,10 +45,7 @@ EVENTS = (
     "BatteryChargeChanged",
     "robotIsWakeUp",
     "robotHasFallen",
-    "FaceDetected",
-    "LandmarkDetected",
-    "redBallDetected",
-    "ALSoundLocalization/SoundLocated",
+    *SIGHTS,
     "WordRecognized",
     "LastWordRecognized",
     "SpeechDetected",
@@ -55,17 +59,11 @@ EVENTS = (
 class MemoryFeed:
     """Compares how the robot is with how it was, and tells the differences."""
 
-    def __init__(
-        self,
-        robot: ServedRobot,
-        memory: ALMemory,
-        looking: dict[str, Extractor],
-        recognition: ALSpeechRecognition,
-    ) -> None:
+    def __init__(self, robot: ServedRobot, modules: Iterable[Module], memory: ALMemory) -> None:
+        extractors = [one for one in modules if isinstance(one, Extractor)]
         self._robot = robot
         self._memory = memory
-        self._looking = looking
-        self._recognition = recognition
+        self._looking = {event: one for one in extractors for event in one.events}
         self._was: dict[str, Any] = {}
         self._next_s: dict[str, float] = {}
         self._sentences = 0
@@ -90,15 +88,9 @@ class MemoryFeed:
                 word = "Detected" if distance_m < NEAR_M else "NothingDetected"
                 if self._wants(f"Sonar{side}{word}"):
                     self._memory.tell(f"Sonar{side}{word}", distance_m)
-        self._see("FaceDetected", perception.faces, state, now_s)
-        self._see("LandmarkDetected", perception.marks, state, now_s)
-        self._see("redBallDetected", perception.ball, state, now_s)
-        self._see("ALSoundLocalization/SoundLocated", perception.sound, state, now_s)
-
-    def sense(self, request: SenseRequest) -> None:
-        """Take in what the robot was told to hear."""
-        if request.sense == "word" and request.name:
-            self._recognition.hear(request.name, self._memory.tell)
+        for event, look in SIGHTS.items():
+            if self._wants(event):
+                self._see(event, look(state), now_s)
 
     def _body(self, state: RobotState) -> None:
         robot = self._robot.robot
@@ -120,13 +112,8 @@ class MemoryFeed:
         status = "started" if is_speaking else "done"
         self._memory.tell("ALTextToSpeech/Status", [self._sentences, status])
 
-    def _see(
-        self, event: str, look: Callable[[RobotState], list[Any]], state: RobotState, now_s: float
-    ) -> None:
+    def _see(self, event: str, value: list[Any], now_s: float) -> None:
         """Tell what is in sight, again and again, and once that it is not any more."""
-        if not self._wants(event):
-            return
-        value = look(state)
         was_there = self._was.get(event, False)
         if value and now_s >= self._next_s.get(event, now_s):
             extractor = self._looking.get(event)
@@ -164,7 +151,7 @@ class Services:
         """``folder``: where the robot's body and animations are described."""
         self.robot = robot
         names = load_animation_names(folder)
-        speech = ALTextToSpeech(robot)
+        speech, self._recognition = ALTextToSpeech(robot), ALSpeechRecognition(robot)
         self.memory = ALMemory(robot)
         self.memory.measure(keys_of(robot))
         simple = (
@@ -172,7 +159,6 @@ class Services:
             ALRobotPosture,
             media.ALLeds,
             ALTracker,
-            ALSpeechRecognition,
             perception.ALFaceDetection,
             perception.ALLandMarkDetection,
             perception.ALRedBallDetection,
@@ -196,6 +182,7 @@ class Services:
         )
         modules: list[Module] = [
             speech,
+            self._recognition,
             self.memory,
             ALAnimatedSpeech(robot, names, lambda: speech.voice),
             ALAnimationPlayer(robot, names),
@@ -203,7 +190,7 @@ class Services:
             *(kind(robot) for kind in simple),
         ]
         self.by_name = {module.name: module for module in modules}
-        self._feed = self._make_feed()
+        self._feed = MemoryFeed(robot, modules, self.memory)
         self._next_s = 0.0
         self.notice()  # what is so now is no event
 
@@ -216,14 +203,8 @@ class Services:
 
     def sense(self, request: SenseRequest) -> None:
         """Take in what the robot was told to hear."""
-        self._feed.sense(request)
-
-    def _make_feed(self) -> MemoryFeed:
-        extractors = [one for one in self.by_name.values() if isinstance(one, Extractor)]
-        looking = {event: one for one in extractors for event in one.events}
-        recognition = self.by_name["ALSpeechRecognition"]
-        assert isinstance(recognition, ALSpeechRecognition)
-        return MemoryFeed(self.robot, self.memory, looking, recognition)
+        if request.sense == "word" and request.name:
+            self._recognition.hear(request.name, self.memory.tell)
 
 
 # Offers a virtual robot to NAOqi programs on this computer, while its node lets it live.
@@ -242,8 +223,10 @@ class Offered:
         self.robot = ServedRobot(actor, robot)
         self.lock: contextlib.AbstractContextManager[object] = self.robot.lock
         self._services = Services(self.robot, folder)
-        self._server = Server(self._services.by_name, port=port, login=_login())
-        self._services.memory.call_module = self._call
+        user, colon, password = os.environ.get(LOGIN, "").partition(":")
+        login = Login(user, password) if colon else None
+        self._server = Server(self._services.by_name, port=port, login=login)
+        self._services.memory.call_module = self._server.tell
         self.port = self._server.start()
         self.description = f"offered to NAOqi programs at tcp://127.0.0.1:{self.port}"
 
@@ -260,11 +243,3 @@ class Offered:
     def close(self) -> None:
         """End all connections."""
         self._server.stop()
-
-    def _call(self, module: str, name: str, values: list[object]) -> None:
-        self._server.tell(module, name, *values)
-
-
-def _login() -> Login | None:
-    user, colon, password = os.environ.get(LOGIN, "").partition(":")
-    return Login(user, password) if colon else None

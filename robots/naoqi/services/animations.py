@@ -36,18 +36,13 @@ class AnimationNames:
     """The paths and tags of animations, with the names that the robot knows them by."""
 
     def __init__(self, animations: dict[str, str], tags: dict[str, list[str]]) -> None:
-        self._animations = animations
+        self.animations = animations
         self.tags = {tag: [f"animations/Stand/{path}_1" for path in tags[tag]] for tag in tags}
-
-    @property
-    def targets(self) -> list[str]:
-        """The robot's animations that stand for others."""
-        return list(self._animations.values())
 
     def paths(self, known: Animations) -> list[str]:
         """Return all paths that a robot can play, in alphabetical order."""
         names = known.names()
-        named = [f"animations/Stand/{p}_1" for p, n in self._animations.items() if n in names]
+        named = [f"animations/Stand/{p}_1" for p, n in self.animations.items() if n in names]
         return sorted([*named, *(f"{OURS}/{name}" for name in names)])
 
     def name_of(self, path: str, robot: VirtualRobot) -> str:
@@ -57,7 +52,7 @@ class AnimationNames:
         found = PATH.fullmatch(plain.removesuffix("/.").strip("/"))
         known = robot.animations.names()
         key = found.group(1) if found else ""
-        name = self._animations.get(key, key.rpartition("/")[2])
+        name = self.animations.get(key, key.rpartition("/")[2])
         if name not in known:
             raise CallFailed("There is no animation “{path}”.", path=path)
         return name

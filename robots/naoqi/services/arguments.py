@@ -128,7 +128,7 @@ def rows(value: Any, what: str) -> list[Any]:
 
 
 def within(value: float, low: float, high: float, what: str) -> float:
-    """Return a number that is in a range. Raises CallFailed."""
+    """Return a ``value`` from ``low`` to ``high``. Raises CallFailed, which calls it ``what``."""
     if not low <= number(value) <= high:
         raise CallFailed(
             "{what} must be from {low} to {high}, not {value}.",

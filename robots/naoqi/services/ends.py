@@ -73,7 +73,11 @@ class Ends:
         *,
         is_absolute: bool = True,
     ) -> dict[str, list[float]]:
-        """Return the angles of the joints of an end at each place."""
+        """Return the angles (rad) of the joints of an end at each place, by joint.
+
+        ``name`` is the end, ``space`` from where ``places`` are seen: x, y, z m and turns rad, from
+        where it is unless ``is_absolute``; ``mask`` says by NAOqi's bits which of these count.
+        """
         one_of(name, REACHING, "“{name}” cannot be sent to a place. Possible: {reaching}.")
         within(mask, 1, ALL, "The mask")
         with self._robot.lock:

@@ -29,17 +29,11 @@ ABILITIES = (
 class ALBasicAwareness(Module):
     """Looks at people by itself."""
 
-    set_engagement, engagement = kept(
-        "setEngagementMode::v(s)",
-        "getEngagementMode::s()",
-        "Unengaged",
-        ("Unengaged", "SemiEngaged", "FullyEngaged"),
+    engagement = kept(
+        "getEngagementMode::s()", "Unengaged", ("Unengaged", "SemiEngaged", "FullyEngaged")
     )
-    set_tracking, tracking = kept(
-        "setTrackingMode::v(s)",
-        "getTrackingMode::s()",
-        "Head",
-        ("Head", "BodyRotation", "WholeBody", "MoveContextually"),
+    tracking = kept(
+        "getTrackingMode::s()", "Head", ("Head", "BodyRotation", "WholeBody", "MoveContextually")
     )
 
     set_enabled = method("setEnabled::v(b)")(lambda self, is_on: self._do("awareness", on=is_on))
@@ -53,8 +47,7 @@ class ALBasicAwareness(Module):
     end = method("stopAwareness::v()", "pauseAwareness::v()")(lambda self: self.set_enabled(False))
     is_awareness_paused = method("isAwarenessPaused::b()")(lambda self: not self.is_enabled())
 
-    set_stimulus, stimulus = kept_each(
-        "setStimulusDetectionEnabled::v(sb)",
+    stimulus = kept_each(
         "isStimulusDetectionEnabled::b(s)",
         True,
         known=lambda self, name: one_of(
@@ -100,19 +93,16 @@ class ALAutonomousLife(Module):
     # Stop the programs that it plays by itself: there are none
     stop_all = always(None, "stopFocus::v()", "stopAll::v()")
 
-    set_ability, ability = kept_each(
-        "setAutonomousAbilityEnabled::v(sb)",
+    ability = kept_each(
         "getAutonomousAbilityEnabled::b(s)",
         True,
         known=lambda self, ability: one_of(
             ability, ABILITIES, "There is no ability “{ability}”. Possible: {known}."
         ),
     )
-    set_safeguard, safeguard = kept_each(
-        "setSafeguardEnabled::v(sb)", "isSafeguardEnabled::b(s)", True
-    )
+    safeguard = kept_each("isSafeguardEnabled::b(s)", True)
     # How high above the floor it stands, m
-    set_offset, offset = kept("setRobotOffsetFromFloor::v(f)", "getRobotOffsetFromFloor::f()", 0.0)
+    offset = kept("getRobotOffsetFromFloor::f()", 0.0)
 
     life_time = method("getLifeTime::i()")(lambda self: int(time.time()) - self._history[0][1])
 
@@ -130,10 +120,8 @@ class ALBackgroundMovement(Module):
 class ALSpeakingMovement(Module):
     """Remembers whether it may move while it speaks."""
 
-    set_enabled, enabled = kept("setEnabled::v(b)", "isEnabled::b()", True)
-    set_mode, mode = kept(
-        "setMode::v(s)", "getMode::s()", "contextual", ("contextual", "random", "disabled")
-    )
+    enabled = kept("isEnabled::b()", True)
+    mode = kept("getMode::s()", "contextual", ("contextual", "random", "disabled"))
 
     runs = method("isRunning::b()")(
         lambda self: bool(self.enabled() and self._robot.state().saying)
@@ -143,7 +131,7 @@ class ALSpeakingMovement(Module):
 class ALListeningMovement(Module):
     """Remembers whether it may move while it listens."""
 
-    set_enabled, enabled = kept("setEnabled::v(b)", "isEnabled::b()", True)
+    enabled = kept("isEnabled::b()", True)
 
     runs = method("isRunning::b()")(
         lambda self: bool(self.enabled() and self._robot.state().listening)
@@ -153,7 +141,7 @@ class ALListeningMovement(Module):
 class ALAutonomousBlinking(Module):
     """Remembers whether its eyes may blink."""
 
-    set_enabled, enabled = kept("setEnabled::v(b)", "isEnabled::b()", True)
+    enabled = kept("isEnabled::b()", True)
 
 
 # The body and the system: touch, battery, temperature, names and versions.
@@ -184,8 +172,8 @@ class ALBodyTemperature(Module):
     # What is too hot: nothing, which NAOqi tells with no value
     diagnosis = always(None, "getTemperatureDiagnosis::m()")
 
-    set_notifications, notifications = kept(
-        "setEnableNotifications::v(b)", "areNotificationsEnabled::b()", True
+    notifications = kept(
+        "areNotificationsEnabled::b()", True, setter="setEnableNotifications::v(b)"
     )
 
 

@@ -22,7 +22,7 @@ NO_MICROPHONE = "The robot on the screen has no microphones. A real NAO has."
 class ALAudioPlayer(Module):
     """Plays sound files: those of the computer that the robot on the screen is on."""
 
-    set_master, master = kept("setMasterVolume::v(f)", "getMasterVolume::f()", 1.0)
+    master = kept("getMasterVolume::f()", 1.0)
 
     @method("playFile::v(s)", "playFile::v(sff)", "playSoundSetFile::v(s)")
     def play_file(self, path: str, volume: float = 1.0, pan: float = 0.0) -> Any:
@@ -38,7 +38,7 @@ class ALAudioPlayer(Module):
     def play_file_from(
         self, path: str, position: float, volume: float = 1.0, pan: float = 0.0
     ) -> Any:
-        """Play a file from so many seconds on."""
+        """Play the file at ``path`` from ``position`` (s); ``volume``, ``pan`` as play_file."""
         start_s = within(position, 0, 3600, "The start")
         return self._play(volume, pan, file=path, start_s=start_s)
 
@@ -116,9 +116,9 @@ MOST_PICTURES = 20
 class _Camera(Module):
     """What a picture and a video can be set to."""
 
-    set_camera, camera = kept("setCameraID::v(i)", "getCameraID::i()", 0, (0, 1))
-    set_resolution, resolution = kept("setResolution::v(i)", "getResolution::i()", 1)
-    set_colours, colours = kept("setColorSpace::v(i)", "getColorSpace::i()", 13)
+    camera = kept("getCameraID::i()", 0, (0, 1))
+    resolution = kept("getResolution::i()", 1)
+    colours = kept("getColorSpace::i()", 13)
 
     def _name(self) -> str:
         return CAMERAS[int(self.camera())]
@@ -127,9 +127,9 @@ class _Camera(Module):
 class ALPhotoCapture(_Camera):
     """Takes pictures; all are PNG files in the folder of the robot, whatever folder is asked."""
 
-    set_format, picture_format = kept("setPictureFormat::v(s)", "getPictureFormat::s()", "jpg")
-    set_interval, interval = kept("setCaptureInterval::v(i)", "getCaptureInterval::i()", 200)
-    set_half_press, half_press = kept("setHalfPressEnabled::v(b)", "isHalfPressEnabled::b()", False)
+    picture_format = kept("getPictureFormat::s()", "jpg")
+    interval = kept("getCaptureInterval::i()", 200)
+    half_press = kept("isHalfPressEnabled::b()", False)
 
     @method("takePicture::m(ss)", "takePicture::m(ssb)")
     def take_picture(self, folder: str, name: str, overwrite: bool = False) -> Any:
@@ -139,7 +139,10 @@ class ALPhotoCapture(_Camera):
 
     @method("takePictures::m(iss)", "takePictures::m(issb)")
     def take_pictures(self, count: int, folder: str, name: str, overwrite: bool = False) -> Any:
-        """Take several pictures; get the names of their files."""
+        """Take ``count`` pictures; get their files. ``folder`` and ``overwrite`` change nothing.
+
+        ``name`` is followed by the number of each.
+        """
         within(count, 1, MOST_PICTURES, "The number of pictures")
         names = [f"{name}_{i}" for i in range(int(number(count)))]
         files = [str(picture_path(self._robot.robot, one)) for one in names]
@@ -151,8 +154,8 @@ class ALPhotoCapture(_Camera):
 class ALVideoRecorder(_Camera):
     """Records videos; all are animated PNG files in the folder of the robot."""
 
-    set_format, video_format = kept("setVideoFormat::v(s)", "getVideoFormat::s()", "MJPG")
-    set_rate, rate = kept("setFrameRate::v(f)", "getFrameRate::i()", 10)
+    video_format = kept("getVideoFormat::s()", "MJPG")
+    rate = kept("getFrameRate::i()", 10, setter="setFrameRate::v(f)")
 
     def __init__(self, robot: ServedRobot) -> None:
         super().__init__(robot)
@@ -217,7 +220,7 @@ class ALLeds(Module):
 
     @method("fadeRGB::v(sffff)")
     def fade_parts(self, name: str, red: float, green: float, blue: float, seconds: float) -> Any:
-        """Fade lights to a colour, given by its parts (0 to 1); wait for the end."""
+        """Fade lights ``name`` to ``red``, ``green``, ``blue`` (0 to 1) in ``seconds``; wait."""
         parts = [within(part, 0.0, 1.0, "A part of a colour") for part in (red, green, blue)]
         return self._fade(name, _colour(parts), seconds)
 
@@ -274,11 +277,7 @@ class ALLeds(Module):
         """Return how bright lights are: red, green and blue of each, 0 to 1."""
         state = self._robot.state().leds
         lights = [light for group in self._groups(name) for light in body.lights(group)]
-        return [
-            ((state.get(light, 0) >> shift) & 0xFF) / 255.0
-            for light in lights
-            for shift in (16, 8, 0)
-        ]
+        return [part / 255.0 for light in lights for part in state.get(light, 0).to_bytes(3)]
 
     random_eyes = method("randomEyes::v(f)")(
         lambda self, seconds: self._do("random_eyes", seconds=number(seconds))
@@ -347,5 +346,4 @@ class ALLeds(Module):
 
 
 def _colour(parts: list[float]) -> int:
-    red, green, blue = (round(part * 255) for part in parts)
-    return red << 16 | green << 8 | blue
+    return int.from_bytes(round(part * 255) for part in parts)

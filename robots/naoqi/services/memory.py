@@ -18,8 +18,8 @@ from .module import Module
 from .posture import family_of, posture_of
 
 Reader = Callable[[], Any]
-CallModule = Callable[[str, str, list[Any]], None]
-"""Calls a method of a service, by their names; nobody waits for it."""
+CallModule = Callable[..., object]
+"""Calls a method of a service, by their names, with its arguments; nobody waits for it."""
 REMEMBERED_EVENTS = 50
 
 
@@ -44,7 +44,7 @@ class ALMemory(Module):
         self._events: set[str] = set()
         self._micro_events: set[str] = set()
         self._descriptions: dict[str, str] = {}
-        self.call_module: CallModule = lambda module, method, arguments: None
+        self.call_module: CallModule = lambda module, method, *arguments: None
 
     def measure(self, readers: dict[str, Reader]) -> None:
         """Add keys that are read anew each time."""
@@ -135,12 +135,9 @@ class ALMemory(Module):
         with self._lock:
             return list(self._history.get(event, []))
 
-    declare_event = method("declareEvent::v(s)")(lambda self, event: self.declare(event))
-
-    @method("declareEvent::v(ss)")
-    def declare_event_of(self, event: str, extractor: str) -> None:
-        """Make an event of a service known."""
-        self.declare(event)
+    declare_event = method("declareEvent::v(s)", "declareEvent::v(ss)")(
+        lambda self, event, extractor="": self.declare(event)
+    )
 
     @method("getEventList::[s]()")
     def event_list(self) -> list[str]:
@@ -194,7 +191,10 @@ class ALMemory(Module):
     def subscribe_with_message(
         self, event: str, module: str, message: str, method_name: str
     ) -> None:
-        """Call a method of a service at each new value, with a message of its own."""
+        """Call ``method_name`` of the service ``module`` at each new value of an ``event``.
+
+        It gets the event, its value, and the ``message``.
+        """
         with self._lock:
             self._events.add(event)
             self._modules.setdefault(event, {})[module] = (method_name, message)
@@ -203,7 +203,7 @@ class ALMemory(Module):
     def subscribe_to_micro_event(
         self, event: str, module: str, message: str, method_name: str
     ) -> None:
-        """Call a method of a service at each new value of a micro event."""
+        """Call ``method_name`` of ``module`` with ``message`` at each value of a micro event."""
         with self._lock:
             self._micro_events.add(event)
             self._modules.setdefault(event, {})[module] = (method_name, message)
@@ -258,7 +258,7 @@ class ALMemory(Module):
         if subscriber is not None:
             subscriber.told.emit(value)
         for module, (name, message) in modules.items():
-            self.call_module(module, name, [event, value, message])
+            self.call_module(module, name, event, value, message)
 
 
 def _time(seconds: float) -> tuple[int, int]:

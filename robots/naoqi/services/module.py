@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Collection, Generator
 from typing import Any
 
@@ -12,8 +13,6 @@ from robots.naoqi.serving import ServedRobot
 from robots.naoqi.wire.errors import CallFailed
 from robots.naoqi.wire.promise import Promise
 from robots.naoqi.wire.service import method
-
-Kept = tuple[Callable[..., None], Callable[..., Any]]
 
 
 class Module(NaoqiModule):
@@ -69,56 +68,65 @@ class Module(NaoqiModule):
             raise CallFailed(told[0].description)
 
 
-def kept(setter: str, getter: str, default: Any, choices: Collection[Any] = ()) -> Kept:
-    """Return a pair of methods for a value that the robot only remembers."""
+def kept(
+    getter: str, default: Any, choices: Collection[Any] = (), *, setter: str = ""
+) -> Callable[..., Any]:
+    """Return a method for a value that the robot only remembers, to set it and to get it.
+
+    It gets it by the signature ``getter``, such as ``getMode::s()``, until then ``default``; and
+    sets it by ``setter``, if that is not as usual (``setMode::v(s)``), to one of the ``choices``
+    where there are some.
+    """
     name = getter.partition("::")[0]
 
-    @method(setter)
-    def change(self: Module, value: Any) -> None:
+    @method(setter or _setter_of(getter), getter)
+    def keep(self: Module, *given: Any) -> Any:
+        if not given:
+            return self._kept.get(name, default)
+        (value,) = given
         if choices and value not in choices:
-            possible = ", ".join(map(str, choices))
             raise CallFailed(
                 "{name}: there is no “{value}”. Possible: {possible}.",
                 name=name,
                 value=value,
-                possible=possible,
+                possible=", ".join(map(str, choices)),
             )
         self._kept[name] = value
+        return None
 
-    @method(getter)
-    def read(self: Module) -> Any:
-        return self._kept.get(name, default)
-
-    return change, read
+    return keep
 
 
 def kept_each(
-    setter: str,
     getter: str,
     default: Any,
     *,
+    setter: str = "",
     of_all: str = "",
     known: Callable[[Any, str], object] = lambda self, name: None,
-) -> Kept:
-    """Return a pair of methods for values that the robot remembers by a name.
+) -> Callable[..., Any]:
+    """Return a method for values that the robot remembers by a name, as ``kept`` for one.
 
-    What has none has that of the name ``of_all``. ``known`` raises CallFailed for strange names.
+    ``getter``, ``default`` and ``setter`` are as there. What has no value has that of the name
+    ``of_all``. ``known`` raises CallFailed for strange names.
     """
     what = getter.partition("::")[0]
     answer = True if "::b" in setter else None
 
-    @method(setter)
-    def change(self: Module, name: str, value: Any) -> Any:
+    @method(setter or _setter_of(getter), getter)
+    def keep(self: Module, name: str, *given: Any) -> Any:
         known(self, name)
-        self._kept[f"{what} {name}"] = value
+        if not given:
+            return self._kept.get(f"{what} {name}", self._kept.get(f"{what} {of_all}", default))
+        self._kept[f"{what} {name}"] = given[0]
         return answer
 
-    @method(getter)
-    def read(self: Module, name: str) -> Any:
-        known(self, name)
-        return self._kept.get(f"{what} {name}", self._kept.get(f"{what} {of_all}", default))
+    return keep
 
-    return change, read
+
+def _setter_of(getter: str) -> str:
+    """The signature that sets what another one gets: isEnabled::b() has setEnabled::v(b)."""
+    return re.sub(r"(?:get|is)(\w+)::(\w)\((s?)\)", r"set\1::v(\3\2)", getter)
 
 
 def always(value: Any, *signatures: str) -> Callable[..., Any]:
@@ -173,25 +181,22 @@ Plot = Callable[[Begin], Script]
 def play_script(robot: ServedRobot, plot: Plot, value: Any = None, stopped: Any = None) -> Any:
     """Play a script; the caller waits for its end, and gets a value then.
 
-    It ends early when the robot fails at something, or when that is stopped.
+    It ends early when the ``robot`` fails at something in its ``plot``, or when that is stopped:
+    then the caller gets ``stopped``.
     """
-    promise = Promise()
-    playing = _Playing(robot, plot, promise, value, stopped)
-    promise.on_cancel = playing.give_up
+    playing = _Playing(robot, plot, value, stopped)
     playing.go_on()
-    return promise.future
+    return playing.promise.future
 
 
 class _Playing:
     """A script that is played."""
 
-    def __init__(
-        self, robot: ServedRobot, plot: Plot, promise: Promise, value: Any, stopped: Any
-    ) -> None:
+    def __init__(self, robot: ServedRobot, plot: Plot, value: Any, stopped: Any) -> None:
+        self.promise = Promise(self._give_up)
         self._robot = robot
         self._script = plot(self._begin)
         self._begun: list[Asked] = []
-        self._promise = promise
         self._value = value
         self._stopped = stopped
         self._waits_for: Asked | None = None
@@ -215,18 +220,22 @@ class _Playing:
             return
         self._stop_rest()
         if refused:
-            self._promise.fail(refused)
+            self.promise.fail(refused)
+        elif result is None or result.state == "done":
+            self.promise.set(self._value)
+        elif result.state == "failed":
+            self.promise.fail(result.description)
         else:
-            self._answer(result)
+            self.promise.set(self._stopped)
 
-    def give_up(self) -> None:
+    def _give_up(self) -> None:
         """Stop, because the caller does not want it any more."""
         with self._robot.lock:
             if self._is_over:
                 return
             self._is_over = True
         self._stop_rest()
-        self._promise.cancelled()
+        self.promise.cancelled()
 
     def _begin(self, action: str, **args: Any) -> Asked:
         asked = Asked(self._robot, action, **args)
@@ -237,14 +246,6 @@ class _Playing:
         for asked in self._begun:
             if asked.result is None:
                 asked.stop()
-
-    def _answer(self, last: ActionResult | None) -> None:
-        if last is None or last.state == "done":
-            self._promise.set(self._value)
-        elif last.state == "failed":
-            self._promise.fail(last.description)
-        else:
-            self._promise.set(self._stopped)
 
 
 def one_by_one(actions: list[tuple[str, dict[str, Any]]]) -> Plot:

@@ -81,24 +81,16 @@ class ALMotion(Module):
 
     # Names, limits, tasks, and what it only remembers
 
-    set_fall, fall = kept("setFallManagerEnabled::v(b)", "getFallManagerEnabled::b()", True)
-    set_push, push = kept("setPushRecoveryEnabled::v(b)", "getPushRecoveryEnabled::b()", True)
-    set_smart, smart = kept("setSmartStiffnessEnabled::v(b)", "getSmartStiffnessEnabled::b()", True)
-    set_diagnosis, diagnosis = kept(
-        "setDiagnosisEffectEnabled::v(b)", "getDiagnosisEffectEnabled::b()", True
+    fall = kept("getFallManagerEnabled::b()", True)
+    push = kept("getPushRecoveryEnabled::b()", True)
+    smart = kept("getSmartStiffnessEnabled::b()", True)
+    diagnosis = kept("getDiagnosisEffectEnabled::b()", True)
+    orthogonal = kept("getOrthogonalSecurityDistance::f()", 0.4)
+    tangential = kept("getTangentialSecurityDistance::f()", 0.1)
+    notifications = kept(
+        "areNotificationsEnabled::b()", True, setter="setEnableNotifications::v(b)"
     )
-    set_orthogonal, orthogonal = kept(
-        "setOrthogonalSecurityDistance::v(f)", "getOrthogonalSecurityDistance::f()", 0.4
-    )
-    set_tangential, tangential = kept(
-        "setTangentialSecurityDistance::v(f)", "getTangentialSecurityDistance::f()", 0.1
-    )
-    set_notifications, notifications = kept(
-        "setEnableNotifications::v(b)", "areNotificationsEnabled::b()", True
-    )
-    set_breath_config, breath_config = kept(
-        "setBreathConfig::v(m)", "getBreathConfig::m()", [["Bpm", 12.0], ["Amplitude", 0.5]]
-    )
+    breath_config = kept("getBreathConfig::m()", [["Bpm", 12.0], ["Amplitude", 0.5]])
 
     @method("getBodyNames::[s](s)", "getJointNames::[s](s)")
     def body_names(self, name: str) -> list[str]:
@@ -144,20 +136,16 @@ class ALMotion(Module):
         """Return whether a chain breathes."""
         return bool(self._kept.get(f"breath {chain}", self._kept.get("breath Body", False)))
 
-    set_idle_posture, idle_posture = kept_each(
-        "setIdlePostureEnabled::v(sb)",
+    idle_posture = kept_each(
         "getIdlePostureEnabled::b(s)",
         False,
         known=lambda self, chain: joint_names(self._robot.robot.body, chain),
     )
-    set_collision_protection, collision_protection = kept_each(
-        "setCollisionProtectionEnabled::b(sb)", "getCollisionProtectionEnabled::b(s)", True
+    collision_protection = kept_each(
+        "getCollisionProtectionEnabled::b(s)", True, setter="setCollisionProtectionEnabled::b(sb)"
     )
-    set_external_collision_protection, external_collision_protection = kept_each(
-        "setExternalCollisionProtectionEnabled::v(sb)",
-        "getExternalCollisionProtectionEnabled::b(s)",
-        True,
-        of_all="All",
+    external_collision_protection = kept_each(
+        "getExternalCollisionProtectionEnabled::b(s)", True, of_all="All"
     )
 
     @method("getTaskList::m()")
@@ -217,12 +205,18 @@ class ALMotion(Module):
 
     @method("moveTo::b(fff)", "moveTo::b(fffm)", "walkTo::b(fff)", "walkTo::b(fffm)")
     def move_to(self, x: float, y: float, theta: float, config: Any = ()) -> Any:
-        """Walk x m forward and y m to the left, turning theta rad; wait for the end."""
+        """Walk ``x`` m forward, ``y`` m to the left, turning ``theta`` rad; wait for the end.
+
+        ``config`` are settings of steps by name; they change nothing here.
+        """
         return self.move_along([[x, y, theta]], config)
 
     @method("moveTo::b(ffff)", "moveTo::b(ffffm)")
     def move_to_in(self, x: float, y: float, theta: float, seconds: float, config: Any = ()) -> Any:
-        """Walk a way; this robot walks at the pace that it has."""
+        """Walk by ``x``, ``y``, ``theta`` with ``config``, as ``move_to``.
+
+        This robot walks at the pace that it has, however many ``seconds`` are asked for.
+        """
         return self.move_along([[x, y, theta]], config)
 
     @method("moveTo::b(m)", "moveTo::b(mm)", "walkTo::b(m)")
@@ -235,7 +229,7 @@ class ALMotion(Module):
 
     @method("move::v(fff)", "move::v(fffm)")
     def move(self, x: float, y: float, theta: float, config: Any = ()) -> None:
-        """Walk on at speeds (m/s, m/s, rad/s) until told otherwise; nobody waits."""
+        """Walk on at ``x``, ``y`` m/s, ``theta`` rad/s; nobody waits. ``config``: as move_to."""
         _check_config(config)
         speeds = [number(speed) for speed in (x, y, theta)]
         parts = [speed / most for speed, most in zip(speeds, FASTEST, strict=True)]
@@ -243,7 +237,10 @@ class ALMotion(Module):
 
     @method("moveToward::v(fff)", "moveToward::v(fffm)")
     def move_toward(self, x: float, y: float, theta: float, config: Any = ()) -> None:
-        """Walk on at parts (-1 to 1) of the highest speeds; nobody waits."""
+        """Walk on at parts ``x``, ``y``, ``theta`` (-1 to 1) of the highest speeds, as ``move``.
+
+        ``config`` is as there.
+        """
         _check_config(config)
         self._walk_on([within(part, -1.0, 1.0, "A speed") for part in (x, y, theta)])
 
@@ -251,7 +248,10 @@ class ALMotion(Module):
     def set_walk_target_velocity(
         self, x: float, y: float, theta: float, frequency: float, config: Any = ()
     ) -> None:
-        """Walk on at parts of the highest speeds; this robot has one frequency of steps."""
+        """Walk on by ``x``, ``y``, ``theta``, ``config`` as ``move_toward``.
+
+        ``frequency`` (0 to 1) changes nothing: this robot has one frequency of steps.
+        """
         within(frequency, 0.0, 1.0, "The frequency")
         self.move_toward(x, y, theta, config)
 
@@ -340,7 +340,11 @@ class ALMotion(Module):
     def angle_interpolation(
         self, names: Any, angle_lists: Any, time_lists: Any, is_absolute: bool
     ) -> Any:
-        """Move joints through angles (rad) at times (s); wait until they are there."""
+        """Move joints through angles (rad) at times (s), a list for each of ``names``; wait for it.
+
+        ``angle_lists`` are counted from where joints are unless ``is_absolute``; ``time_lists``
+        rise.
+        """
         joints = joints_of(self._robot.robot.body, names)
         angles = lists(angle_lists, len(joints), "lists of angles")
         times = lists(time_lists, len(joints), "lists of times")
@@ -487,14 +491,21 @@ class ALMotion(Module):
     def set_position(
         self, name: str, space: int, place: list[float], fraction: float, mask: int
     ) -> None:
-        """Let an end go to a place at a part of the joints' top speed; nobody waits."""
+        """Let the end ``name`` go to a ``place`` (x, y, z m and turns rad) in a ``space``.
+
+        Nobody waits. ``space`` and ``mask`` are NAOqi's numbers: of the frame, and of what of the
+        six counts; ``fraction`` (0 to 1) is of the joints' top speeds.
+        """
         self._go(self._ends.keys(name, space, [six_numbers(place)], mask), fraction)
 
     @method("setPositions::v(mmmfm)")
     def set_positions(
         self, names: Any, spaces: Any, places: Any, fraction: float, masks: Any
     ) -> None:
-        """Let several ends go to places; nobody waits."""
+        """Let several ends go to places: ``names``, ``spaces``, ``places``, ``masks`` of each.
+
+        The ``fraction`` is for all; each is as for ``set_position``.
+        """
         ends = texts(names)
         of_each = _for_each(places, len(ends))
         where = zip(ends, _whole(spaces, ends), of_each, _whole(masks, ends), strict=True)
@@ -505,7 +516,10 @@ class ALMotion(Module):
     def change_position(
         self, name: str, space: int, change: list[float], fraction: float, mask: int
     ) -> None:
-        """Let an end go further by a way from where it is; nobody waits."""
+        """Let the end ``name`` go further by a ``change`` from where it is, as ``set_position``.
+
+        ``space``, ``fraction`` and ``mask`` are as there.
+        """
         further = self._ends.keys(name, space, [six_numbers(change)], mask, is_absolute=False)
         self._go(further, fraction)
 
@@ -517,22 +531,23 @@ class ALMotion(Module):
     def position_interpolation(
         self, name: str, space: int, path: Any, mask: int, times: Any, is_absolute: bool
     ) -> Any:
-        """Move an end by places at times (s); wait until it is there."""
+        """Move the end ``name`` by the places of a ``path`` at ``times`` (s); wait for it.
+
+        ``space`` and ``mask`` are as for ``set_position``; places are from where it is unless
+        ``is_absolute``.
+        """
         tracks = self._tracks(name, space, path, mask, times, is_absolute=is_absolute)
         return self._do("move_through", tracks=tracks)
 
-    @method("positionInterpolations::v([s]immmb)")
+    @method("positionInterpolations::v([s]immmb)", "positionInterpolations::v(mmmmm)")
     def position_interpolations(
-        self, names: list[str], space: int, paths: Any, masks: Any, times: Any, is_absolute: bool
-    ) -> Any:
-        """Move several ends by places at times; wait until they are there."""
-        return self.position_interpolations_in(names, space, paths, masks, times, is_absolute)
-
-    @method("positionInterpolations::v(mmmmm)")
-    def position_interpolations_in(
         self, names: Any, spaces: Any, paths: Any, masks: Any, times: Any, is_absolute: bool = True
     ) -> Any:
-        """Move several ends by places at times, each in a space of its own."""
+        """Move several ends by places at times: an element of each list for each of ``names``.
+
+        ``spaces``, ``paths``, ``masks``, ``times`` and ``is_absolute`` are as for
+        ``position_interpolation``; wait until they are there.
+        """
         ends, tracks = texts(names), dict[str, Any]()
         of_each, at_each = _for_each(paths, len(ends)), _for_each(times, len(ends))
         where = zip(ends, _whole(spaces, ends), of_each, _whole(masks, ends), at_each, strict=True)

@@ -117,7 +117,7 @@ class ALSpeechRecognition(PausableExtractor):
     """Listens while somebody has subscribed; what it is told to hear is recognized."""
 
     events = ("WordRecognized", "LastWordRecognized", "SpeechDetected")
-    set_audio, audio = kept("setAudioExpression::v(b)", "getAudioExpression::b()", True)
+    audio = kept("getAudioExpression::b()", True)
 
     def __init__(self, robot: ServedRobot) -> None:
         super().__init__(robot)
@@ -198,10 +198,8 @@ class ALFaceDetection(PausableExtractor):
     """Sees faces, and names those of people that it was told."""
 
     events = ("FaceDetected",)
-    set_recognition, recognition = kept(
-        "setRecognitionEnabled::v(b)", "isRecognitionEnabled::b()", True
-    )
-    set_tracking, tracking = kept("setTrackingEnabled::v(b)", "isTrackingEnabled::b()", False)
+    recognition = kept("isRecognitionEnabled::b()", True)
+    tracking = kept("isTrackingEnabled::b()", False)
 
     learn_face = method("learnFace::b(s)", "reLearnFace::b(s)")(
         lambda self, name: self._do("learn_face", True, name=name)

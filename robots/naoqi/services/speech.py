@@ -215,7 +215,7 @@ class ALTextToSpeech(Module):
 def say_words(
     begin: Begin, words: Words, *, gesture: str = "no_gesture", language: str = ""
 ) -> Asked:
-    """Let the robot say words."""
+    """Let the robot say ``words`` with a ``gesture``; ``begin`` asks, "" is the usual language."""
     voice = words.voice
     return begin(
         "say",

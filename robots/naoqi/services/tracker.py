@@ -30,18 +30,14 @@ ARMS = {"LArm": "left", "RArm": "right", "Arms": ""}
 class ALTracker(Module):
     """Follows with the head, or with the whole body, what the robot sees."""
 
-    set_mode, mode = kept("setMode::v(s)", "getMode::s()", "Head", MODES)
-    set_timeout, timeout = kept("setTimeOut::v(i)", "getTimeOut::i()", 500)
-    set_distance, distance = kept(
-        "setMaximumDistanceDetection::v(f)", "getMaximumDistanceDetection::f()", 3.5
-    )
-    set_effector, effector = kept(
-        "setEffector::v(s)", "getEffector::s()", "None", ("None", "Arms", "LArm", "RArm")
-    )
-    set_search, search = kept("toggleSearch::v(b)", "isSearchEnabled::b()", False)
-    set_velocity, velocity = kept("setMaximumVelocity::v(f)", "getMaximumVelocity::f()", 0.5)
-    set_relative, relative = kept("setRelativePosition::v(m)", "getRelativePosition::m()", [])
-    set_move, move = kept("setMoveConfig::v(m)", "getMoveConfig::m()", [])
+    mode = kept("getMode::s()", "Head", MODES)
+    timeout = kept("getTimeOut::i()", 500)
+    distance = kept("getMaximumDistanceDetection::f()", 3.5)
+    effector = kept("getEffector::s()", "None", ("None", "Arms", "LArm", "RArm"))
+    search = kept("isSearchEnabled::b()", False, setter="toggleSearch::v(b)")
+    velocity = kept("getMaximumVelocity::f()", 0.5)
+    relative = kept("getRelativePosition::m()", [])
+    move = kept("getMoveConfig::m()", [])
 
     def __init__(self, robot: ServedRobot) -> None:
         super().__init__(robot)
@@ -114,7 +110,10 @@ class ALTracker(Module):
 
     @method("lookAt::v([f]ifb)")
     def look_at(self, place: list[float], frame: int, fraction: float, use_body: bool) -> Any:
-        """Turn the head to a place, m, in a frame; wait until it is done."""
+        """Turn the head to a ``place``, x, y, z m in a ``frame`` (0 torso, 1 world, 2 robot).
+
+        The ``fraction`` of the speed and ``use_body`` change nothing; wait until it is done.
+        """
         within(fraction, 0.0, 1.0, "The fraction of the top speed")
         x, y, z = _coordinates(place)
         return self._do("look_at", x_m=x, y_m=y, z_m=z, frame=_frame(frame))
@@ -126,7 +125,10 @@ class ALTracker(Module):
 
     @method("pointAt::v(s[f]if)")
     def point_at(self, effector: str, place: list[float], frame: int, fraction: float) -> Any:
-        """Point at a place, m, in a frame; wait until it is done."""
+        """Point with ``effector`` (LArm, RArm, Arms) at a ``place`` in a ``frame``, as ``look_at``.
+
+        The ``fraction`` of the speed changes nothing; wait until it is done.
+        """
         within(fraction, 0.0, 1.0, "The fraction of the top speed")
         arm = ARMS[one_of(effector, ARMS, "There is no arm “{effector}”. Possible: {arms}.")]
         x, y, z = _coordinates(place)

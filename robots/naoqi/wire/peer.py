@@ -85,13 +85,7 @@ class Peer:
         return threading.get_ident() == self._reader
 
     def begin(
-        self,
-        service: int,
-        thing: int,
-        action: int,
-        payload: bytes,
-        read: Read,
-        flags: int = 0,
+        self, service: int, thing: int, action: int, payload: bytes, read: Read, flags: int = 0
     ) -> Pending:
         """Call the other side. Raises ConnectionLost.
 
@@ -219,6 +213,22 @@ class Peer:
         """Send an answer, if there is still somebody to have it."""
         with contextlib.suppress(ConnectionLost):
             self.send(frame)
+
+    def answer_later(self, frame: Frame, pending: Pending, answer: Callable[[Any], None]) -> None:
+        """Call ``answer`` with the result of a call when it is there; say why if there is none."""
+        self.running[frame.number] = pending
+
+        def end(done: Pending) -> None:
+            self.running.pop(frame.number, None)
+            if isinstance(done.failure, CallCancelled):
+                if frame.kind == Kind.CALL:
+                    self.answer(frame.answer(Kind.CANCELLED))
+            elif done.failure is not None:
+                self.answer_error(frame, done.failure.sentence)
+            else:
+                answer(done.value)
+
+        pending.when_done(end)
 
     def _take_answer(self, frame: Frame) -> None:
         with self._lock:

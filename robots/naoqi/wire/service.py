@@ -26,7 +26,6 @@ from typing import TYPE_CHECKING, Any, TypeVar
 from .codec import Reader, encode, read_value, reader_of
 from .errors import (
     BadFrame,
-    CallCancelled,
     ConnectionLost,
     NaoqiError,
     NoSuchMethod,
@@ -71,16 +70,12 @@ class Mark:
     kind: str = "method"
 
 
-def method(
-    *signatures: str, uid: int = 0, description: str = "", blocks: bool = False
-) -> Callable[[Method], Method]:
+def method(*signatures: str, uid: int = 0, blocks: bool = False) -> Callable[[Method], Method]:
     """Offer a method under these signatures, such as ``goToPosture::b(sf)``.
 
-    ``uid`` is its number, where a robot has one for it; ``description`` is for people;
-    ``blocks``: it may wait, and gets a thread.
+    ``uid`` is its number, where a robot has one for it; ``blocks``: it may wait, and gets a thread.
     """
-    parsed = [Signature.parse(one, uid=uid, description=description) for one in signatures]
-    marks = tuple(Mark(one, blocks) for one in parsed)
+    marks = tuple(Mark(Signature.parse(one, uid=uid), blocks) for one in signatures)
 
     def note(function: Method) -> Method:
         setattr(function, MARK, (*getattr(function, MARK, ()), *marks))
@@ -401,19 +396,11 @@ class Bound:
         if not isinstance(pending, Pending):
             self._answer(frame, peer, signature, result, wanted)
             return
-        peer.running[frame.number] = pending
 
-        def answer(done: Pending) -> None:
-            peer.running.pop(frame.number, None)
-            if isinstance(done.failure, CallCancelled):
-                if frame.kind == Kind.CALL:
-                    peer.answer(frame.answer(Kind.CANCELLED))
-            elif done.failure is not None:
-                peer.answer_error(frame, done.failure.sentence)
-            else:
-                self._answer(frame, peer, signature, done.value, wanted)
+        def answer(value: Any) -> None:
+            self._answer(frame, peer, signature, value, wanted)
 
-        pending.when_done(answer)
+        peer.answer_later(frame, pending, answer)
 
     def _answer(
         self, frame: Frame, peer: Peer, signature: Signature, result: Any, wanted: str

@@ -6,9 +6,8 @@ from pathlib import Path
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from nao_stage import ANIMATIONS, BODY
+from nao_stage import BODY
 
-from robots.body.animations import Animation, load_animation, write_animation
 from robots.body.choregraphe import KeyframesUnreadable, read_choregraphe
 from robots.body.keyframes import Keyframes, Track
 
@@ -221,42 +220,3 @@ def exported(keyframes: Keyframes) -> str:
 @given(movements.map(Keyframes))
 def test_what_choregraphe_exports_is_read_as_it_was(keyframes: Keyframes) -> None:
     assert read_choregraphe(exported(keyframes)) == keyframes
-
-
-@given(
-    movements,
-    st.text(st.characters(codec="utf-8"), max_size=20),
-    st.sampled_from([*BODY.postures]),
-)
-def test_a_written_animation_is_read_back_as_it_was(
-    tmp_path_factory: pytest.TempPathFactory,
-    movement: dict[str, Track],
-    words: str,
-    posture: str,
-) -> None:
-    animation = Animation(
-        name="mine",
-        title="Mine" + words,
-        description=words,
-        kind="gesture",
-        starts_from=posture,
-        says=words,
-        keyframes=Keyframes(movement),
-        joint_limbs=BODY.limbs_of(movement),
-    )
-    path = tmp_path_factory.mktemp("written") / "mine.toml"
-
-    path.write_text(write_animation(animation), encoding="utf-8")
-
-    assert load_animation(path, BODY) == animation
-
-
-@pytest.mark.parametrize("name", ANIMATIONS.names())
-def test_every_animation_that_comes_with_the_robot_can_be_written(
-    name: str, tmp_path: Path
-) -> None:
-    path = tmp_path / f"{name}.toml"
-
-    path.write_text(write_animation(ANIMATIONS.get(name)), encoding="utf-8")
-
-    assert load_animation(path, BODY).limbs == ANIMATIONS.get(name).limbs

@@ -78,7 +78,7 @@ def test_every_animation_of_the_table_is_one_of_ours() -> None:
 def test_the_table_names_only_animations_that_there_are() -> None:
     names = load_animation_names(NAO)
 
-    assert set(names.targets) - set(ANIMATIONS.names()) == set()
+    assert set(names.animations.values()) - set(ANIMATIONS.names()) == set()
 
 
 def test_a_folder_without_a_table_knows_its_own_animations(tmp_path) -> None:
