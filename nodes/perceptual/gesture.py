@@ -173,10 +173,13 @@ class _Ears:
         except RecordingError as error:
             node.warn(error.fault)
             return None
-        told = "listens to {source}"
-        if batch.gyr is None:
-            told = "listens to {source}, which sends no rotation"
-        node.state("running", told, source=source)
+        node.state(
+            "running",
+            "listens to {source}"
+            if batch.gyr is not None
+            else "listens to {source}, which sends no rotation",
+            source=source,
+        )
         return ear
 
     def _remark(self, sentence: Text) -> None:

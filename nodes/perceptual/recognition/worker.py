@@ -73,7 +73,7 @@ def main(arguments: list[str]) -> int:
     for parent in arguments[:1]:
         threading.Thread(target=_watch_parent, args=(int(parent),), daemon=True).start()
     try:
-        importlib.import_module("sklearn.ensemble")  # now: that takes as long as a training
+        _train_without_delay()
     except ImportError as error:
         told.fault(
             fault_of(
@@ -91,6 +91,11 @@ def main(arguments: list[str]) -> int:
     everybodys_movement()
     while True:
         _do(orders.get(), told)
+
+
+def _train_without_delay() -> None:
+    """Import the library of learning now: that takes as long as a training."""
+    importlib.import_module("sklearn.ensemble")
 
 
 def _do(line: bytes, told: _JsonLines) -> None:
