@@ -125,7 +125,7 @@ def _do(words: list[str]) -> int:
     if has_display:
         return _load(WINDOW)(words)
     files = [word for word in words if _is_project(word)]
-    example = files[0] if files else _example(paths.examples())
+    example = files[0] if files else f"{paths.examples()}/karate_greeting.nep"
     print(NO_WINDOW.format(example=example) + USAGE, file=sys.stderr)
     return UNUSABLE
 
@@ -155,10 +155,6 @@ def _tell(error: OSError) -> int:
     sentence = f"The computer says: {error.strerror or error}{where}."
     print(Problem("A file could not be read or written", sentence, checklist), file=sys.stderr)
     return FAILED
-
-
-def _example(folder: object) -> str:
-    return f"{folder}/karate_greeting.nep"
 
 
 def _load(place: str) -> Callable[[list[str]], int]:

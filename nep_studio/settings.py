@@ -130,6 +130,7 @@ class Settings(SettingsFile):
     """The types of blocks that were used last, the newest first."""
     recent_commands = Kept[list[str]]("commands/recent", [])
     """What was done with the command palette last, by the ids of the commands."""
+    _recent = Kept[list[str]]("files/recent", [])
     tour_done = Kept("help/tour", False)
     """Whether a person has taken the tour, or wants none: then it is not offered."""
     has_sound = Kept("robots/sound", True)
@@ -138,6 +139,10 @@ class Settings(SettingsFile):
     """Whether programs of the original NEP may join the studio's network."""
     kept_open_at = Kept("network/open_at", "")
     """The address at which the network is opened at each start; "" when it is not."""
+
+    _show_at_once = Kept("show/at_once", False)
+    _show_again = Kept("show/again", False)
+    _show_cues = Kept("show/cues", False)
 
     def __init__(self, folder: Path | None = None) -> None:
         self.folder = folder or user_folder()
@@ -159,18 +164,12 @@ class Settings(SettingsFile):
     @property
     def recent_files(self) -> list[Path]:
         """The projects that were opened or saved last, the newest first."""
-        stored = self.values.value("files/recent", [])
-        names = [stored] if isinstance(stored, str) else stored
-        if not isinstance(names, list):
-            return []
-        return [path_of(name) for name in names if isinstance(name, str) and name][:MOST_RECENT]
+        return [path_of(name) for name in self._recent][:MOST_RECENT]
 
     def add_recent(self, path: Path) -> None:
         """Put a project first in the list."""
-        self._set_recent([path, *(one for one in self.recent_files if one != path)])
-
-    def _set_recent(self, paths: Iterable[Path]) -> None:
-        self.values.setValue("files/recent", [kept_name(path) for path in paths][:MOST_RECENT])
+        paths = [path, *(one for one in self.recent_files if one != path)][:MOST_RECENT]
+        self._recent = [kept_name(one) for one in paths]
 
     @property
     def last_folder(self) -> Path:
@@ -194,19 +193,17 @@ class Settings(SettingsFile):
     @property
     def show_options(self) -> ShowOptions:
         """How show mode goes."""
-        usual = ShowOptions()
         return ShowOptions(
-            self._text("show/at_once", "no") == "yes",
-            self._text("show/again", "no") == "yes",
-            self._text("show/cues", "no") == "yes",
-            self._number("show/restarts", usual.restarts, 0, MOST_RESTARTS),
+            self._show_at_once,
+            self._show_again,
+            self._show_cues,
+            self._number("show/restarts", ShowOptions.restarts, 0, MOST_RESTARTS),
         )
 
     @show_options.setter
     def show_options(self, options: ShowOptions) -> None:
-        self.values.setValue("show/at_once", "yes" if options.runs_at_once else "no")
-        self.values.setValue("show/again", "yes" if options.again else "no")
-        self.values.setValue("show/cues", "yes" if options.has_cues else "no")
+        self._show_at_once, self._show_again = options.runs_at_once, options.again
+        self._show_cues = options.has_cues
         self.values.setValue("show/restarts", str(options.restarts))
 
     @property

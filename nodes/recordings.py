@@ -68,10 +68,8 @@ def find_columns(header: list[str]) -> Columns | None:
 
 def guess_time_unit_s(step: float) -> float:
     """The unit of time stamps that are ``step`` apart, for sensors of about 1 to 1,000 Hz."""
-    for limit, unit in ((0.9, "s"), (900.0, "ms"), (9e5, "us")):
-        if step < limit:
-            return _TIME_UNITS_S[unit]
-    return _TIME_UNITS_S["ns"]
+    limits = ((0.9, 1.0), (900.0, 1e-3), (9e5, 1e-6))
+    return next((unit_s for limit, unit_s in limits if step < limit), 1e-9)
 
 
 def _plain(name: str) -> str:
@@ -182,9 +180,7 @@ class _Rows:
 
     def __init__(self, path: Path, columns: Columns, separator: str) -> None:
         self.gestures: list[str] = []
-        self._path = path
-        self._columns = columns
-        self._separator = separator
+        self._path, self._columns, self._separator = path, columns, separator
         self._numbers = array("d")
         self._line_numbers = array("q")
 
@@ -309,11 +305,10 @@ def _shown(text: str) -> str:
 
 
 def _is_number(text: str) -> bool:
-    try:
+    with contextlib.suppress(ValueError):
         float(text)
-    except ValueError:
-        return False
-    return True
+        return True
+    return False
 
 
 def _too_long(path: Path, samples: Words) -> RecordingError:
@@ -469,10 +464,10 @@ def _unreadable(path: Path, error: OSError) -> RecordingError:
 
 def _recording(stem: str, table: Table) -> Recording:
     person, gesture = _who_and_what(stem)
-    acc = table.numbers[:, 1:4]
+    times, acc = table.numbers[:, 0], table.numbers[:, 1:4]
     return Recording(
         source=stem,
-        t=_seconds(table.numbers[:, 0], table.columns),
+        t=(times - times[0]) * table.columns.unit_of(np.diff(times)),
         acc=acc,
         gyr=table.numbers[:, 4:7] if table.columns.gyr else None,
         labels=_labels(table.gestures, gesture),
@@ -480,21 +475,12 @@ def _recording(stem: str, table: Table) -> Recording:
         person=table.about.get("person", person if table.gestures else ""),
         simulated=table.about.get("simulated") == "yes",
         wrist=_wrist(table.about.get("wrist", "")),
-        device=_printable(table.about.get("device", "")),
+        device="".join(filter(str.isprintable, table.about.get("device", "")))[:_LONGEST_DEVICE],
     )
-
-
-def _printable(text: str) -> str:
-    return "".join(one for one in text if one.isprintable())[:_LONGEST_DEVICE]
 
 
 def _wrist(told: str) -> Wrist:
     return told if told in get_args(Wrist) else ""  # type: ignore[return-value] # in says so
-
-
-def _seconds(times: Floats, columns: Columns) -> Floats:
-    seconds: Floats = (times - times[0]) * columns.unit_of(np.diff(times))
-    return seconds
 
 
 def _feels_gravity(acc: Floats, table: Table) -> bool:

@@ -9,6 +9,7 @@ import statistics
 import sys
 import time
 from collections.abc import Iterator
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 from unittest import mock
@@ -157,7 +158,7 @@ def _shipped_takes(frozen: Program, folder: Path) -> Path:
     example = frozen.folder / "resources" / "examples" / "own_gestures.nep"
     files = take_files(load(example, studio_language()))
     assert files is not None
-    files = files.moved(folder / "takes")
+    files = replace(files, folder=folder / "takes")
     files.write()
     return files.folder
 

@@ -21,10 +21,9 @@ from nep_core.processes.launcher import Launcher
 from nep_core.processes.manifest import Value
 from nep_core.processes.node import STOP_SIGNALS, check_node_name
 from nep_core.processes.process import ON_WINDOWS
-from nep_studio.commands.project import explain
 from nep_studio.run.local_network import start_master
 
-from .project import speed
+from .project import explain, speed
 
 FAILED = 1
 PORT = 9559

@@ -30,6 +30,12 @@ def read_project(file: str) -> tuple[Project, Language]:
     return load(Path(file), language), language
 
 
+def _parser(job: str, description: str) -> argparse.ArgumentParser:
+    parser = argparse.ArgumentParser(prog=f"nep-studio {job}", description=description)
+    parser.add_argument("file", metavar="FILE.nep")
+    return parser
+
+
 def print_utf8(text: str) -> None:
     """Print what another program reads: in UTF-8, whatever this terminal writes."""
     sys.stdout.flush()
@@ -47,10 +53,7 @@ SIGNS = {"error": "Error", "warning": "Warning", "info": "Note"}
 
 def check(arguments: list[str]) -> int:
     """Print the problems; 0 when none keeps the program from running, 1 when one does."""
-    parser = argparse.ArgumentParser(
-        prog="nep-studio check", description="Say in plain words what is not right in a project."
-    )
-    parser.add_argument("file", metavar="FILE.nep")
+    parser = _parser("check", "Say in plain words what is not right in a project.")
     options = parser.parse_args(arguments)
     try:
         project, language = read_project(options.file)
@@ -80,13 +83,9 @@ def describe(problem: Diagnostic, project: Project, language: Language) -> str:
 
 def code(arguments: list[str]) -> int:
     """Print the code; 2 when the project cannot be used."""
-    parser = argparse.ArgumentParser(
-        prog="nep-studio code", description="Print the Python that a project's blocks make."
-    )
-    parser.add_argument("file", metavar="FILE.nep")
-    parser.add_argument(
-        "--nodes", action="store_true", help="print what the Robots and Nodes pages start"
-    )
+    parser = _parser("code", "Print the Python that a project's blocks make.")
+    told = "print what the Robots and Nodes pages start"
+    parser.add_argument("--nodes", action="store_true", help=told)
     options = parser.parse_args(arguments)
     try:
         project, language = read_project(options.file)

@@ -125,7 +125,7 @@ class _Play:
         self._controller = RunController(
             self._network, lambda: subject, self._turns.put, self._on_event, is_traced=False
         )
-        self._exit_code: int | None = None
+        self._exit_code = 0
         self._problem: Problem | None = None
 
     def play(self) -> int:
@@ -134,7 +134,7 @@ class _Play:
             signal.signal(number, lambda *_: self._turns.put(self._controller.stop))
         try:
             self._controller.run()
-            while self._exit_code is None:
+            while self._controller.state != "idle":
                 if self._controller.state in PREPARING:
                     self._controller.work(LOOK_S)
                 with contextlib.suppress(queue.Empty):

@@ -100,18 +100,16 @@ class Index:
         return score * named * findable.rank
 
     def _note(self, word: str, page: str, weight: float) -> None:
-        pages = self._by_word.get(word)
-        if pages is None:
-            pages = self._by_word[word] = {}
+        if word not in self._by_word:
             insort(self._sorted, word)
+        pages = self._by_word[word]
         # a word that comes often counts little more than one that comes once
         pages[page] = max(pages.get(page, 0.0), weight) + 0.05 * weight
 
     def _pages_with(self, word: str) -> dict[str, float]:
         """The pages that have a word, or words that it may stand for."""
         found: dict[str, float] = {}
-        alike = self._alike(word)
-        for known, likeness in alike.items():
+        for known, likeness in self._alike(word).items():
             for page, weight in self._by_word[known].items():
                 found[page] = max(found.get(page, 0.0), weight * likeness)
         return found

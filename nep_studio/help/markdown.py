@@ -117,12 +117,12 @@ def _item(words: str, document: Document) -> str:
 
 
 def _table(lines: list[str], document: Document) -> str:
-    rows = [[cell.strip() for cell in line.strip("|").split("|")] for line in lines]
-    head, body = rows[0], rows[2:]
-    made = "".join(f"<th>{inline(cell, document)}</th>" for cell in head)
-    told = [f"<tr>{made}</tr>"]
-    for row in body:
-        told.append("<tr>" + "".join(f"<td>{inline(c, document)}</td>" for c in row) + "</tr>")
+    told = []
+    for number, line in enumerate(lines):
+        kind = "td" if number else "th"
+        cells = (inline(cell.strip(), document) for cell in line.strip("|").split("|"))
+        if number != 1:  # the line between head and body
+            told.append("<tr>" + "".join(f"<{kind}>{cell}</{kind}>" for cell in cells) + "</tr>")
     return f'<table class="table" cellspacing="0">{"".join(told)}</table>'
 
 

@@ -11,14 +11,11 @@ from functools import cache
 from pathlib import Path
 from typing import Any
 
+import msgspec
+
 from nep_studio import paths
 from nep_studio.blocks.definitions import Definition
-from nep_studio.blocks.deployment import (
-    NODE_BLOCK,
-    names_used,
-    node_entries,
-    robot_entries,
-)
+from nep_studio.blocks.deployment import NODE_BLOCK, names_used, node_entries, robot_entries
 from nep_studio.blocks.editor import Editor
 from nep_studio.blocks.edits.content import AddGroup, AddProcedure, SetField
 from nep_studio.blocks.edits.placing import DeleteBlocks
@@ -61,9 +58,6 @@ class NotationError(ValueError):
 
 class Quoted(str):
     """A text for people."""
-
-
-Value = "str | int | float | bool | Sketch"
 
 
 @dataclass
@@ -241,11 +235,10 @@ def _make(editor: Editor, sketch: Sketch, place: Place, translate: Translate) ->
 
 
 def _first_mouth(definition: Definition) -> str:
-    mouths = (slot for slot in definition.slots.values() if slot.kind.name == "body")
-    slot = next(mouths, None)
-    if slot is None:
-        raise NotationError(f"{definition.id} has no mouth")
-    return f"{slot.name}.1" if slot.group else slot.name
+    for slot in definition.slots.values():
+        if slot.kind.name == "body":
+            return f"{slot.name}.1" if slot.group else slot.name
+    raise NotationError(f"{definition.id} has no mouth")
 
 
 def _add_groups(editor: Editor, definition: Definition, block: str, keys: Iterable[str]) -> None:
@@ -353,7 +346,8 @@ def block_texts(code: str) -> Mapping[str, BlockText]:
     """What is written about each block, by its id; a text that is not translated is English."""
     english = _tables("blocks", ENGLISH)
     own = {} if code == ENGLISH else _tables("blocks", code)
-    return {block: _block_text({**told, **own.get(block, {})}) for block, told in english.items()}
+    texts = {block: {**told, **own.get(block, {})} for block, told in english.items()}
+    return msgspec.convert(texts, dict[str, BlockText])
 
 
 @cache
@@ -390,16 +384,6 @@ def page_texts(code: str) -> Mapping[str, str]:
     return {name: path.read_text(encoding="utf-8") for name, path in found if path is not None}
 
 
-def _block_text(told: Mapping[str, Any]) -> BlockText:
-    return BlockText(
-        told.get("about", ""),
-        told.get("tip", ""),
-        told.get("words", ""),
-        tuple(told.get("see", ())),
-        told.get("slots", {}),
-    )
-
-
 def _merged(stem: str, code: str) -> Mapping[str, str]:
     english: dict[str, Any] = dict(_tables(stem))
     return english if code == ENGLISH else {**english, **_tables(stem, code)}
@@ -408,15 +392,10 @@ def _merged(stem: str, code: str) -> Mapping[str, str]:
 def _tables(stem: str, code: str = ENGLISH) -> dict[str, Any]:
     """Everything in the files ``<stem>.toml`` and ``<stem>_*.toml`` of a language."""
     tables: dict[str, Any] = {}
-    for path in _files(stem, code):
+    folder = help_folder() / code
+    for path in [*folder.glob(f"{stem}.toml"), *sorted(folder.glob(f"{stem}_*.toml"))]:
         tables |= _read(path)
     return tables
-
-
-def _files(stem: str, code: str) -> Iterator[Path]:
-    folder = help_folder() / code
-    yield from sorted(folder.glob(f"{stem}.toml"))
-    yield from sorted(folder.glob(f"{stem}_*.toml"))
 
 
 def _read(path: Path) -> dict[str, Any]:
@@ -456,17 +435,15 @@ class Example:
 
     def _project(self, language: Language, code: str, title: str = "Blocks") -> Project:
         texts = translated_texts(code)
-        written = read(self.program)
-        return project_of(written, language, title, lambda text: texts.get(text, text))
+        return project_of(read(self.program), language, title, lambda text: texts.get(text, text))
 
 
 @cache
 def examples() -> Mapping[str, Example]:
     """All examples by their names."""
-    text = (paths.resources() / "help" / "examples.toml").read_text(encoding="utf-8")
     return {
         name: Example(name, tuple(told["blocks"]), told["program"])
-        for name, told in tomllib.loads(text).items()
+        for name, told in _read(help_folder() / "examples.toml").items()
     }
 
 

@@ -12,7 +12,7 @@ from base64 import b64decode
 from bisect import bisect_left
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import suppress
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from pathlib import Path
 
 import msgspec
@@ -56,10 +56,6 @@ class RecogniserFile:
         """The model."""
         return self.folder / "recogniser.gestures"
 
-    def moved(self, folder: Path) -> RecogniserFile:
-        """The same in another folder."""
-        return replace(self, folder=folder)
-
     def write(self) -> None:
         """Write it if it is not there. Raises OSError."""
         if self.path.is_file():
@@ -82,10 +78,6 @@ class TakeFiles:
     folder: Path
     gestures: Gestures
     recordings: Mapping[str, OwnRecording]
-
-    def moved(self, folder: Path) -> TakeFiles:
-        """The same in another folder."""
-        return replace(self, folder=folder)
 
     def write(self) -> None:
         """Write them if they are not there. Raises OSError."""
@@ -223,10 +215,6 @@ class AnimationFiles:
     folder: Path
     texts: Mapping[str, str] = field(default_factory=dict)
 
-    def moved(self, folder: Path) -> AnimationFiles:
-        """The same in another folder."""
-        return replace(self, folder=folder)
-
     def write(self) -> None:
         """Write those files that are not there. Raises OSError."""
         self.folder.mkdir(parents=True, exist_ok=True)
@@ -261,12 +249,7 @@ def to_toml(animation: OwnAnimation) -> str:
 
 def _joint(name: str, joint: JointKeys) -> str:
     bare = name if name.isascii() and name.isidentifier() else _text(name)
-    lines = [
-        "",
-        f"[joints.{bare}]",
-        f"times = {_row(joint.times)}",
-        f"keys = {_row(joint.keys)}",
-    ]
+    lines = ["", f"[joints.{bare}]", f"times = {_row(joint.times)}", f"keys = {_row(joint.keys)}"]
     if joint.handles is not None:
         lines.append(f"handles = [{', '.join(map(_row, joint.handles))}]")
     return "\n".join([*lines, ""])

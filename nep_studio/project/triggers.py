@@ -18,23 +18,9 @@ from nep_studio.blocks.slots import GESTURE_STATE, why_not_line
 from nep_studio.blocks.text import field_text
 
 Kind = Literal[
-    "word",
-    "face",
-    "distance",
-    "touch",
-    "gesture",
-    "ball",
-    "mark",
-    "sound",
-    "emotion",
-    "state",
-    "sensor",
-    "joint",
-    "posture",
-    "doing",
-    "idle",
-]
-
+    "word", "face", "distance", "touch", "gesture", "ball", "mark", "sound", "emotion", "state",
+    "sensor", "joint", "posture", "doing", "idle",
+]  # fmt: skip
 
 REMEMBER = "sensing.remember"
 """The block that names a state without waiting for it."""
@@ -117,8 +103,8 @@ def _told_by(state: str, language: Language) -> Occurrence:
         value = state.removeprefix(beginning)
         if state.startswith(beginning) and value in language.choices.get(table, {}):
             return Occurrence(kind, value, language.choices[table][value])
-    for thing, kind in _THINGS.items():
-        beginning = state_of_thing(thing)
+    for kind in _THINGS:
+        beginning = state_of_thing(kind)
         if state == beginning or state.startswith(f"{beginning}_"):
             name = state.removeprefix(beginning).strip("_").replace("_", " ")
             return Occurrence(kind, name, name)
@@ -146,8 +132,7 @@ def state_of(occurrence: Occurrence) -> str:
     return value or "touched_head"
 
 
-_THINGS: dict[str, Kind] = {"face": "face", "ball": "ball", "mark": "mark", "sound": "sound"}
-
+_THINGS: tuple[Kind, ...] = ("face", "ball", "mark", "sound")
 _STATES: tuple[tuple[str, Kind, str], ...] = (
     ("touched_", "touch", "touch_parts"),
     ("emotion_", "emotion", "emotions"),
@@ -193,7 +178,8 @@ class _Asked:
             yield Occurrence("word", word, word, state=state_of_word(word))
 
     def thing(self) -> Occurrence:
-        return self.of(_THINGS.get(self.value("thing"), "face"))
+        thing = self.value("thing")
+        return self.of(next((kind for kind in _THINGS if kind == thing), "face"))
 
     def sensor(self) -> Occurrence:
         """One that it waits for is a little past what is asked."""
@@ -207,9 +193,6 @@ class _Asked:
     def current(self) -> Occurrence:
         joint, name = self.value("joint"), self.label("joint")
         return replace(self.of("sensor"), value=f"current_{joint}", words=name)
-
-    def idle(self) -> Occurrence:
-        return Occurrence("idle", amount=self.number("seconds"))
 
     def _keys(self) -> dict[str, Slot]:
         return dict(self.definition.keys(self.block.groups))
@@ -241,7 +224,7 @@ _BY_BLOCK: dict[str, Callable[[_Asked], Occurrence]] = {
     "is_in": lambda asked: asked.of("posture", "posture"),
     "when_emotion": lambda asked: asked.of("emotion", "emotion"),
     "emotion": lambda asked: asked.of("emotion", "emotion"),
-    "when_idle": _Asked.idle,
+    "when_idle": lambda asked: Occurrence("idle", amount=asked.number("seconds")),
     "human_state": lambda asked: Occurrence("state"),
     "heard_word": lambda asked: Occurrence("word"),
 }

@@ -14,6 +14,7 @@ import tempfile
 import threading
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
+from functools import partial
 from pathlib import Path
 from typing import Literal
 
@@ -280,10 +281,8 @@ class RunController:
         watching = self._watching() if self._is_traced else None
         self._session = Session(request.nodes, self._network, watching=watching)
         self._set_state("starting")
-        args = (self._session, request.code)
-        self._thread = threading.Thread(
-            target=self._play, args=args, name="nep-studio-run", daemon=True
-        )
+        play = partial(self._play, self._session, request.code)
+        self._thread = threading.Thread(target=play, name="nep-studio-run", daemon=True)
         self._thread.start()
 
     def _play(self, session: Session, code: Code) -> None:
@@ -349,19 +348,19 @@ class RunController:
     def pause(self) -> None:
         """Let the program pause at its next lines."""
         if self._session is not None and self.state == "running":
-            self._session.pause()
+            self._session.order("pause")
             self._set_state("paused")  # parts that are waiting only tell when they go on
 
     def resume(self) -> None:
         """Let a paused program go on."""
         if self._session is not None and self.state == "paused":
-            self._session.resume()
+            self._session.order("resume")
             self._set_state("running")
 
     def step(self, thread: str = "") -> None:
         """Let a paused program run one line more."""
         if self._session is not None and self.state == "paused":
-            self._session.step(thread)
+            self._session.order("step", thread)
 
     def watch(self, breakpoints: frozenset[str], line_s: float) -> None:
         """Pause at these blocks, and stay so long at each, from now on."""

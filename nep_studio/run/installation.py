@@ -56,23 +56,7 @@ def problem_steps(
     found = [
         *(yield from check_steps(project, language, known.chains)),
         *known.of_nodes(nodes, known.gestures, folder),
-        *(
-            (
-                Diagnostic(
-                    "error",
-                    "robot_address",
-                    "robots",
-                    entry.block_id,
-                    text_of("Where is {name}? A real robot needs its address.", name=entry.name),
-                    (
-                        "Press the robot's chest button once: it says its address. Write it here.",
-                        "Or choose the robot on this screen.",
-                    ),
-                )
-            )
-            for entry in robots
-            if entry.driver == "naoqi" and not entry.address.strip()
-        ),
+        *(_homeless(one) for one in robots if one.driver == "naoqi" and not one.address.strip()),
         *(_reserved("nodes", entry) for entry in nodes if entry.name in RESERVED_NAMES),
         *(_reserved("robots", entry) for entry in robots if entry.name in RESERVED_NAMES),
     ]
@@ -125,8 +109,14 @@ def _node(
         yield _wrong(entry, error.sentence, error.checklist)
         return
     for name, value in settings.items():
-        if manifest.parameters[name].type == "file" and isinstance(value, str) and value:
-            yield from _file(entry, name, value, folder)
+        if manifest.parameters[name].type != "file" or not isinstance(value, str) or not value:
+            continue
+        if not (folder / value).exists() and not Path(value).exists():
+            yield _wrong(
+                entry,
+                text_of("There is no file {value} ({name}).", value=value, name=name),
+                ("Put it beside the project.", "Or correct its name."),
+            )
     if manifest.id != GESTURE_NODE or entry.parameters.get("model"):
         return
     for gesture in named_gestures(entry.parameters):
@@ -141,20 +131,20 @@ def _node(
             )
 
 
-def _file(entry: NodeEntry, name: str, value: str, folder: Path) -> Iterator[Diagnostic]:
-    if not (folder / value).exists() and not Path(value).exists():
-        yield _wrong(
-            entry,
-            text_of("There is no file {value} ({name}).", value=value, name=name),
-            ("Put it beside the project.", "Or correct its name."),
-        )
-
-
 def _wrong(entry: NodeEntry, sentence: Text, checklist: tuple[Words, ...]) -> Diagnostic:
     words = text_of(
         "The node “{name}” cannot start. {sentence}", name=entry.name, sentence=sentence
     )
     return Diagnostic("error", "node_settings", "nodes", entry.block_id, words, checklist)
+
+
+def _homeless(entry: RobotEntry) -> Diagnostic:
+    sentence = text_of("Where is {name}? A real robot needs its address.", name=entry.name)
+    checklist = (
+        "Press the robot's chest button once: it says its address. Write it here.",
+        "Or choose the robot on this screen.",
+    )
+    return Diagnostic("error", "robot_address", "robots", entry.block_id, sentence, checklist)
 
 
 def _reserved(page: str, entry: RobotEntry | NodeEntry) -> Diagnostic:
@@ -197,7 +187,7 @@ def load_language(
 def shipped_gestures() -> dict[str, str]:
     """The gestures of the shipped model: name to label."""
     path = paths.resources() / "gestures" / "paper.toml"
-    gestures: dict[str, str] = tomllib.loads(path.read_text(encoding="utf-8"))["gestures"]
+    gestures: dict[str, str] = read_toml(path)["gestures"]
     return gestures
 
 

@@ -143,13 +143,7 @@ class Voice:
 STUDIO = "studio"
 LOOK_S = 0.02
 
-HEARD = (
-    m.NODE_STATE,
-    m.HUMAN_BEHAVIOR,
-    m.ACTION_REQUEST,
-    m.ACTION_RESULT,
-    m.PROGRAM_STATE,
-)
+HEARD = (m.NODE_STATE, m.HUMAN_BEHAVIOR, m.ACTION_REQUEST, m.ACTION_RESULT, m.PROGRAM_STATE)
 
 Listener = Callable[[str, msgspec.Struct], None]
 """Called with each message of the network and its topic, from several threads."""

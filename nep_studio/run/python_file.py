@@ -46,7 +46,7 @@ def write_kept(project: Project, language: Language, path: Path) -> None:
     kept = path.parent / _kept_folder(path.name)
     for node in plan(project, language, Choices(), path.parent):
         if node.files is not None:
-            node.files.moved(kept / node.files.folder.name).write()
+            replace(node.files, folder=kept / node.files.folder.name).write()
 
 
 def _kept_folder(file_name: str) -> Path:
@@ -69,13 +69,11 @@ def _elsewhere(value: Setting, old: Path, kept: Path) -> Setting:
 
 
 def _command(node: PlannedNode) -> str:
-    settings = (f"{key}={_text(value)}" for key, value in node.parameters.items() if value != "")
-    words = [node.node, f"--name={node.name}", *settings]
+    words = [node.node, f"--name={node.name}"]
+    for key, value in node.parameters.items():
+        if value != "":
+            words.append(f"{key}={str(value).lower() if isinstance(value, bool) else value}")
     return f"nep-studio node {' '.join(map(_word, words))}"
-
-
-def _text(value: object) -> str:
-    return str(value).lower() if isinstance(value, bool) else str(value)
 
 
 def _word(text: str) -> str:

@@ -106,19 +106,20 @@ class Session:
     def watch(self, watching: Watching) -> None:
         """Pause at other lines, or go at another pace, from now on."""
         self._watching = watching
-        self._order("set")
+        self.order("set")
 
-    def pause(self) -> None:
-        """Let every part of the program pause at its next line."""
-        self._order("pause")
-
-    def resume(self) -> None:
-        """Let the program go on."""
-        self._order("resume")
-
-    def step(self, thread: str = "") -> None:
-        """Let a part of the program that is paused run one line more."""
-        self._order("step", thread)
+    def order(self, command: m.ProgramCommand, thread: str = "") -> None:
+        """Let the program, or one part of it, do something: pause, resume, step."""
+        voice, watching = self.network.voice, self._watching or Watching()
+        if voice is not None:
+            order = m.ProgramControl(
+                command=command,
+                program=PROGRAM,
+                thread=thread,
+                breakpoints=list(watching.breakpoints),
+                line_s=watching.line_s,
+            )
+            voice.say(order)
 
     def __enter__(self) -> Session:
         self.network.listen(self._on_message, self._on_end)
@@ -159,20 +160,8 @@ class Session:
             return
         self._may_begin = True
         if self._watching is not None:
-            self._order("set")
-        self._order("start")
-
-    def _order(self, command: m.ProgramCommand, thread: str = "") -> None:
-        voice, watching = self.network.voice, self._watching or Watching()
-        if voice is not None:
-            order = m.ProgramControl(
-                command=command,
-                program=PROGRAM,
-                thread=thread,
-                breakpoints=list(watching.breakpoints),
-                line_s=watching.line_s,
-            )
-            voice.say(order)
+            self.order("set")
+        self.order("start")
 
     def _on_message(self, _topic: str, message: msgspec.Struct) -> None:
         match message:

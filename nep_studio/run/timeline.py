@@ -24,23 +24,16 @@ def body_words(action: str, args: Mapping[str, Any], label: Label, tr: Tr = plai
     match action:
         case "hand":
             hand = label("hands", "side")
-            return (
-                tr("opens {hand}", hand=hand)
-                if args.get("open")
-                else tr("closes {hand}", hand=hand)
-            )
+            return tr("opens {hand}" if args.get("open") else "closes {hand}", hand=hand)
         case "move_joint":
-            joint, deg = args.get("joint"), args.get("degrees")
-            if args.get("relative"):
-                return tr("moves {joint} by {deg}°", joint=joint, deg=deg)
-            return tr("moves {joint} to {deg}°", joint=joint, deg=deg)
+            return tr(
+                "moves {joint} by {deg}°" if args.get("relative") else "moves {joint} to {deg}°",
+                joint=args.get("joint"),
+                deg=args.get("degrees"),
+            )
         case "stiffness":
             part = label("lock_parts", "part")
-            return (
-                tr("locks {part}", part=part)
-                if args.get("on")
-                else tr("releases {part}", part=part)
-            )
+            return tr("locks {part}" if args.get("on") else "releases {part}", part=part)
         case "awareness" if not args.get("on"):
             return tr("no longer looks at people by itself")
         case "breathing" if not args.get("on"):
@@ -58,9 +51,7 @@ def body_words(action: str, args: Mapping[str, Any], label: Label, tr: Tr = plai
 def _at_words(action: str, args: Mapping[str, Any], frame: str, tr: Tr) -> str:
     x, y, z = (args.get(key) for key in ("x_m", "y_m", "z_m"))
     place = tr("{x} m forward, {y} m left, {z} m up from {frame}", x=x, y=y, z=z, frame=frame)
-    if action == "look_at":
-        return tr("looks at {place}", place=place)
-    return tr("points at {place}", place=place)
+    return tr("looks at {place}" if action == "look_at" else "points at {place}", place=place)
 
 
 def _voice_words(action: str, args: Mapping[str, Any], label: Label, tr: Tr) -> str:
@@ -140,8 +131,9 @@ def action_words(request: ActionRequest, language: Language, tr: Tr = plain) -> 
         case "turn":
             return tr("turns {where}", where=_turned(_number(args, "degrees"), tr) or "0°")
         case "look":
-            ways = _turned(_number(args, "yaw_deg"), tr), _nodded(_number(args, "pitch_deg"), tr)
-            where = _joined(*ways, tr)
+            down = _number(args, "pitch_deg")
+            nod = tr("{deg}° down" if down > 0 else "{deg}° up", deg=f"{abs(down):g}")
+            where = _joined(_turned(_number(args, "yaw_deg"), tr), nod if down else "", tr)
             return tr("looks {where}", where=where) if where else tr("looks ahead")
         case "leds":
             lights, colour = label("led_groups", "group"), args.get("colour")
@@ -150,8 +142,10 @@ def action_words(request: ActionRequest, language: Language, tr: Tr = plain) -> 
 
 
 def _walk_words(args: Mapping[str, Any], tr: Tr) -> str:
-    ahead = _ahead(_number(args, "forward_m"), tr)
-    steps = _joined(ahead, _sideways(_number(args, "left_m"), tr), tr)
+    forward, left = _number(args, "forward_m"), _number(args, "left_m")
+    ahead = tr("{m} m forward" if forward > 0 else "{m} m back", m=f"{abs(forward):g}")
+    aside = tr("{m} m to the left" if left > 0 else "{m} m to the right", m=f"{abs(left):g}")
+    steps = _joined(ahead if forward else "", aside if left else "", tr)
     turn = _turned(_number(args, "turn_deg"), tr)
     walks = tr("walks {where}", where=steps) if steps else ""
     turns = tr("turns {where}", where=turn) if turn else ""
@@ -164,34 +158,11 @@ def _joined(first: str, second: str, tr: Tr) -> str:
     return first or second
 
 
-def _ahead(amount_m: float, tr: Tr) -> str:
-    """How far forward; nothing for nothing, here and below."""
-    if amount_m == 0:
-        return ""
-    m = f"{abs(amount_m):g}"
-    return tr("{m} m forward", m=m) if amount_m > 0 else tr("{m} m back", m=m)
-
-
-def _sideways(amount_m: float, tr: Tr) -> str:
-    if amount_m == 0:
-        return ""
-    m = f"{abs(amount_m):g}"
-    return tr("{m} m to the left", m=m) if amount_m > 0 else tr("{m} m to the right", m=m)
-
-
-def _turned(angle_deg: float, tr: Tr) -> str:
-    if angle_deg == 0:
-        return ""
-    deg = f"{abs(angle_deg):g}"
-    is_left = angle_deg > 0
-    return tr("{deg}° to the left", deg=deg) if is_left else tr("{deg}° to the right", deg=deg)
-
-
-def _nodded(angle_deg: float, tr: Tr) -> str:
-    if angle_deg == 0:
-        return ""
-    deg = f"{abs(angle_deg):g}"
-    return tr("{deg}° down", deg=deg) if angle_deg > 0 else tr("{deg}° up", deg=deg)
+def _turned(deg: float, tr: Tr) -> str:
+    """How far to a side; nothing for nothing."""
+    left = deg > 0
+    words = tr("{deg}° to the left" if left else "{deg}° to the right", deg=f"{abs(deg):g}")
+    return words if deg else ""
 
 
 def _number(args: Mapping[str, Any], key: str) -> float:
@@ -204,6 +175,12 @@ MOST_ACTIONS = 1000
 
 _ENDS = ("", m.PROCESS_ENDED, m.PROCESS_RESTARTS)
 """Codes of crashes that are told: by who started the node, or by one that knows no codes."""
+
+EVENT_WORDS = (
+    "ready", "running", "busy", "connecting", "connection failed", "disconnected", "warning",
+    "stopped", "crashed",
+)  # fmt: skip
+"""What is told of a node: its events, in words."""
 
 Line = tuple[str, str]
 """Who, and what."""
@@ -315,31 +292,9 @@ def _node_words(state: m.NodeState, tr: Tr) -> str:
     told = tr(state.fault.sentence) if state.fault.sentence else ""
     if state.event in ("running", "warning", "crashed", "stopped") and told:
         return told
-    words = _event_words(state.event, tr)
+    words = state.event.replace("_", " ")
+    words = tr(words) if words in EVENT_WORDS else words
     return f"{words}: {told}" if told else words
-
-
-def _event_words(event: m.NodeEvent, tr: Tr) -> str:
-    match event:
-        case "ready":
-            return tr("ready")
-        case "running":
-            return tr("running")
-        case "busy":
-            return tr("busy")
-        case "connecting":
-            return tr("connecting")
-        case "connection_failed":
-            return tr("connection failed")
-        case "disconnected":
-            return tr("disconnected")
-        case "warning":
-            return tr("warning")
-        case "stopped":
-            return tr("stopped")
-        case "crashed":
-            return tr("crashed")
-    return event.replace("_", " ")
 
 
 def _program_words(state: m.ProgramState, tr: Tr) -> str:

@@ -174,8 +174,7 @@ def conditions_for(participant: int, conditions: Sequence[str]) -> list[str]:
 def participant_number(code: str) -> int | None:
     """The number in a participant's code, as 7 in P07; None where there is none."""
     found = re.search(r"(\d{1,9})\D*$", code)
-    number = int(found.group(1)) if found else 0
-    return number or None
+    return int(found[1]) or None if found else None
 
 
 def next_code(codes: Sequence[str]) -> str:
@@ -190,21 +189,10 @@ log = logging.getLogger(__name__)
 
 
 What = Literal[
-    "study_started",
-    "app_opened",
-    "project_opened",
-    "run_asked",
-    "run_started",
-    "first_run",
-    "run_ended",
-    "stop_pressed",
-    "error_told",
-    "help_opened",
-    "edits",
-    "questionnaire_answered",
-    "app_closed",
-    "study_stopped",
-]
+    "study_started", "app_opened", "project_opened", "run_asked", "run_started", "first_run",
+    "run_ended", "stop_pressed", "error_told", "help_opened", "edits", "questionnaire_answered",
+    "app_closed", "study_stopped",
+]  # fmt: skip
 """What is recorded, and nothing else."""
 
 
@@ -330,15 +318,11 @@ class StudyFolder:
         self.folder.mkdir(parents=True, exist_ok=True)
         line = msgspec.json.encode(record) + b"\n"
         with path.open("ab+") as file:
-            if file.tell() and _last_byte(path) != b"\n":
-                line = b"\n" + line  # the last line was cut short
+            if file.tell():
+                file.seek(-1, io.SEEK_END)
+                if file.read() != b"\n":
+                    line = b"\n" + line  # the last line was cut short
             file.write(line)
-
-
-def _last_byte(path: Path) -> bytes:
-    with path.open("rb") as file:
-        file.seek(-1, 2)
-        return file.read(1)
 
 
 def _lines(path: Path, kind: type[Record]) -> Iterator[Record]:

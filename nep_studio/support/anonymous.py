@@ -75,28 +75,9 @@ def _usual_ones(found: re.Match[str]) -> str:
 SHORTEST_NAME, SHORTEST_SECRET = 3, 4
 OURS = frozenset(
     (
-        "admin",
-        "administrator",
-        "computer",
-        "debian",
-        "guest",
-        "home",
-        "linux",
-        "localhost",
-        "nao",
-        "nep",
-        "node",
-        "nodes",
-        "pepper",
-        "python",
-        "root",
-        "runner",
-        "studio",
-        "system",
-        "ubuntu",
-        "user",
-        "users",
-        "windows",
+        *("admin", "administrator", "computer", "debian", "guest", "home", "linux", "localhost"),
+        *("nao", "nep", "node", "nodes", "pepper", "python", "root", "runner", "studio", "system"),
+        *("ubuntu", "user", "users", "windows"),
     )
 )
 """Names that tell nothing of anybody; they are also words of other things in a report."""

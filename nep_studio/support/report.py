@@ -114,12 +114,7 @@ def _without_names(part: Part, anonymous: Anonymous) -> Part:
     return Part(
         hide(part.title),
         tuple(
-            Finding(
-                hide(one.about),
-                one.state,
-                hide(one.sentence),
-                tuple(map(hide, one.steps)),
-            )
+            Finding(hide(one.about), one.state, hide(one.sentence), tuple(map(hide, one.steps)))
             for one in part.findings
         ),
         tuple(hide("\n".join(part.lines)).splitlines()),  # together: a key may take many lines
@@ -232,9 +227,8 @@ def _program() -> Iterator[Finding]:
         yield Finding("portable", "look", told, ("Is the stick write-protected, or full?",))
     else:
         yield Finding("portable", "ok", f"yes, {folder}" if folder else "no")
-    yield Finding(
-        "safe mode", "note" if safe_mode.is_on() else "ok", "yes" if safe_mode.is_on() else "no"
-    )
+    is_safe = safe_mode.is_on()
+    yield Finding("safe mode", "note" if is_safe else "ok", "yes" if is_safe else "no")
     yield Finding("words", "ok", f"{locale.getlocale()[0]}, files in {sys.getfilesystemencoding()}")
     yield Finding("time zone", "ok", time.strftime("%Z %z"))
     for name, value in sorted(os.environ.items()):
@@ -263,7 +257,9 @@ def _screen() -> Iterator[Finding]:
         end = f"no answer within {SCREEN_S:.0f} seconds"
     except OSError as error:
         output, errors, end = b"", b"", str(error)
-    yield from _findings(output)
+    for line in output.splitlines():
+        with suppress(msgspec.MsgspecError):
+            yield msgspec.json.decode(line, type=Finding)
     if end:
         last = " ".join(errors.decode(errors="replace").split())[-600:]
         steps = (
@@ -279,12 +275,6 @@ def _ending(code: int) -> str:
     if code == 0:
         return ""
     return f"ended by signal {-code}" if code < 0 else f"ended with code {code}"
-
-
-def _findings(output: bytes) -> Iterator[Finding]:
-    for line in output.splitlines():
-        with suppress(msgspec.MsgspecError):
-            yield msgspec.json.decode(line, type=Finding)
 
 
 def _without_host(found: Finding) -> Finding:
@@ -303,16 +293,10 @@ def _folders() -> Iterator[Finding]:
     yield doctor.folder("settings", _user_folder())
     with suppress(Exception):  # a user without a home has none
         yield doctor.folder("keys", key_file().parent)
-    for name, folder in _documents():
-        yield doctor.folder(name, folder)
-
-
-def _documents() -> list[tuple[str, Path]]:
-    try:
+    with suppress(ImportError):  # as below
         from nep_studio.settings import usual_folder
-    except ImportError:
-        return []
-    return [("projects", usual_folder("projects"))]
+
+        yield doctor.folder("projects", usual_folder("projects"))
 
 
 def _user_folder() -> Path:
@@ -386,19 +370,16 @@ def main(arguments: list[str]) -> int:
     options = parser().parse_args(arguments)
     made = report(options.master)
     if options.save is not None:
-        path = _file(options.save)
+        path: Path = options.save  # a folder, or a file whose ending may be left out
+        if path.is_dir():
+            path /= FILE
+        elif not path.suffix:
+            path = path.with_suffix(".zip")
         made.save(path)
         print(f"The report is in {path}. Read report.txt in it before you send it.")
     else:
         print(made.json() if options.json else made.text(), flush=True)
     return 0 if made.is_sound else 1
-
-
-def _file(told: Path) -> Path:
-    """Where the report goes: into a folder, or a file whose ending may be left out."""
-    if told.is_dir():
-        return told / FILE
-    return told if told.suffix else told.with_suffix(".zip")
 
 
 def parser() -> argparse.ArgumentParser:

@@ -130,7 +130,10 @@ class FileLock:
         except OSError:
             return False
         try:
-            _lock(file)
+            if sys.platform == "win32":
+                msvcrt.locking(file, msvcrt.LK_NBLCK, 1)
+            else:
+                fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
         except OSError:
             os.close(file)
             return False
@@ -144,10 +147,3 @@ class FileLock:
         if self._file >= 0:
             os.close(self._file)
             self._file = -1
-
-
-def _lock(file: int) -> None:
-    if sys.platform == "win32":
-        msvcrt.locking(file, msvcrt.LK_NBLCK, 1)
-    else:
-        fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)

@@ -118,20 +118,17 @@ def _start_of_unit() -> list[str]:
 
 
 def _desktop(command: Sequence[str]) -> str:
-    return "\n".join(
-        [
-            "[Desktop Entry]",
-            "Type=Application",
-            "Version=1.0",
-            "Name=NEP Studio show",
-            "Comment=Plays a project of NEP Studio in show mode",
-            f"Exec={' '.join(map(_desktop_word, command))}",
-            "Icon=nep-studio",
-            "Terminal=false",
-            "X-GNOME-Autostart-enabled=true",
-            "",
-        ]
-    )
+    return f"""\
+[Desktop Entry]
+Type=Application
+Version=1.0
+Name=NEP Studio show
+Comment=Plays a project of NEP Studio in show mode
+Exec={" ".join(map(_desktop_word, command))}
+Icon=nep-studio
+Terminal=false
+X-GNOME-Autostart-enabled=true
+"""
 
 
 def _desktop_word(word: str) -> str:
@@ -141,23 +138,20 @@ def _desktop_word(word: str) -> str:
 
 
 def _unit(command: Sequence[str]) -> str:
-    return "\n".join(
-        [
-            "[Unit]",
-            "Description=NEP Studio show",
-            "StartLimitIntervalSec=0",
-            "",
-            "[Service]",
-            f"ExecStart={' '.join(map(_unit_word, command))}",
-            "Restart=always",
-            f"RestartSec={AGAIN_S}",
-            "# Somebody has ended it on purpose",
-            "RestartPreventExitStatus=0",
-            "KillMode=mixed",
-            "TimeoutStopSec=10",
-            "",
-        ]
-    )
+    return f"""\
+[Unit]
+Description=NEP Studio show
+StartLimitIntervalSec=0
+
+[Service]
+ExecStart={" ".join(map(_unit_word, command))}
+Restart=always
+RestartSec={AGAIN_S}
+# Somebody has ended it on purpose
+RestartPreventExitStatus=0
+KillMode=mixed
+TimeoutStopSec=10
+"""
 
 
 def _unit_word(word: str) -> str:

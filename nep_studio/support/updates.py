@@ -22,8 +22,6 @@ if TYPE_CHECKING:
     import ssl
     import urllib.request
 
-    from nep_studio.settings import Settings
-
 log = logging.getLogger(__name__)
 
 ADDRESS = ""

@@ -97,10 +97,12 @@ def run(
 ) -> None:
     """Play ``/action_request`` on one robot until the node stops.
 
-    ``speed``: how many times faster than real time a virtual robot lives. ``animations``: a
-    folder with more of them than every robot knows, "" when there is none. ``naoqi_port``: where
-    NAOqi programs reach the virtual robot as if it were a real one, 0 when they do not. ``model``:
-    the robot's folder, nao or another one.
+    ``node`` is this node, ``robot`` the robot's name in requests, ``driver`` who plays it
+    ("virtual": the one on the screen, "naoqi": a real one), ``address`` a real one's, as a host or
+    host:port; ``speed`` how many times faster than real time a virtual one lives (1: as in the
+    room); ``animations`` a folder with more of them than every robot knows ("": none);
+    ``naoqi_port`` the TCP port at which NAOqi programs reach a virtual one as if it were real (0:
+    none); ``model`` the robot's folder, nao or another one. Raises PortTaken.
     """
     folder = model_folder(model)
     link = _driver(node, robot, driver, address, animations, folder)
@@ -172,12 +174,11 @@ def _driver(
     animations, left_out = with_own(shipped, own_animations, body)
     for problem in left_out:
         node.warn(problem)
-    words = load_gesture_words(folder)
     known = VirtualRobot(
         robot,
         body,
         animations,
-        gesture_words=words,
+        gesture_words=load_gesture_words(folder),
         model=model_of(folder),
         files=robot_folder(safe_name(robot, "robot")),
     )

@@ -28,20 +28,13 @@ _KINDS = {
     "bool": "true or false",
     "NoneType": "nothing",
     "Robot": "a robot",
-    "function": "a block",
-    "method": "a block",
-    "builtin_function_or_method": "a block",
+    **dict.fromkeys(("function", "method", "builtin_function_or_method"), "a block"),
 }
 OTHER_KIND = "something else"
 _SIGNS: dict[type[ast.operator], str] = {
-    ast.Add: "+",
-    ast.Sub: "-",
-    ast.Mult: "*",
-    ast.Div: "/",
-    ast.FloorDiv: "//",
-    ast.Mod: "%",
+    ast.Add: "+", ast.Sub: "-", ast.Mult: "*", ast.Div: "/", ast.FloorDiv: "//", ast.Mod: "%",
     ast.Pow: "**",
-}
+}  # fmt: skip
 _PLAIN = (int, float, str, bool, list, tuple, type(None))
 
 
@@ -68,8 +61,7 @@ def values_at(error: BaseException) -> dict[str, Words]:
 def _operation(trace: TracebackType) -> ast.AST:
     """The expression (or the += statement) that failed."""
     code = trace.tb_frame.f_code
-    place = next(islice(code.co_positions(), trace.tb_lasti // 2, None))
-    line, last_line, begin, end = place
+    line, last_line, begin, end = next(islice(code.co_positions(), trace.tb_lasti // 2, None))
     if line is None or line != last_line or begin is None or end is None:
         raise _Unknown
     linecache.checkcache(code.co_filename)
@@ -80,15 +72,17 @@ def _operation(trace: TracebackType) -> ast.AST:
 
 def _values(node: ast.AST, frame: FrameType) -> dict[str, Words]:
     match node:
-        case ast.BinOp(left=left, op=sign, right=right):
-            return _sides(left, right, frame) | {"sign": _SIGNS.get(type(sign), "?")}
-        case ast.AugAssign(target=ast.Name() as left, op=sign, value=right):
+        case (
+            ast.BinOp(left=left, op=sign, right=right)
+            | ast.AugAssign(target=ast.Name() as left, op=sign, value=right)
+        ):
             return _sides(left, right, frame) | {"sign": _SIGNS.get(type(sign), "?")}
         case ast.Compare(left=left, comparators=[right]):
             return _sides(left, right, frame)
-        case ast.Subscript(value=items, slice=index):
-            return _place(items, index, frame)
-        case ast.Call(func=ast.Attribute(value=items, attr="pop"), args=[index]):
+        case (
+            ast.Subscript(value=items, slice=index)
+            | ast.Call(func=ast.Attribute(value=items, attr="pop"), args=[index])
+        ):
             return _place(items, index, frame)
     return {}
 
@@ -139,10 +133,8 @@ def _number(node: ast.expr, frame: FrameType) -> int | float:
 
 def _named(name: str, frame: FrameType) -> object:
     for names in (frame.f_locals, frame.f_globals):
-        if name in names:
-            value: object = names[name]
-            if type(value) in _PLAIN:
-                return value
+        if name in names and type(names[name]) in _PLAIN:
+            return names[name]
     raise _Unknown
 
 
@@ -190,7 +182,6 @@ class Explanation:
 
 
 _SUMS = r"unsupported operand|can only concatenate|can't multiply sequence"
-_OUT_OF_RANGE = r"index out of range"
 
 SENTENCES = (
     Explanation(
@@ -204,7 +195,7 @@ SENTENCES = (
     ),
     Explanation(
         IndexError,
-        f"string {_OUT_OF_RANGE}",
+        "string index out of range",
         "The text “{name}” has {count} letters, and letter {number} was asked for.",
         (CHECK_NUMBER, ASK_LENGTH),
     ),
@@ -413,7 +404,9 @@ def _filled(told: Explanation, error: BaseException, values: Mapping[str, Words]
     if said is None:
         return None
     known: dict[str, Words] = {"error": type(error).__name__, "said": _words(error).rstrip(".")}
-    known |= {**values, **_groups(said), **_of_name(error)}
+    known |= {**values, **_groups(said)}
+    if isinstance(error, NameError) and error.name:
+        known["name"] = error.name
     places = re.findall(r"\{(\w+)\}", told.sentence)
     if not known.keys() >= set(places):
         return None
@@ -434,26 +427,16 @@ def _words(error: BaseException) -> str:
 
 def _groups(said: re.Match[str]) -> dict[str, Words]:
     """The values in what Python says; names of its types become words."""
-    found = {name: text for name, text in said.groupdict().items() if text is not None}
     return {
         name: kind_of_type(text) if name in ("noun", "result") else text
-        for name, text in found.items()
+        for name, text in said.groupdict().items()
+        if text is not None
     }
-
-
-def _of_name(error: BaseException) -> dict[str, str]:
-    if isinstance(error, NameError) and error.name:
-        return {"name": error.name}
-    return {}
 
 
 def line_of(error: BaseException, file: str) -> int:
     """The line of ``file`` in which the error happened, from 1; 0 when it was elsewhere."""
     if isinstance(error, SyntaxError) and error.filename == file:
         return error.lineno or 0
-    lines = [
-        frame.lineno or 0
-        for frame in traceback.extract_tb(error.__traceback__)
-        if frame.filename == file
-    ]
-    return lines[-1] if lines else 0
+    frames = reversed(traceback.extract_tb(error.__traceback__))
+    return next((frame.lineno or 0 for frame in frames if frame.filename == file), 0)

@@ -36,10 +36,8 @@ ONE_HOUR_S = 3600.0
 def run(node: Node, *, file: str, hold: bool, trace: bool) -> None:
     """Run the Python program ``file`` until it ends, fails or is stopped.
 
-    With ``hold`` it is ready first, and begins when the studio says start. With ``trace`` it
-    tells where it is, and can be paused.
-
-    ``node`` is this node.
+    ``node`` is this node. With ``hold`` it is ready first, and begins when the studio says start.
+    With ``trace`` it tells where it is, and can be paused.
     """
     if not Path(file).is_file():
         raise ProgramFailed(

@@ -54,7 +54,8 @@ def run(
     triggers = dict.fromkeys(known.names, certainty) if certainty else {}
     known = with_triggers(known, triggers | read_certainties(certainties))
     measures = Measures(node, names)
-    ears = _Ears(node, known, partial(_spotter, known, method, names), worn, measures)
+    make_spotter = partial(Spotter, known, method=method, gestures=names, trigger=known.triggers)
+    ears = _Ears(node, known, make_spotter, worn, measures)
     movement = node.subscriber(IMU, Imu)
     publisher = node.publisher(HUMAN_BEHAVIOR)
     node.ready("recognises {names}", names=", ".join(names))
@@ -62,7 +63,12 @@ def run(
         batch = movement.receive(timeout_s=_SILENCE_S)
         measures.arrived(movement.header.time_ns if batch and movement.header else None)
         for one in (ears.hear(batch) if batch else []) + ears.end_of_silent():
-            publisher.send(_message(node, one))
+            behaviour = HumanBehavior(
+                human_state=f"gesture_{one.gesture}",
+                certainty=round(one.certainty, 3),
+                source=node.name,
+            )
+            publisher.send(behaviour)
             measures.triggered(one, batch)
         measures.tell()
 
@@ -92,24 +98,6 @@ def read_certainties(text: str) -> dict[str, float]:
     return found
 
 
-def _spotter(model: Model, method: str, names: list[str], gravity_included: bool) -> Spotter:
-    return Spotter(
-        model,
-        method=method,
-        gestures=names,
-        trigger=model.triggers,
-        gravity_included=gravity_included,
-    )
-
-
-def _message(node: Node, found: Detection) -> HumanBehavior:
-    return HumanBehavior(
-        human_state=f"gesture_{found.gesture}",
-        certainty=round(found.certainty, 3),
-        source=node.name,
-    )
-
-
 class _Ears:
     """An ear for each sensor that is heard; what a sensor lacks is told once."""
 
@@ -121,11 +109,8 @@ class _Ears:
         worn: Worn,
         measures: Measures,
     ) -> None:
-        self._node = node
-        self._model = model
-        self._make_spotter = make_spotter
-        self._worn = worn
-        self._measures = measures
+        self._node, self._model, self._make_spotter = node, model, make_spotter
+        self._worn, self._measures = worn, measures
         make_spotter(gravity_included=True)  # what the model lacks is told at the start
         self._ears: dict[_Sensor, SensorInput | None] = {}
         self._heard_s: dict[str, float] = {}
@@ -188,10 +173,13 @@ class _Ears:
         except RecordingError as error:
             node.warn(error.fault)
             return None
-        if batch.gyr is None:
-            node.state("running", "listens to {source}, which sends no rotation", source=source)
-        else:
-            node.state("running", "listens to {source}", source=source)
+        node.state(
+            "running",
+            "listens to {source}"
+            if batch.gyr is not None
+            else "listens to {source}, which sends no rotation",
+            source=source,
+        )
         return ear
 
     def _remark(self, sentence: Text) -> None:

@@ -30,7 +30,7 @@ from .reading import (
 
 TIME_UNITS_S = {"s": 1.0, "ms": 1e-3, "us": 1e-6, "µs": 1e-6, "ns": 1e-9}
 ACC_UNITS = {"m/s²": 1.0, "g": G_M_S2, "mg": G_M_S2 / 1000}
-GYR_UNITS = {"rad/s": 1.0, "°/s": 0.017453292519943295, "m°/s": 1.7453292519943295e-5}
+GYR_UNITS = {"rad/s": 1.0, "°/s": math.radians(1), "m°/s": math.radians(0.001)}
 _SPELLINGS = {
     "m/s2": "m/s²", "m/s^2": "m/s²", "ms-2": "m/s²", "deg/s": "°/s", "dps": "°/s", "d/s": "°/s",
     "mdps": "m°/s", "rad": "rad/s", "deg": "°/s", "sec": "s",
@@ -148,7 +148,8 @@ def guess_columns(rows: Sequence[Row], arrived_s: Sequence[float]) -> Layout | N
     acc = _acceleration(columns, threes)
     for role, at in zip(("ax", "ay", "az"), acc, strict=True):
         roles[at] = role
-    gyr = next((it for it in [*_after(threes, acc), *threes] if _may_turn(columns, it, acc)), ())
+    after = threes[threes.index(acc) + 1 :]
+    gyr = next((it for it in (*after, *threes) if _may_turn(columns, it, acc)), ())
     for role, at in zip(("gx", "gy", "gz"), gyr, strict=False):
         roles[at] = role
     return guess_units(Layout(tuple(roles)), rows, arrived_s)
@@ -221,11 +222,9 @@ def _threes(columns: Sequence[Row], rest: Sequence[int]) -> list[tuple[int, ...]
         places = rest[start:]
         threes = [tuple(places[at : at + 3]) for at in range(0, len(places) - 2, 3)]
         ways.append([three for three in threes if three[2] - three[0] == 2])
-    fits = [
-        min((_gravity_error(columns, it) for it in connector), default=math.inf)
-        for connector in ways
-    ]
-    return ways[fits.index(min(fits))]
+    return min(
+        ways, key=lambda way: min((_gravity_error(columns, it) for it in way), default=math.inf)
+    )
 
 
 def _gravity_error(columns: Sequence[Row], three: Sequence[int]) -> float:
@@ -238,10 +237,6 @@ def _acceleration(columns: Sequence[Row], threes: list[tuple[int, ...]]) -> tupl
     if not feeling:
         return threes[0]
     return min(feeling, key=lambda it: _change([columns[at] for at in it]))
-
-
-def _after(threes: list[tuple[int, ...]], acc: tuple[int, ...]) -> list[tuple[int, ...]]:
-    return threes[threes.index(acc) + 1 :]
 
 
 def _may_turn(columns: Sequence[Row], three: tuple[int, ...], acc: tuple[int, ...]) -> bool:

@@ -104,9 +104,7 @@ def read_paper_watch(line: str) -> list[Reading] | None:
     stamp, values = finite_number(cells[0]), vector(cells[1:])
     if stamp is None or values is None:
         return None
-    if kind == "a":
-        return [Reading(acc=values, stamp=stamp, stamp_unit_s=NS)]
-    return [Reading(gyr=values, stamp=stamp, stamp_unit_s=NS)]
+    return [_of_android(values, stamp, is_turning=kind != "a")]
 
 
 def read_json(line: str) -> dict[str, object] | None:
@@ -115,9 +113,9 @@ def read_json(line: str) -> dict[str, object] | None:
         found = msgspec.json.decode(line)
     except (msgspec.DecodeError, RecursionError):
         return None
-    return {str(name).lower(): value for name, value in found.items()} if (
-        isinstance(found, dict)
-    ) else None  # fmt: skip
+    if not isinstance(found, dict):
+        return None
+    return {str(name).lower(): value for name, value in found.items()}
 
 
 def is_of_an_app(message: Mapping[str, object]) -> bool:
@@ -147,10 +145,8 @@ def read_app(message: Mapping[str, object]) -> list[Reading] | None:
             continue
         values = vector(part.get("value", part))
         stamp = finite_number(part.get("timestamp"))
-        if values is not None and name == "accelerometer":
-            readings.append(Reading(acc=values, stamp=stamp, stamp_unit_s=NS))
-        elif values is not None:
-            readings.append(Reading(gyr=values, stamp=stamp, stamp_unit_s=NS))
+        if values is not None:
+            readings.append(_of_android(values, stamp, is_turning=name == "gyroscope"))
     return readings or None
 
 
@@ -162,9 +158,14 @@ def read_android(message: Mapping[str, object], kind: str = "") -> list[Reading]
     three, stamp = vector(message.get("values")), finite_number(message.get("timestamp"))
     if three is None:
         return None
-    if kind == "android.sensor.accelerometer":
-        return [Reading(acc=three, stamp=stamp, stamp_unit_s=NS)]
-    return [Reading(gyr=three, stamp=stamp, stamp_unit_s=NS)]
+    return [_of_android(three, stamp, is_turning=kind == "android.sensor.gyroscope")]
+
+
+def _of_android(values: Vector, stamp: float | None, *, is_turning: bool) -> Reading:
+    """What the gyroscope, or else the accelerometer, says; Android counts nanoseconds."""
+    if is_turning:
+        return Reading(gyr=values, stamp=stamp, stamp_unit_s=NS)
+    return Reading(acc=values, stamp=stamp, stamp_unit_s=NS)
 
 
 def _is_streamer(part: object) -> bool:
@@ -180,10 +181,7 @@ def _read_zig_sim(message: Mapping[str, object]) -> list[Reading] | None:
     scale = G_M_S2 if android else -G_M_S2
     moving, gravity = vector(sensors.get("accel")), vector(sensors.get("gravity"))
     gyr = vector(sensors.get("gyro"))
-    acc: Vector | None = None
-    if moving:
-        gx, gy, gz = gravity or (0.0, 0.0, 0.0)
-        acc = ((moving[0] + gx) * scale, (moving[1] + gy) * scale, (moving[2] + gz) * scale)
+    acc = scaled(added(moving, gravity or (0.0, 0.0, 0.0)), scale) if moving else None
     if acc is None and gyr is None:
         return None
     return [Reading(acc, gyr, gravity_included=gravity is not None)]

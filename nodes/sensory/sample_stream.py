@@ -8,7 +8,9 @@ from dataclasses import dataclass
 from itertools import pairwise
 from statistics import median
 
-from .reading import NS, Reading, Vector
+from nodes.recordings import guess_time_unit_s
+
+from .reading import Reading, Vector
 
 # How a sender's clock runs against ours, from when its samples arrive.
 
@@ -172,11 +174,6 @@ class SampleStream:
         self.flow = Flow()
 
     @property
-    def rate_hz(self) -> float:
-        """Samples a second as measured, 0 while too few have come."""
-        return self.flow.rate_hz
-
-    @property
     def gravity_included(self) -> bool:
         """Whether the sensor feels gravity: told by the sender, and usually near 9.81 m/s²."""
         return self._gravity.is_there()
@@ -300,9 +297,6 @@ class _SenderClock:
         if told_s is not None:
             return told_s
         if self._unit_s is None and self._zero_s is not None and stamp > self._last_stamp:
-            # The unit of stamps that are ``step`` apart, for sensors of about 1 to 1,000 Hz
-            step = stamp - self._last_stamp
-            limits = ((0.9, 1.0), (900, 1e-3), (9e5, 1e-6))
-            self._unit_s = next((unit_s for limit, unit_s in limits if step < limit), NS)
+            self._unit_s = guess_time_unit_s(stamp - self._last_stamp)
             self._zero_s = self._last_stamp * self._unit_s - self._last_s
         return self._unit_s or 1.0

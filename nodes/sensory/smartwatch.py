@@ -140,8 +140,7 @@ class Hearing:
     def _is_followed(self, arrived: Arrived, now_s: float) -> bool:
         if arrived.sender == self._sender:
             return True
-        is_busy = bool(self._sender) and now_s - self._heard_s < _SILENT_S
-        if is_busy:
+        if self._sender and now_s - self._heard_s < _SILENT_S:
             if arrived.readings:
                 told = text_of(
                     "A second watch sends from {sender}; {sender_2} is followed.",
@@ -188,7 +187,7 @@ class Hearing:
             )
 
     def _tell(self, now_s: float, *, has_samples: bool) -> None:
-        if has_samples and self._stream.rate_hz:
+        if has_samples and self._stream.flow.rate_hz:
             self._tell_flow(now_s)
         elif self._is_connected and now_s - self._heard_s >= _SILENT_S:
             self._is_connected = False
@@ -205,8 +204,9 @@ class Hearing:
         self._measured_s = now_s
         if not self._is_connected or self._has_changed(now_s):
             self._is_connected = True
-            self._last_state = (self._stream.rate_hz, self._stream.flow.loss, self._columns, now_s)
-            self._tell_connected(self._stream.rate_hz, self._stream.flow.loss)
+            rate_hz, loss = self._stream.flow.rate_hz, self._stream.flow.loss
+            self._last_state = (rate_hz, loss, self._columns, now_s)
+            self._tell_connected(rate_hz, loss)
         else:
             self._node.state("alive", measures=self._stream.measures)
         if self._thinning.every > 1:
@@ -244,7 +244,7 @@ class Hearing:
             return True
         if now_s - told_s < _TOLD_AGAIN_S:
             return False
-        is_other_rate = abs(self._stream.rate_hz - rate_hz) > _RATE_CHANGE * max(rate_hz, 1.0)
+        is_other_rate = abs(self._stream.flow.rate_hz - rate_hz) > _RATE_CHANGE * max(rate_hz, 1.0)
         now_loses = self._stream.flow.loss >= _LARGE_LOSS
         return is_other_rate or now_loses != (loss >= _LARGE_LOSS)
 
@@ -256,25 +256,20 @@ class Hearing:
         if not self._sender or self._is_connected or now_s - self._since_s < _MISSING_S:
             return
         self._since_s = float("inf")
-        if not self._heard_s:
+        if not self._heard_s or now_s - self._heard_s < _SILENT_S:
             told = text_of(
-                "{sender} is connected but sends nothing. Start the measuring in its app.",
-                sender=self._sender,
-            )
-            self._complaints.tell(told, now_s)
-        elif now_s - self._heard_s < _SILENT_S:
-            told = text_of(
-                "{sender} sends no acceleration. Switch the accelerometer on in its app.",
+                "{sender} sends no acceleration. Switch the accelerometer on in its app."
+                if self._heard_s
+                else "{sender} is connected but sends nothing. Start the measuring in its app.",
                 sender=self._sender,
             )
             self._complaints.tell(told, now_s)
 
     def _message(self, samples: list[Sample]) -> Imu:
         gyr = [sample.gyr for sample in samples if sample.gyr is not None]
-        rate_hz = self._stream.rate_hz / self._thinning.every
         return Imu(
             source=self._sender,
-            rate_hz=rate_hz,
+            rate_hz=self._stream.flow.rate_hz / self._thinning.every,
             t=[sample.t for sample in samples],
             acc=[sample.acc for sample in samples],
             gyr=gyr if len(gyr) == len(samples) else None,

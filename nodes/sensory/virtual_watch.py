@@ -258,7 +258,7 @@ class _Gravity:
         return up
 
 
-@dataclass
+@dataclass(frozen=True)
 class _Made:
     """What a recorded take makes the watch feel, n samples from the lead-in to the lead-out."""
 
@@ -298,10 +298,8 @@ class _Performance:
             gravity = _turned_along(up, gyr, float(t[1] - t[0]))
         else:
             gravity = _at(recorded_s, take.t, take.up)
-        self._made = _Made(moving, gravity, gyr, np.empty(0), np.empty(0))
-        self._made.weight = minimum_jerk((t + LEAD_S) / LEAD_S)
-        self._made.weight *= minimum_jerk((lasts_s + LEAD_S - t) / LEAD_S)
-        self._made.change_hz = np.gradient(self._made.weight, 1 / rate_hz)
+        weight = minimum_jerk((t + LEAD_S) / LEAD_S) * minimum_jerk((lasts_s + LEAD_S - t) / LEAD_S)
+        self._made = _Made(moving, gravity, gyr, weight, np.gradient(weight, 1 / rate_hz))
 
     @property
     def is_over(self) -> bool:
@@ -367,8 +365,6 @@ def _across(unit: Floats) -> Floats:
     normal: Floats = across / np.linalg.norm(across, axis=1, keepdims=True)
     return normal
 
-
-# A simulated person wearing a watch: gestures on request or by a schedule.
 
 # When the simulated person makes which gesture: ``karate, hand_up`` or ``3 karate, 8 hand_up``.
 
@@ -469,20 +465,15 @@ def run(
     watch = _Watch(node, rate_hz, person, seed, repertoire)
     publisher = node.publisher(IMU)
     requests = node.subscriber(GESTURE_REQUEST, GestureRequest)
-    if speed == 1.0:
-        node.ready(
-            "{rate_hz} samples a second of simulated person {person}",
-            rate_hz=f"{rate_hz:g}",
-            person=person,
-        )
-    else:
-        node.ready(
-            "{rate_hz} samples a second of simulated person {person}, {speed} times as fast as "
-            "real time",
-            rate_hz=f"{rate_hz:g}",
-            person=person,
-            speed=f"{speed:g}",
-        )
+    node.ready(
+        "{rate_hz} samples a second of simulated person {person}"
+        if speed == 1.0
+        else "{rate_hz} samples a second of simulated person {person}, {speed} times as fast as "
+        "real time",
+        rate_hz=f"{rate_hz:g}",
+        person=person,
+        speed=f"{speed:g}",
+    )
     pace = _Pace(rate_hz * speed)
     while not node.wait(_BATCH_S):
         for request in requests.pending():

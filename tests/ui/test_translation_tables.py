@@ -47,6 +47,7 @@ NAMED = {
     "ui/canvas/fields/colour.py": "COLOURS",
     "ui/canvas/fields/editors.py": "_BUTTON_TIPS",
     "blocks/operations/wrapping.py": "LABELS",
+    "run/timeline.py": "EVENT_WORDS",
     "ui/workbench/problems.py": "SEVERITIES",
     "ui/shell/commands.py": "NOT_NOW",
     "ui/shell/gallery.py": "NEEDS DIFFICULTIES TAGS",

@@ -155,8 +155,7 @@ WatchMaker = Callable[[str, ProgramThreads, Events], Watch]
 class Tracer:
     """Traces the program ``file`` between begin() and end(), which the same thread calls.
 
-    ``send`` is called, from several threads, with each state; ``name`` is the program's.
-
+    ``send`` is called, from several threads, with each state; ``name`` is the program's;
     ``make_watch`` makes what follows the lines (None: as costs least).
     """
 

@@ -92,9 +92,6 @@ def _public_code() -> Iterator[CodeType]:
 
 if sys.version_info >= (3, 12):
     from sys import monitoring
-    from types import CodeType
-
-    from .state import ProgramThreads
 
     _E = monitoring.events
     _CALLS = _E.PY_START | _E.PY_RESUME | _E.PY_RETURN | _E.PY_YIELD
@@ -142,9 +139,15 @@ if sys.version_info >= (3, 12):
             monitoring.set_events(self._tool, 0)
             for code in (*self._code.values(), *reporting_code()):
                 monitoring.set_local_events(self._tool, code, 0)
-            for event in (_E.PY_START, _E.PY_RESUME, _E.PY_RETURN, _E.PY_YIELD, _E.PY_UNWIND):
+            for event in (
+                _E.PY_START,
+                _E.PY_RESUME,
+                _E.PY_RETURN,
+                _E.PY_YIELD,
+                _E.PY_UNWIND,
+                _E.LINE,
+            ):
                 monitoring.register_callback(self._tool, event, None)
-            monitoring.register_callback(self._tool, _E.LINE, None)
             monitoring.free_tool_id(self._tool)
 
         def _watch(self, code: CodeType) -> None:
@@ -180,10 +183,8 @@ if sys.version_info >= (3, 12):
 
     def free_tool() -> int | None:
         """A number that no other tool uses, such as a debugger; None where there is none."""
-        for tool in (4, 3, monitoring.PROFILER_ID, monitoring.DEBUGGER_ID):
-            if monitoring.get_tool(tool) is None:
-                return tool
-        return None
+        tools = (4, 3, monitoring.PROFILER_ID, monitoring.DEBUGGER_ID)
+        return next((tool for tool in tools if monitoring.get_tool(tool) is None), None)
 
 
 # Watches a program by sys.settrace, for Pythons without sys.monitoring.

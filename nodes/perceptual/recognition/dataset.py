@@ -90,9 +90,7 @@ def everybodys_movement() -> tuple[Recording, ...]:
 
 
 def learn(
-    material: Material,
-    methods: Sequence[str],
-    tell: Callable[[str], None] = lambda progress: None,
+    material: Material, methods: Sequence[str], tell: Callable[[str], None] = lambda progress: None
 ) -> Model:
     """The model of the gestures in the material; RecordingError says why there can be none."""
     every = (*material.recordings, *material.everyday)

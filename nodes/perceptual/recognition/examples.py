@@ -31,7 +31,6 @@ def varied(raw: Floats, seed: Sequence[int]) -> Floats:
     turned[..., :3] = resting + gain * (turned[..., :3] - resting)
     turned[..., 3:] *= gain
     # Windows whose middle comes earlier or later; both ends stay
-    n = len(turned)
     times = np.linspace(0.0, 1.0, POINTS)
     shift = chance.uniform(-_RHYTHM, _RHYTHM, n) * np.cos(chance.uniform(0, np.pi, n))
     at = np.clip(times + shift[:, None] * np.sin(np.pi * times), 0.0, 1.0) * (POINTS - 1)
@@ -172,9 +171,9 @@ def collect(
         idle.append(_part(found, chosen & nothing, labels, fold))
         held.append(_part(found, chosen & ~nothing, labels, fold))
         held += _marked(found.passage, gestures, of_takes, (seed, number))
-    parts = [_join(idle)]
     takes = _join(held)
-    parts += [replace(takes, raw=varied(takes.raw, (seed, which))) for which in range(_VARIATIONS)]
+    copies = [replace(takes, raw=varied(takes.raw, (seed, one))) for one in range(_VARIATIONS)]
+    parts = [_join(idle), *copies]
     windows = [describe(one.raw[..., : channels.columns], one.lengths, channels) for one in parts]
     return Examples(
         gestures,

@@ -184,15 +184,9 @@ def _logarithm(sizes: Floats) -> Floats:
     return np.log1p(_COMPRESSION * sizes)
 
 
-def _smoothing() -> Floats:
-    """The moving average as a matrix; (32, 32)."""
-    points = np.arange(POINTS)
-    near = np.abs(points[:, None] - points) <= _GRAVITY_SPAN // 2
-    matrix: Floats = near / near.sum(axis=1, keepdims=True)
-    return matrix
-
-
-_SMOOTHING = _smoothing()
+_NEAR = np.abs(np.arange(POINTS)[:, None] - np.arange(POINTS)) <= _GRAVITY_SPAN // 2
+_SMOOTHING: Floats = _NEAR / _NEAR.sum(axis=1, keepdims=True)
+"""The moving average as a matrix; (32, 32)."""
 
 
 # Passages seen as a spotter sees them: windows of several lengths that end at every hop.
@@ -280,11 +274,6 @@ def fitting(gestures: Sequence[Gesture], lengths: Integers) -> NDArray[np.bool_]
         fits[:, column] = (seconds >= low - 1e-9) & (seconds <= high + 1e-9)
         fits[np.argmin(np.abs(seconds - gesture.typical_s)), column] = True
     return fits
-
-
-def is_long_enough(passage: Passage, lengths: Integers) -> bool:
-    """Whether the shortest window fits into a passage."""
-    return len(passage.samples) >= int(lengths[0])
 
 
 def scan(passage: Passage, lengths: Integers) -> Scan:

@@ -18,7 +18,7 @@ from numpy.lib.stride_tricks import sliding_window_view
 from numpy.typing import NDArray
 
 from .examples import Examples
-from .features import POINTS, Channels, Integers, Singles, Windows, feature_count
+from .features import POINTS, Channels, Singles, Windows, feature_count
 from .streams import Floats
 from .trees import Trees, fit_trees
 
@@ -44,8 +44,7 @@ def fit_mixture(curves: Floats, components: int = COMPONENTS) -> Mixture:
     times = np.broadcast_to(np.linspace(0.0, 1.0, points)[None, :, None], (m, points, 1))
     rows = np.concatenate([times, curves], axis=2).reshape(m * points, -1)
     slices = np.minimum((rows[:, 0] * components).astype(int), components - 1)
-    belongs = np.eye(components)[slices]
-    mixture = _maximise(rows, belongs)
+    mixture = _maximise(rows, np.eye(components)[slices])
     for _ in range(_ROUNDS):
         # How much each row belongs to each Gaussian; (rows, k)
         lower = np.linalg.cholesky(mixture.covariance)
@@ -67,8 +66,7 @@ def expected_curve(mixture: Mixture, points: int = 32) -> tuple[Floats, Floats]:
     times = np.linspace(0.0, 1.0, points)
     variance = mixture.covariance[:, 0, 0]
     away = times[:, None] - mixture.mean[:, 0]
-    log_share = np.log(mixture.weight) - 0.5 * (away**2 / variance + np.log(variance))
-    share = _normalised(log_share)
+    share = _normalised(np.log(mixture.weight) - 0.5 * (away**2 / variance + np.log(variance)))
     slope = mixture.covariance[:, 1:, 0] / variance[:, None]
     middles = mixture.mean[:, 1:] + slope * away[..., None]
     mean = np.einsum("tk,tks->ts", share, middles)
@@ -274,19 +272,14 @@ def fit_gmr(examples: Examples, seed: int = 0, trees: Trees | None = None) -> Gm
 
 def _fit_curves(examples: Examples) -> Curves:
     """A curve for each gesture."""
-    signals = [
-        examples.windows.signals[_curves_of(examples, label)]
-        for label in range(len(examples.gestures))
-    ]
+    signals = []
+    for label in range(len(examples.gestures)):
+        # takes as they were marked, and no more than enough
+        chosen = np.flatnonzero(examples.marked & (examples.labels == label))
+        signals.append(examples.windows.signals[chosen[:: 1 + len(chosen) // _MOST_CURVES]])
     scale = np.concatenate(signals).std(axis=(0, 1)) + 1e-3
     fitted = [_fit_curve(curves / scale) for curves in signals]
     return Curves(scale, *(np.array(parts) for parts in zip(*fitted, strict=True)))
-
-
-def _curves_of(examples: Examples, label: int) -> Integers:
-    """Which examples make a curve: takes as they were marked, and no more than enough."""
-    chosen = np.flatnonzero(examples.marked & (examples.labels == label))
-    return chosen[:: 1 + len(chosen) // _MOST_CURVES]
 
 
 def _fit_curve(curves: Floats) -> tuple[Floats, Floats, Floats]:

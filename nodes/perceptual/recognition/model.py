@@ -83,9 +83,8 @@ def certainty_of(scores: Floats, usual: Floats) -> Floats:
     return np.interp(scores / usual, [0.0, 0.5, 1.0], [0.0, TRIGGER, 1.0])
 
 
-@dataclass(frozen=True)
-class Sensor:
-    """What recordings were made with; ``device`` is "" when nobody said."""
+class Sensor(msgspec.Struct, frozen=True, rename={"gravity_included": "gravity"}):
+    """What recordings were made with, also in a file; ``device`` is "" when nobody said."""
 
     device: str
     rate_hz: float
@@ -229,21 +228,6 @@ class AboutGesture(msgspec.Struct):
         return Gesture(self.name, self.shortest_s, self.typical_s, self.longest_s, self.takes)
 
 
-class AboutSensor(msgspec.Struct):
-    """A sensor that the training had recordings of."""
-
-    device: str
-    rate_hz: float
-    gravity: bool
-    gyroscope: bool
-
-    def checked(self) -> Sensor:
-        """The sensor; ValueError when its name cannot be shown."""
-        if len(self.device) > _LONGEST_DEVICE or not (self.device + " ").isprintable():
-            raise ValueError("a sensor has a name that cannot be shown")
-        return Sensor(self.device, self.rate_hz, self.gravity, self.gyroscope)
-
-
 class About(msgspec.Struct):
     """All that a model file tells in words."""
 
@@ -254,7 +238,7 @@ class About(msgspec.Struct):
     trained_on: str
     report: dict[str, Any]
     wrist: Wrist
-    sensors: list[AboutSensor]
+    sensors: list[Sensor]
 
     def check(self) -> None:
         """ValueError when there can be no such model."""
@@ -266,6 +250,9 @@ class About(msgspec.Struct):
             raise ValueError("it has no recogniser")
         if len(self.sensors) > MAX_SENSORS:
             raise ValueError("it has more sensors than anybody")
+        for device in (one.device for one in self.sensors):
+            if len(device) > _LONGEST_DEVICE or not device.isprintable():
+                raise ValueError("a sensor has a name that cannot be shown")
 
 
 def about_text(model: Model) -> str:
@@ -283,10 +270,7 @@ def about_text(model: Model) -> str:
             for one in model.recognisers
         ],
         "wrist": model.wrist,
-        "sensors": [
-            msgspec.to_builtins(AboutSensor(*vars(one).values()))
-            for one in model.sensors[:MAX_SENSORS]
-        ],
+        "sensors": [msgspec.to_builtins(one) for one in model.sensors[:MAX_SENSORS]],
         "trained_on": model.trained_on,
         "report": dict(model.report),
     }
@@ -301,19 +285,8 @@ _PACKED = (zipfile.ZIP_STORED, zipfile.ZIP_DEFLATED)
 _ENCRYPTED = 0x1  # a bit of a member's flags in a ZIP archive
 # what zipfile, NumPy's reader of array headers, and msgspec raise for bytes that are no model
 DAMAGE = (
-    ValueError,
-    TypeError,
-    LookupError,
-    ArithmeticError,
-    RuntimeError,
-    MemoryError,
-    EOFError,
-    OSError,
-    SyntaxError,
-    tokenize.TokenError,
-    struct.error,
-    zipfile.BadZipFile,
-    zlib.error,
+    *(ValueError, TypeError, LookupError, ArithmeticError, RuntimeError, MemoryError, EOFError),
+    *(OSError, SyntaxError, tokenize.TokenError, struct.error, zipfile.BadZipFile, zlib.error),
 )
 
 
@@ -335,9 +308,8 @@ def _array(content: bytes) -> NDArray[Any]:
     if version != (1, 0):
         raise ValueError(f"arrays of version {version} are not read")
     shape, _, kind = np.lib.format.read_array_header_1_0(file)
-    if kind.kind not in "biuf" or kind.itemsize * prod(max(0, size) for size in shape) > len(
-        content
-    ):
+    claimed = kind.itemsize * prod(max(0, size) for size in shape)
+    if kind.kind not in "biuf" or claimed > len(content):
         raise ValueError("an array does not hold what it claims")
     file.seek(0)
     return np.lib.format.read_array(file, allow_pickle=False)
@@ -376,11 +348,11 @@ def write_model(path: Path, model: Model) -> None:
 
 def model_bytes(model: Model) -> bytes:
     """A model as the content of a file."""
-    arrays = {"about": np.frombuffer(about_text(model).encode(), np.uint8)}
+    arrays: dict[str, NDArray[Any]] = {"about": np.frombuffer(about_text(model).encode(), np.uint8)}
     for number, recogniser in enumerate(model.recognisers):
-        numbers = {"usual_score": recogniser.usual, **recogniser.scorer.arrays()}
-        scored = {f"{number}.{name}": _small(array) for name, array in numbers.items()}
-        arrays.update(scored)
+        for name, array in {"usual_score": recogniser.usual, **recogniser.scorer.arrays()}.items():
+            small = array.astype(np.float32) if array.dtype == np.float64 else array
+            arrays[f"{number}.{name}"] = small
     content = io.BytesIO()
     np.savez_compressed(content, allow_pickle=False, **arrays)
     return content.getvalue()
@@ -436,10 +408,6 @@ def _content(path: Path) -> bytes:
         ) from error
 
 
-def _small(array: NDArray[Any]) -> NDArray[Any]:
-    return array.astype(np.float32) if array.dtype == np.float64 else array
-
-
 def _model(about: About, arrays: Mapping[str, NDArray[Any]]) -> Model:
     about.check()
     recognisers = tuple(
@@ -453,7 +421,7 @@ def _model(about: About, arrays: Mapping[str, NDArray[Any]]) -> Model:
         about.report,
         triggers={one.name: one.trigger for one in about.gestures},
         wrist=about.wrist,
-        sensors=tuple(one.checked() for one in about.sensors),
+        sensors=tuple(about.sensors),
     )
 
 

@@ -175,8 +175,7 @@ class _Troubles:
         rate_hz = self._steps / max(self._moving_s, 1e-9)
         if self._numbers < self._samples / 2:
             told = text_of(
-                "{source} sends numbers that no sensor can measure. Restart its app.",
-                source=source,
+                "{source} sends numbers that no sensor can measure. Restart its app.", source=source
             )
         elif self._breaks > _MOST_BREAKS * self._batches:
             told = text_of(

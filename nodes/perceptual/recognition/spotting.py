@@ -49,9 +49,7 @@ class Spotter:
         self._certainties = np.zeros(len(model.gestures))
         self.looked: Callable[[float, Floats, Floats], object] = lambda *_: None
         """Called at each look: its end in s, each gesture's certainty and length of window in s."""
-        self._sought = [
-            name for name, is_sought in zip(model.names, wanted, strict=True) if is_sought
-        ]
+        self._sought = [name for name in model.names if not gestures or name in gestures]
 
     @property
     def certainties(self) -> dict[str, float]:
@@ -99,18 +97,14 @@ class Spotter:
         if self._since_look < HOP or len(self._memory) < self._lengths[0]:
             return []
         self._since_look = 0
-        found = self._look(end_s)
-        return [found] if found else []
-
-    def _look(self, end_s: float) -> Detection | None:
         samples = self._memory.samples()
         full = self._lengths <= len(samples)
         lengths = self._lengths[full]
         raw = cut_windows(samples, np.full(len(lengths), len(samples) - 1), lengths)
-        windows = self._recogniser.windows(raw, lengths)
-        certainties = self._recogniser.certainties(windows)
+        certainties = self._recogniser.certainties(self._recogniser.windows(raw, lengths))
         best, which = best_lengths(certainties, self._fits[full])
         self._certainties = best
         lengths_s = lengths[which] / RATE_HZ
         self.looked(end_s, best, lengths_s)
-        return self._picker.look(end_s, best, lengths_s)
+        found = self._picker.look(end_s, best, lengths_s)
+        return [found] if found else []

@@ -13,16 +13,7 @@ from nep_core.errors import RecordingError
 from nodes.recordings import Recording
 
 from .examples import Examples, collect
-from .features import (
-    Channels,
-    Gesture,
-    Integers,
-    Scan,
-    gestures_in,
-    is_long_enough,
-    scan,
-    window_lengths,
-)
+from .features import Channels, Gesture, Integers, Scan, gestures_in, scan, window_lengths
 from .gmr import Both, fit_gmr
 from .model import METHODS, Model, Recogniser, Scorer
 from .streams import Passage, passages_of
@@ -66,8 +57,8 @@ def _rounded(figures: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def _score(totals: Totals) -> dict[str, float]:
-    score = {"made": totals.made, "right": totals.right, "fired": totals.fired}
-    return score | {"f1": round(totals.f1, 4)}
+    figures = {"made": totals.made, "right": totals.right, "fired": totals.fired}
+    return figures | {"f1": round(totals.f1, 4)}
 
 
 def in_words(method: str, report: Mapping[str, Any]) -> list[str]:
@@ -76,10 +67,11 @@ def in_words(method: str, report: Mapping[str, Any]) -> list[str]:
     takes: dict[str, int] = report["takes"]
     if min(takes.values()) < 2:
         return [f"{method}: not checked. To check it, record each gesture at least twice."]
-    lines = [f"{method}: gestures recognised in recordings that were left out of the training"]
-    lines += [_gesture_line(name, takes[name], counts) for name in takes]
-    lines.append(_everyday_line(report))
-    return lines
+    return [
+        f"{method}: gestures recognised in recordings that were left out of the training",
+        *(_gesture_line(name, takes[name], counts) for name in takes),
+        _everyday_line(report),
+    ]
 
 
 def advice(report: Mapping[str, Any], has_own_everyday: bool) -> list[str]:
@@ -195,7 +187,7 @@ def train(
     gestures = gestures_in(takes, len(people))
     _check(recordings, gestures)
     lengths = window_lengths(gestures)
-    usable = [one for one in passages if is_long_enough(one, lengths)]
+    usable = [one for one in passages if len(one.samples) >= lengths[0]]  # others hold no window
     material = _Material(usable, gestures, seed, several=len(people) > 1)
     best = Channels(gravity, gyroscope)
     tell(f"Checking what it learned with {best.in_words}…")
@@ -267,14 +259,13 @@ class _Material:
 
 def _check(recordings: Sequence[Recording], gestures: Sequence[Gesture]) -> None:
     if not gestures:
-        names = ", ".join(recording.source for recording in recordings)
         raise RecordingError(
             "No gesture is marked in the recordings {names}.",
             checklist=(
                 "A column named gesture says for each sample which gesture is being made.",
                 "1 stands for the gesture in the file's name, as in ann_karate.csv; 0 for none.",
             ),
-            names=names,
+            names=", ".join(recording.source for recording in recordings),
         )
 
 

@@ -143,9 +143,7 @@ def curves_of(
 def _curve(
     gesture: Gesture, seen: Sequence[tuple[Passage, Sequence[Detection]]], hours: float
 ) -> tuple[CurvePoint, ...]:
-    caught: list[float] = []
-    everyday: list[float] = []
-    others: list[float] = []
+    caught, everyday, others = list[float](), list[float](), list[float]()
     for passage, found in seen:
         own = [one for one in found if one.gesture == gesture.name]
         for take in passage.takes:

@@ -11,15 +11,14 @@ from .motion import LENGTHS, Joint, Motion, Pose, Swing, joint_values
 
 # What everyday movements are made of: going to a pose, small shifts, oscillations, jolts.
 
-Activity = Callable[[Motion, float, np.random.Generator], float]
+Chance = np.random.Generator
+Activity = Callable[[Motion, float, Chance], float]
 """Plans something from a time on; tells until when."""
 
 _JOLT_S = 0.05
 
 
-def settle(
-    motion: Motion, start_s: float, pose: Pose, rng: np.random.Generator, haste: float = 1.0
-) -> float:
+def settle(motion: Motion, start_s: float, pose: Pose, rng: Chance, haste: float = 1.0) -> float:
     """Go to about this pose, slower where it is farther; tells when it is reached.
 
     ``motion`` gets the movement, from ``start_s``; ``rng`` is the chance, ``haste`` 2 twice as
@@ -43,7 +42,7 @@ def shift(
     start_s: float,
     pose: Pose,
     wide_deg: float,
-    rng: np.random.Generator,
+    rng: Chance,
     lasting_s: tuple[float, float] = (0.35, 0.9),
 ) -> float:
     """A free movement about a pose; tells when it ends.
@@ -58,12 +57,7 @@ def shift(
 
 
 def sway(
-    motion: Motion,
-    start_s: float,
-    end_s: float,
-    frequency_hz: float,
-    pose: Pose,
-    rng: np.random.Generator,
+    motion: Motion, start_s: float, end_s: float, frequency_hz: float, pose: Pose, rng: Chance
 ) -> None:
     """An oscillation; ``pose`` holds how far, in degrees (hips in m).
 
@@ -83,8 +77,7 @@ def jolt(motion: Motion, at_s: float, size_m: float) -> None:
 
 # What hands do in a house, a street and a classroom that looks a little like a gesture.
 #
-# Nothing here is a sign that somebody would teach a robot: such (clapping, waving) are in
-# lively.py.
+# Nothing here is a sign that somebody would teach a robot: such (clapping, waving) are in SIGNS.
 
 HANGING = arm(3, 8, 5, 15, 25)
 _ON_PAPER = arm(30, 14, 42, 80, 55)
@@ -95,7 +88,7 @@ _TABLE = arm(45, 15, 30, 55, 70)
 _ARMS_ABOUT = arm(45, 20, 40, 85, 15)
 
 
-def write_by_hand(motion: Motion, start_s: float, rng: np.random.Generator) -> float:
+def write_by_hand(motion: Motion, start_s: float, rng: Chance) -> float:
     """Write: the fingers pull at the forearm, the hand goes along the line and jumps back."""
     now_s = settle(motion, start_s, {**_ON_PAPER, **trunk(0, 8)}, rng)
     end_s = now_s + rng.uniform(3.0, 6.0)
@@ -108,7 +101,7 @@ def write_by_hand(motion: Motion, start_s: float, rng: np.random.Generator) -> f
     return end_s
 
 
-def wipe_table(motion: Motion, start_s: float, rng: np.random.Generator) -> float:
+def wipe_table(motion: Motion, start_s: float, rng: Chance) -> float:
     """Wipe a table in circles."""
     now_s = settle(motion, start_s, {**_TABLE, **trunk(0, 15)}, rng)
     end_s = now_s + rng.uniform(2.0, 5.0)
@@ -118,7 +111,7 @@ def wipe_table(motion: Motion, start_s: float, rng: np.random.Generator) -> floa
     return settle(motion, end_s, {**HANGING, **trunk(0)}, rng)
 
 
-def brush_teeth(motion: Motion, start_s: float, rng: np.random.Generator) -> float:
+def brush_teeth(motion: Motion, start_s: float, rng: Chance) -> float:
     """Brush teeth, changing the side."""
     now_s = settle(motion, start_s, arm(55, 35, 48, 132, 10), rng)
     for _ in range(rng.integers(2, 4)):
@@ -129,7 +122,7 @@ def brush_teeth(motion: Motion, start_s: float, rng: np.random.Generator) -> flo
     return settle(motion, now_s, HANGING, rng)
 
 
-def eat(motion: Motion, start_s: float, rng: np.random.Generator) -> float:
+def eat(motion: Motion, start_s: float, rng: Chance) -> float:
     """Bring a fork to the mouth a few times."""
     now_s = settle(motion, start_s, {**_PLATE, **trunk(0, 8)}, rng)
     for _ in range(rng.integers(2, 5)):
@@ -139,7 +132,7 @@ def eat(motion: Motion, start_s: float, rng: np.random.Generator) -> float:
     return now_s
 
 
-def phone_to_ear(motion: Motion, start_s: float, rng: np.random.Generator) -> float:
+def phone_to_ear(motion: Motion, start_s: float, rng: Chance) -> float:
     """Make a call."""
     now_s = settle(motion, start_s, _PHONE, rng) + rng.uniform(0.3, 1.0)
     now_s = settle(motion, now_s, arm(52, 42, 35, 142, -15), rng, haste=1.4)
@@ -148,7 +141,7 @@ def phone_to_ear(motion: Motion, start_s: float, rng: np.random.Generator) -> fl
     return settle(motion, end_s, HANGING, rng)
 
 
-def tap_on_phone(motion: Motion, start_s: float, rng: np.random.Generator) -> float:
+def tap_on_phone(motion: Motion, start_s: float, rng: Chance) -> float:
     """Write on a phone, tilting it now and then."""
     now_s = settle(motion, start_s, _PHONE, rng)
     end_s = now_s + rng.uniform(2.5, 5.0)
@@ -158,7 +151,7 @@ def tap_on_phone(motion: Motion, start_s: float, rng: np.random.Generator) -> fl
     return end_s
 
 
-def stir(motion: Motion, start_s: float, rng: np.random.Generator) -> float:
+def stir(motion: Motion, start_s: float, rng: Chance) -> float:
     """Stir in a pot."""
     now_s = settle(motion, start_s, _POT, rng)
     end_s = now_s + rng.uniform(2.0, 5.0)
@@ -168,7 +161,7 @@ def stir(motion: Motion, start_s: float, rng: np.random.Generator) -> float:
     return end_s
 
 
-def reach_to_shelf(motion: Motion, start_s: float, rng: np.random.Generator) -> float:
+def reach_to_shelf(motion: Motion, start_s: float, rng: Chance) -> float:
     """Take something from a shelf, high or low."""
     high = rng.uniform(85, 130)
     shelf = {**arm(high, 8, 15, 35, 30), **trunk(rng.uniform(-12, 12))}
@@ -177,7 +170,7 @@ def reach_to_shelf(motion: Motion, start_s: float, rng: np.random.Generator) -> 
     return settle(motion, now_s, {**HANGING, **trunk(0)}, rng)
 
 
-def pick_up(motion: Motion, start_s: float, rng: np.random.Generator) -> float:
+def pick_up(motion: Motion, start_s: float, rng: Chance) -> float:
     """Bend down for something on the floor."""
     down = {Joint.LEAN: rng.uniform(50, 75), Joint.UP: -rng.uniform(0.1, 0.3)}
     now_s = settle(motion, start_s, {**arm(30, 6, 5, 10, 20), **down}, rng, haste=1.2)
@@ -187,7 +180,7 @@ def pick_up(motion: Motion, start_s: float, rng: np.random.Generator) -> float:
     return settle(motion, now_s + rng.uniform(0.2, 1.0), HANGING, rng)
 
 
-def open_door(motion: Motion, start_s: float, rng: np.random.Generator) -> float:
+def open_door(motion: Motion, start_s: float, rng: Chance) -> float:
     """Press a door handle, and pull or push the door."""
     now_s = settle(motion, start_s, arm(40, 8, 15, 40, 40), rng, haste=1.3)
     motion.move({Joint.PRONATION: 75}, now_s, 0.35)
@@ -197,7 +190,7 @@ def open_door(motion: Motion, start_s: float, rng: np.random.Generator) -> float
     return settle(motion, now_s + 1.2, HANGING, rng)
 
 
-def put_on_jacket(motion: Motion, start_s: float, rng: np.random.Generator) -> float:
+def put_on_jacket(motion: Motion, start_s: float, rng: Chance) -> float:
     """Get into sleeves: wide movements one after the other."""
     now_s = start_s
     for pose in (arm(-30, 35, -30, 60, 0), arm(60, 60, 20, 90, 30), arm(40, 20, 60, 110, -20)):
@@ -206,7 +199,7 @@ def put_on_jacket(motion: Motion, start_s: float, rng: np.random.Generator) -> f
     return settle(motion, now_s + 0.1, {**HANGING, **trunk(0)}, rng)
 
 
-def talk_widely(motion: Motion, start_s: float, rng: np.random.Generator) -> float:
+def talk_widely(motion: Motion, start_s: float, rng: Chance) -> float:
     """Talk with big gestures of the arms."""
     now_s = settle(motion, start_s, _ARMS_ABOUT, rng)
     for _ in range(rng.integers(5, 12)):
@@ -215,7 +208,7 @@ def talk_widely(motion: Motion, start_s: float, rng: np.random.Generator) -> flo
     return settle(motion, now_s, HANGING, rng)
 
 
-def climb_stairs(motion: Motion, start_s: float, rng: np.random.Generator) -> float:
+def climb_stairs(motion: Motion, start_s: float, rng: Chance) -> float:
     """Climb stairs: slower than walking, each step heavier."""
     now_s = settle(motion, start_s, {**HANGING, Joint.UP: 0.0, **trunk(0, 8)}, rng)
     end_s = now_s + rng.uniform(3.0, 7.0)
@@ -227,7 +220,7 @@ def climb_stairs(motion: Motion, start_s: float, rng: np.random.Generator) -> fl
     return end_s
 
 
-def run_a_little(motion: Motion, start_s: float, rng: np.random.Generator) -> float:
+def run_a_little(motion: Motion, start_s: float, rng: Chance) -> float:
     """Run some steps."""
     running = {**arm(5, 12, 15, 90, 10), Joint.UP: 0.0, **trunk(0, 10)}
     now_s = settle(motion, start_s, running, rng, haste=1.4)
@@ -241,21 +234,9 @@ def run_a_little(motion: Motion, start_s: float, rng: np.random.Generator) -> fl
 
 
 CHORES: tuple[Activity, ...] = (
-    write_by_hand,
-    wipe_table,
-    brush_teeth,
-    eat,
-    phone_to_ear,
-    tap_on_phone,
-    stir,
-    reach_to_shelf,
-    pick_up,
-    open_door,
-    put_on_jacket,
-    talk_widely,
-    climb_stairs,
-    run_a_little,
-)
+    write_by_hand, wipe_table, brush_teeth, eat, phone_to_ear, tap_on_phone, stir, reach_to_shelf,
+    pick_up, open_door, put_on_jacket, talk_widely, climb_stairs, run_a_little,
+)  # fmt: skip
 
 
 def _tread(
@@ -273,12 +254,12 @@ _STANDING: Pose = {Joint.FORWARD: 0.0, Joint.UP: 0.0}
 _SITTING: Pose = {Joint.FORWARD: -0.25, Joint.UP: -0.42}
 
 
-def rest(motion: Motion, start_s: float, rng: np.random.Generator) -> float:
+def rest(motion: Motion, start_s: float, rng: Chance) -> float:
     """Let the arm hang."""
     return settle(motion, start_s, {**HANGING, **trunk(0)}, rng) + rng.uniform(1.0, 3.0)
 
 
-def hand_on_lap(motion: Motion, start_s: float, rng: np.random.Generator) -> float:
+def hand_on_lap(motion: Motion, start_s: float, rng: Chance) -> float:
     """Lay the hand down, and shift it now and then."""
     now_s = settle(motion, start_s, {**_ON_THE_LAP, **trunk(0)}, rng)
     for _ in range(rng.integers(1, 4)):
@@ -286,7 +267,7 @@ def hand_on_lap(motion: Motion, start_s: float, rng: np.random.Generator) -> flo
     return now_s
 
 
-def type_on_keyboard(motion: Motion, start_s: float, rng: np.random.Generator) -> float:
+def type_on_keyboard(motion: Motion, start_s: float, rng: Chance) -> float:
     """Type: quick small turns of the forearm, the hand going to and fro over the keys."""
     now_s = settle(motion, start_s, {**_ON_THE_DESK, **trunk(0, 5)}, rng)
     end_s = now_s + rng.uniform(3.0, 7.0)
@@ -297,7 +278,7 @@ def type_on_keyboard(motion: Motion, start_s: float, rng: np.random.Generator) -
     return end_s
 
 
-def drink(motion: Motion, start_s: float, rng: np.random.Generator) -> float:
+def drink(motion: Motion, start_s: float, rng: Chance) -> float:
     """Reach for a cup, bring it to the mouth, tilt it, put it back."""
     cup, mouth = arm(50, 10, 20, 50, 0), arm(60, 25, 45, 132, -5)
     now_s = settle(motion, start_s, cup, rng) + 0.4
@@ -307,7 +288,7 @@ def drink(motion: Motion, start_s: float, rng: np.random.Generator) -> float:
     return settle(motion, now_s, _ON_THE_DESK, rng)
 
 
-def scratch_head(motion: Motion, start_s: float, rng: np.random.Generator) -> float:
+def scratch_head(motion: Motion, start_s: float, rng: Chance) -> float:
     """Scratch an ear."""
     now_s = settle(motion, start_s, arm(75, 45, 40, 140, 0), rng)
     end_s = now_s + rng.uniform(1.5, 2.5)
@@ -315,7 +296,7 @@ def scratch_head(motion: Motion, start_s: float, rng: np.random.Generator) -> fl
     return settle(motion, end_s, _ON_THE_LAP, rng)
 
 
-def gesticulate(motion: Motion, start_s: float, rng: np.random.Generator) -> float:
+def gesticulate(motion: Motion, start_s: float, rng: Chance) -> float:
     """Talk with the hands."""
     now_s = settle(motion, start_s, _BEFORE_THE_CHEST, rng)
     for _ in range(rng.integers(4, 9)):
@@ -323,13 +304,13 @@ def gesticulate(motion: Motion, start_s: float, rng: np.random.Generator) -> flo
     return now_s
 
 
-def look_at_watch(motion: Motion, start_s: float, rng: np.random.Generator) -> float:
+def look_at_watch(motion: Motion, start_s: float, rng: Chance) -> float:
     """Lift the watch before the eyes."""
     now_s = settle(motion, start_s, arm(40, 20, 65, 105, 75), rng) + rng.uniform(0.8, 2.0)
     return settle(motion, now_s, HANGING, rng)
 
 
-def walk(motion: Motion, start_s: float, rng: np.random.Generator) -> float:
+def walk(motion: Motion, start_s: float, rng: Chance) -> float:
     """Walk: the arm swings, the hips go up and down with each step."""
     now_s = settle(motion, start_s, {**HANGING, **_STANDING, **trunk(0, 2)}, rng)
     end_s = now_s + rng.uniform(4.0, 9.0)
@@ -342,7 +323,7 @@ def walk(motion: Motion, start_s: float, rng: np.random.Generator) -> float:
     return end_s
 
 
-def turn_round(motion: Motion, start_s: float, rng: np.random.Generator) -> float:
+def turn_round(motion: Motion, start_s: float, rng: Chance) -> float:
     """Turn on the spot."""
     heading = np.degrees(motion.goal[Joint.HEADING]) + rng.choice([-1, 1]) * rng.uniform(60, 180)
     duration_s = rng.uniform(1.2, 2.2)
@@ -351,7 +332,7 @@ def turn_round(motion: Motion, start_s: float, rng: np.random.Generator) -> floa
     return settle(motion, start_s + duration_s / 2, {**HANGING, **_STANDING}, rng) + 0.5
 
 
-def sit_down(motion: Motion, start_s: float, rng: np.random.Generator) -> float:
+def sit_down(motion: Motion, start_s: float, rng: Chance) -> float:
     """Sit down, leaning forward on the way."""
     duration_s = rng.uniform(1.2, 1.9)
     motion.move({Joint.LEAN: 35}, start_s, duration_s * 0.7)
@@ -360,7 +341,7 @@ def sit_down(motion: Motion, start_s: float, rng: np.random.Generator) -> float:
     return start_s + duration_s * 1.4 + rng.uniform(0.5, 2.0)
 
 
-def stand_up(motion: Motion, start_s: float, rng: np.random.Generator) -> float:
+def stand_up(motion: Motion, start_s: float, rng: Chance) -> float:
     """Stand up, leaning forward on the way."""
     duration_s = rng.uniform(1.1, 1.8)
     motion.move({Joint.LEAN: 38}, start_s, duration_s * 0.6)
@@ -382,7 +363,7 @@ EVERYDAY: tuple[Activity, ...] = (
 # the everyday movement that models are trained with.
 
 
-def clap(motion: Motion, start_s: float, rng: np.random.Generator) -> float:
+def clap(motion: Motion, start_s: float, rng: Chance) -> float:
     """Applaud."""
     apart = arm(38, 5, 45, 95, 0)
     now_s = settle(motion, start_s, apart, rng)
@@ -395,7 +376,7 @@ def clap(motion: Motion, start_s: float, rng: np.random.Generator) -> float:
     return settle(motion, now_s, HANGING, rng)
 
 
-def wave(motion: Motion, start_s: float, rng: np.random.Generator) -> float:
+def wave(motion: Motion, start_s: float, rng: Chance) -> float:
     """Wave hello, the hand beside the head."""
     now_s = settle(motion, start_s, arm(65, 50, -35, 115, -20), rng, haste=1.4)
     end_s = now_s + rng.uniform(1.6, 2.6)
@@ -404,7 +385,7 @@ def wave(motion: Motion, start_s: float, rng: np.random.Generator) -> float:
     return settle(motion, end_s, HANGING, rng)
 
 
-def shake_hands(motion: Motion, start_s: float, rng: np.random.Generator) -> float:
+def shake_hands(motion: Motion, start_s: float, rng: Chance) -> float:
     """Shake somebody's hand."""
     now_s = settle(motion, start_s, arm(35, 5, 12, 55, 5), rng, haste=1.4)
     end_s = now_s + rng.uniform(1.3, 2.0)
@@ -413,7 +394,7 @@ def shake_hands(motion: Motion, start_s: float, rng: np.random.Generator) -> flo
     return settle(motion, end_s, HANGING, rng)
 
 
-def knock(motion: Motion, start_s: float, rng: np.random.Generator) -> float:
+def knock(motion: Motion, start_s: float, rng: Chance) -> float:
     """Knock at a door."""
     at_the_door = arm(60, 10, 25, 80, 20)
     now_s = settle(motion, start_s, at_the_door, rng, haste=1.3)
@@ -426,7 +407,7 @@ def knock(motion: Motion, start_s: float, rng: np.random.Generator) -> float:
     return settle(motion, now_s, HANGING, rng)
 
 
-def throw(motion: Motion, start_s: float, rng: np.random.Generator) -> float:
+def throw(motion: Motion, start_s: float, rng: Chance) -> float:
     """Toss something to somebody, underarm."""
     now_s = settle(motion, start_s, arm(-28, 8, 5, 25, 10), rng, haste=1.3)
     thrown_s = rng.uniform(0.35, 0.55)
@@ -434,7 +415,7 @@ def throw(motion: Motion, start_s: float, rng: np.random.Generator) -> float:
     return settle(motion, now_s + thrown_s + 0.2, HANGING, rng)
 
 
-def point(motion: Motion, start_s: float, rng: np.random.Generator) -> float:
+def point(motion: Motion, start_s: float, rng: Chance) -> float:
     """Point at something."""
     there = arm(rng.uniform(60, 95), rng.uniform(-5, 30), 15, 8, rng.uniform(20, 70))
     now_s = settle(motion, start_s, there, rng, haste=1.5) + rng.uniform(0.4, 1.2)

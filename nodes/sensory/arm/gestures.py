@@ -59,9 +59,7 @@ _KARATE = Gesture(  # from the hip up beside the head, then a chop forward; the 
     strokes=(
         KeyStroke(0.18, 0.76, arm(-16, 14, 17, 125, -35)),
         KeyStroke(
-            0.43,
-            0.70,
-            {Joint.FLEXION: 83, Joint.ABDUCTION: 1, Joint.ROTATION: 28, **trunk(19, 8)},
+            0.43, 0.70, {Joint.FLEXION: 83, Joint.ABDUCTION: 1, Joint.ROTATION: 28, **trunk(19, 8)}
         ),
         KeyStroke(0.65, 0.30, {Joint.PRONATION: 81}),
         KeyStroke(0.69, 0.46, {Joint.ELBOW: 2}),

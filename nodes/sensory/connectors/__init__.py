@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
+from importlib import import_module
 
 from .connector import Connector, Settings
 
 
 @dataclass(frozen=True)
 class WayKind:
-    """One way, as a person chooses it; ``port`` is its usual one.
+    """One way, as a person chooses it; ``port`` is its usual one, ``place`` its module and class.
 
     ``needs_address``: the phone is the server, and its address must be given.
     """
@@ -18,65 +18,29 @@ class WayKind:
     title: str
     port: int
     needs_address: bool
-    make: Callable[[Settings], Connector]
+    place: str
 
-
-def _phone_page(settings: Settings) -> Connector:
-    from nodes.sensory.phone_page.server import PhonePage
-
-    return PhonePage(settings)
-
-
-def _sensor_logger(settings: Settings) -> Connector:
-    from .sensor_logger import SensorLoggerConnector
-
-    return SensorLoggerConnector(settings)
-
-
-def _udp(settings: Settings) -> Connector:
-    from .lines import UdpConnector
-
-    return UdpConnector(settings)
-
-
-def _tcp(settings: Settings) -> Connector:
-    from .lines import TcpConnector
-
-    return TcpConnector(settings)
-
-
-def _paper_watch(settings: Settings) -> Connector:
-    from .lines import PaperWatchConnector
-
-    return PaperWatchConnector(settings)
-
-
-def _phyphox(settings: Settings) -> Connector:
-    from .phyphox import PhyphoxConnector
-
-    return PhyphoxConnector(settings)
-
-
-def _sensor_server(settings: Settings) -> Connector:
-    from .sensor_server import SensorServerConnector
-
-    return SensorServerConnector(settings)
-
-
-def _bluetooth(settings: Settings) -> Connector:
-    from .bluetooth import BluetoothConnector
-
-    return BluetoothConnector(settings)
+    def make(self, settings: Settings) -> Connector:
+        """The connector; only its module is loaded, for some take long."""
+        module, _, name = self.place.partition(":")
+        connector: Connector = getattr(import_module(module, __name__), name)(settings)
+        return connector
 
 
 CONNECTORS: dict[str, WayKind] = {
-    "phone_page": WayKind("A page in the phone's browser", 8443, False, _phone_page),
-    "sensor_logger": WayKind("The app Sensor Logger", 8000, False, _sensor_logger),
-    "phyphox": WayKind("The app phyphox", 8080, True, _phyphox),
-    "sensor_server": WayKind("The app SensorServer", 8080, True, _sensor_server),
-    "udp": WayKind("Lines by UDP", 8085, False, _udp),
-    "tcp": WayKind("Lines by TCP", 8086, False, _tcp),
-    "paper_watch": WayKind("The watch of the NEP paper", 8080, False, _paper_watch),
-    "bluetooth": WayKind("A sensor with Bluetooth", 0, True, _bluetooth),
+    "phone_page": WayKind(
+        "A page in the phone's browser", 8443, False, "nodes.sensory.phone_page.server:PhonePage"
+    ),
+    "sensor_logger": WayKind(
+        "The app Sensor Logger", 8000, False, ".sensor_logger:SensorLoggerConnector"
+    ),
+    "phyphox": WayKind("The app phyphox", 8080, True, ".phyphox:PhyphoxConnector"),
+    "sensor_server": WayKind(
+        "The app SensorServer", 8080, True, ".sensor_server:SensorServerConnector"
+    ),
+    "udp": WayKind("Lines by UDP", 8085, False, ".lines:UdpConnector"),
+    "tcp": WayKind("Lines by TCP", 8086, False, ".lines:TcpConnector"),
+    "paper_watch": WayKind("The watch of the NEP paper", 8080, False, ".lines:TcpConnector"),
+    "bluetooth": WayKind("A sensor with Bluetooth", 0, True, ".bluetooth:BluetoothConnector"),
 }
 """The easiest for a novice first."""

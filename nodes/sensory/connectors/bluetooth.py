@@ -9,8 +9,8 @@ import struct
 import time
 import tomllib
 import uuid
-from collections.abc import Callable, Iterable, Mapping
-from functools import cached_property
+from collections.abc import Iterable, Mapping
+from functools import cached_property, partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Literal
 
@@ -118,7 +118,7 @@ class Decoder:
         count, rest = divmod(len(data) - start, size)
         if count < 1 or rest:
             return None
-        found = [self._reading(data[start + size * at :][:size]) for at in range(count)]
+        found = (self._reading(data[start + size * at :][:size]) for at in range(count))
         whole = [reading for reading in found if reading is not None]
         return whole if len(whole) == count else None
 
@@ -182,10 +182,9 @@ def profiles() -> dict[str, Profile]:
 
 
 def _check(profile: Profile) -> None:
-    for text in (profile.service, *(one.uuid for one in profile.characteristics)):
+    named = (*(one.uuid for one in profile.characteristics), *(one.uuid for one in profile.writes))
+    for text in (profile.service, *named):
         uuid.UUID(text)
-    for write in profile.writes:
-        uuid.UUID(write.uuid)
     for characteristic in profile.characteristics:
         _check_fields(characteristic)
     if not any(one.has(_ACC) for one in profile.characteristics):
@@ -231,7 +230,7 @@ class BluetoothConnector(Background):
     """
 
     def __init__(self, settings: Settings, known: Mapping[str, Profile] | None = None) -> None:
-        super().__init__(self._follow)
+        super().__init__()
         self._wanted = settings.address.strip()
         self._known = known
 
@@ -266,7 +265,7 @@ class BluetoothConnector(Background):
             self._known = profiles()
         self.start()
 
-    async def _follow(self) -> None:
+    async def _serve(self) -> None:
         from bleak import BleakScanner
         from bleak.exc import BleakError
 
@@ -318,24 +317,18 @@ class BluetoothConnector(Background):
         for write in profile.writes:
             await client.write_gatt_char(write.uuid, bytes.fromhex(write.bytes), response=True)
         for characteristic in profile.characteristics:
-            hear = self._hearing(Decoder(characteristic), name)
+            hear = partial(self._hear, Decoder(characteristic), name)
             await client.start_notify(characteristic.uuid, hear)
 
-    def _hearing(
-        self, decoder: Decoder, name: str
-    ) -> Callable[[BleakGATTCharacteristic, bytearray], None]:
-        def hear(_characteristic: BleakGATTCharacteristic, data: bytearray) -> None:
-            readings = decoder.readings(bytes(data))
-            if readings is None:
-                self._say(text_of(LEFT_OUT, name=name), name)
-            else:
-                self.put(Arrived(name, readings, time.monotonic()))
-
-        return hear
+    def _hear(
+        self, decoder: Decoder, name: str, _of: BleakGATTCharacteristic, data: bytearray
+    ) -> None:
+        readings = decoder.readings(bytes(data))
+        if readings is None:
+            self._say(text_of(LEFT_OUT, name=name), name)
+        else:
+            self.put(Arrived(name, readings, time.monotonic()))
 
     def _say(self, trouble: Words, sender: str = "") -> None:
-        self.put(
-            Arrived(
-                sender or self._wanted or "Bluetooth", arrived_s=time.monotonic(), trouble=trouble
-            )
-        )
+        sender = sender or self._wanted or "Bluetooth"
+        self.put(Arrived(sender, arrived_s=time.monotonic(), trouble=trouble))

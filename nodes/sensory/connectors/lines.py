@@ -62,7 +62,10 @@ class LineConnector:
 
 
 class TcpConnector(LineConnector):
-    """A server for lines: many may connect, the node follows one of them."""
+    """A server for lines: many may connect, the node follows one of them.
+
+    The watch and phone apps of the NEP paper connect to it too, at port 8080.
+    """
 
     waits_for = Text("waits for a watch on TCP port {port} ({where})")
 
@@ -155,17 +158,9 @@ class TcpConnector(LineConnector):
 
     def _leave(self, connection: socket.socket) -> None:
         del self._clients[connection]
-        if self._selector is not None:
-            self._selector.unregister(connection)
+        assert self._selector is not None
+        self._selector.unregister(connection)
         connection.close()
-
-
-class PaperWatchConnector(TcpConnector):
-    """The watch and phone apps of the NEP paper, which connect to TCP port 8080.
-
-    Source: enriquecoronadozu/smartwatches_apps; lines ``a;ns;x;y;z`` are the accelerometer in
-    m/s², ``y;ns;x;y;z`` the gyroscope in rad/s, with the watch's own nanoseconds.
-    """
 
 
 # Lines that a watch or phone sends in UDP packets.

@@ -14,7 +14,7 @@ from faults import Text, text_of
 from nep_core.processes.manifest import finite_number
 from nodes.sensory.reading import Reading, scaled, vector
 
-from .connector import Arrived, Settings, Timed, nearest
+from .connector import Arrived, Timed, nearest
 from .servers import OutboundConnector
 
 if TYPE_CHECKING:
@@ -116,11 +116,8 @@ class Experiment:
 
 def read_config(body: bytes) -> Experiment | None:
     """The experiment of an answer of ``/config``; None when it is none."""
-    try:
-        config = msgspec.json.decode(body)
-    except (msgspec.DecodeError, RecursionError):
-        return None
-    if not isinstance(config, dict):
+    config = _object(body)
+    if config is None:
         return None
     found = {one.source: one for one in _inputs(config)} or _by_name(config)
     title = str(config.get("localTitle") or config.get("title") or "")[:60]
@@ -130,11 +127,16 @@ def read_config(body: bytes) -> Experiment | None:
 
 def read_answer(body: bytes) -> Mapping[str, object] | None:
     """An answer of ``/get``; None when it is none."""
+    answer = _object(body)
+    return answer if answer is not None and "buffer" in answer else None
+
+
+def _object(body: bytes) -> dict[str, object] | None:
     try:
-        answer = msgspec.json.decode(body)
+        found = msgspec.json.decode(body)
     except (msgspec.DecodeError, RecursionError):
         return None
-    return answer if isinstance(answer, dict) and "buffer" in answer else None
+    return found if isinstance(found, dict) else None
 
 
 def _inputs(config: Mapping[str, object]) -> list[Sensor]:
@@ -188,9 +190,6 @@ class PhyphoxConnector(OutboundConnector):
 
     app = "phyphox"
 
-    def __init__(self, settings: Settings) -> None:
-        super().__init__(settings, self._ask)
-
     @property
     def where(self) -> Text:
         """What the node is ready for."""
@@ -205,7 +204,7 @@ class PhyphoxConnector(OutboundConnector):
             **self._place,
         )
 
-    async def _ask(self) -> None:
+    async def _serve(self) -> None:
         from aiohttp import ClientError, ClientSession, ClientTimeout
 
         failures = 0
@@ -247,8 +246,7 @@ class PhyphoxConnector(OutboundConnector):
             if answer is None:
                 self._say("What answers at {host}, port {port} is not phyphox.")
                 return
-            is_apple = self._settings.units == "apple"
-            readings = experiment.take(answer, is_apple=is_apple)
+            readings = experiment.take(answer, is_apple=self._settings.units == "apple")
             first = first or experiment.session
             if experiment.session != first:
                 return
@@ -262,15 +260,12 @@ class PhyphoxConnector(OutboundConnector):
             started = True
             if readings:
                 news_s = now_s
-                self._put(experiment, readings[-_MOST_READINGS:], now_s)
+                sources = " + ".join(sensor.source for sensor in experiment.sensors)
+                self.put(Arrived(self._host, readings[-_MOST_READINGS:], now_s, columns=sources))
             elif now_s - news_s > _LOST_S:
                 news_s = now_s
                 experiment.read_to.clear()
             await asyncio.sleep(_ASK_EVERY_S)
-
-    def _put(self, experiment: Experiment, readings: Sequence[Reading], now_s: float) -> None:
-        sources = " + ".join(sensor.source for sensor in experiment.sensors)
-        self.put(Arrived(self._host, readings, now_s, columns=sources))
 
 
 async def _body(session: ClientSession, path: str, query: Sequence[tuple[str, str]] = ()) -> bytes:

@@ -152,17 +152,16 @@ def _phone(sensors: _Sensors, units: str) -> tuple[list[Reading], str]:
     turning = sensors.of("gyroscope") or sensors.of("gyroscopeuncalibrated")
     gravity, raw = sensors.of("gravity"), sensors.of("accelerometeruncalibrated")
     is_apple = units == "apple" or (units == "guess" and _is_in_g(raw))
+    sign = -1.0 if is_apple else 1.0
     total, moving = sensors.of("totalacceleration"), sensors.of("accelerometer")
     gyroscope = " + gyroscope" if turning else ""
     if total:
         return _joined(total, turning, 1.0), f"total acceleration{gyroscope}"
     if moving and gravity:
-        sign = -1.0 if is_apple else 1.0
         return _joined(_sum(moving, gravity), turning, sign), f"accelerometer + gravity{gyroscope}"
     if raw:
         scale = -G_M_S2 if is_apple else 1.0
         return _joined(raw, turning, scale), f"accelerometer uncalibrated{gyroscope}"
-    sign = -1.0 if is_apple else 1.0
     return _joined(moving, turning, sign, has_gravity=False), f"accelerometer{gyroscope}"
 
 
@@ -212,7 +211,7 @@ class SensorLoggerConnector(Background):
     """A web server that takes what the app pushes, at every path."""
 
     def __init__(self, settings: Settings) -> None:
-        super().__init__(self._serve)
+        super().__init__()
         self._settings = settings
         self._door: socket.socket | None = None
         self._devices: dict[tuple[str, str], _Device] = {}
@@ -262,18 +261,12 @@ class SensorLoggerConnector(Background):
             return web.Response(text=_GREETING)
         body = await body_of(request)
         if body is None:
-            self._complain(
-                sender, text_of("{sender} pushes more than can be taken in at once.", sender=sender)
-            )
+            self._complain(sender, "{sender} pushes more than can be taken in at once.")
             return web.Response(status=413, text=_TOO_LARGE)
         message = read_message(body)
         if message is None or len(message.payload) > _MOST_READINGS:
             self._complain(
-                sender,
-                text_of(
-                    "{sender} pushes what is no message of Sensor Logger, or too large a one.",
-                    sender=sender,
-                ),
+                sender, "{sender} pushes what is no message of Sensor Logger, or too large a one."
             )
             return web.Response(status=400, text=_NO_MESSAGE)
         self._take(sender, message)
@@ -313,7 +306,8 @@ class SensorLoggerConnector(Background):
         told = pushed.used if pushed.readings else ""
         self.put(Arrived(device.name, pushed.readings, now_s, trouble, told, number))
 
-    def _complain(self, sender: str, trouble: Text) -> None:
+    def _complain(self, sender: str, template: str) -> None:
+        trouble = text_of(template, sender=sender)
         self.put(Arrived(sender, arrived_s=time.monotonic(), trouble=trouble))
 
 

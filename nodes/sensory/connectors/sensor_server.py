@@ -18,7 +18,7 @@ from typing import TYPE_CHECKING
 from faults import Text, text_of
 from nodes.sensory.reading import read_android, read_json
 
-from .connector import Arrived, Settings
+from .connector import Arrived
 from .servers import OutboundConnector
 
 if TYPE_CHECKING:
@@ -38,9 +38,6 @@ class SensorServerConnector(OutboundConnector):
 
     app = "SensorServer"
 
-    def __init__(self, settings: Settings) -> None:
-        super().__init__(settings, self._listen)
-
     @property
     def where(self) -> Text:
         """What the node is ready for."""
@@ -55,7 +52,7 @@ class SensorServerConnector(OutboundConnector):
             **self._place,
         )
 
-    async def _listen(self) -> None:
+    async def _serve(self) -> None:
         from aiohttp import ClientError, ClientSession, ClientTimeout
 
         failures = 0

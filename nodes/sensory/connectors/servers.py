@@ -9,7 +9,7 @@ import socket
 import threading
 import time
 from collections import deque
-from collections.abc import Awaitable, Callable, Coroutine
+from collections.abc import Awaitable, Callable
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any, ClassVar
 
@@ -166,13 +166,12 @@ _STOP_S = 0.9
 
 
 class Background:
-    """Runs ``serve`` from ``start`` to ``close``; what it puts in comes out in batches.
+    """Runs ``_serve`` from ``start`` to ``close``; what it puts in comes out in batches.
 
     A connector with a thread of its own is one.
     """
 
-    def __init__(self, serve: Callable[[], Coroutine[Any, Any, None]]) -> None:
-        self._serve = serve
+    def __init__(self) -> None:
         self._arrived: deque[Arrived] = deque(maxlen=_MOST_WAITING)
         self._has_enough = threading.Event()
         self._thread: threading.Thread | None = None
@@ -182,14 +181,18 @@ class Background:
         self._is_stopped = False
         self._fault: BaseException | None = None
 
+    async def _serve(self) -> None:
+        """What is done in the thread, until it is cancelled."""
+        raise NotImplementedError
+
     def start(self) -> None:
-        """Start the thread; an error of ``serve`` is raised by the next ``readings``."""
+        """Start the thread; an error of ``_serve`` is raised by the next ``readings``."""
         self._is_stopped = False
         self._thread = threading.Thread(target=self._run, name="way", daemon=True)
         self._thread.start()
 
     def put(self, arrived: Arrived) -> None:
-        """Hand over, from ``serve``; the oldest is left out when nobody takes them."""
+        """Hand over, from ``_serve``; the oldest is left out when nobody takes them."""
         if len(self._arrived) == _MOST_WAITING:
             self._lost += len(self._arrived[0].readings)
         self._arrived.append(arrived)
@@ -211,7 +214,7 @@ class Background:
         return found
 
     def close(self) -> None:
-        """Cancel ``serve``, if it runs, and wait for it, but not long."""
+        """Cancel ``_serve``, if it runs, and wait for it, but not long."""
         if self._thread is None:
             return
         self._is_stopped = True  # a thread that has no task yet sees it before it serves
@@ -242,8 +245,8 @@ class OutboundConnector(Background):
 
     app: ClassVar[str]
 
-    def __init__(self, settings: Settings, serve: Callable[[], Coroutine[Any, Any, None]]) -> None:
-        super().__init__(serve)
+    def __init__(self, settings: Settings) -> None:
+        super().__init__()
         self._settings = settings
         self._host, self._port = settings.address, settings.port
 

@@ -19,7 +19,7 @@ from faults import Text, reason_of, text_of
 from nep_core.errors import NodeStartError
 from nep_core.places import own_folder, whole_file
 from nodes.sensory.connectors.connector import Settings
-from nodes.sensory.connectors.servers import Background, lan_addresses, open_tcp
+from nodes.sensory.connectors.servers import LOOPBACK, Background, lan_addresses, open_tcp
 
 from .site import PageFiles, Receiving, Site, new_token, page_files
 
@@ -35,7 +35,6 @@ VALID_DAYS = 397  # browsers refuse certificates that are good for longer than 3
 RENEWED_BEFORE = timedelta(days=14)
 _CLOCKS_DIFFER = timedelta(days=1)
 _MOST_NAMES = 16
-_OWNER_ONLY = 0o600
 
 
 @dataclass(frozen=True)
@@ -144,7 +143,6 @@ def _general_name(name: str) -> x509.GeneralName:
         return x509.DNSName(name)
 
 
-LOOPBACK = "127.0.0.1"
 MOST_CONNECTIONS = 32
 START_S = 5.0
 CLOSE_S = 0.1  # for saying goodbye; then a connection is given up
@@ -171,7 +169,7 @@ class PhonePage(Background):
     """
 
     def __init__(self, settings: Settings, folder: Path | None = None) -> None:
-        super().__init__(self._serve)
+        super().__init__()
         self.token = settings.token or new_token()
         self.certificate: Certificate | None = None
         self._settings, self._folder = settings, folder

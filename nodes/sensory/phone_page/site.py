@@ -174,11 +174,10 @@ class Receiving:
         if not message.t:
             return FOLLOWED if self._turn.is_free_for(message.id, now_s) else BUSY
         if not self._turn.take(message.id, now_s):
-            name = _name(message, address)
             if self._sentences.grants("", now_s):
                 told = text_of(
                     "A second phone ({name}) has the page open; {followed} is followed.",
-                    name=name,
+                    name=_name(message, address),
                     followed=self._followed,
                 )
                 self._give(Arrived(self._followed, arrived_s=now_s, trouble=told))
@@ -208,8 +207,6 @@ class Receiving:
 def _name(message: PageMessage, address: str) -> str:
     return f"{message.device} {address}" if message.device.isalnum() else address
 
-
-# What the phone page's server answers: the page, its files, and the two ways to send batches.
 
 log = logging.getLogger(__name__)
 
@@ -275,6 +272,7 @@ TYPES = {
     ".json": "application/json",
     ".svg": "image/svg+xml",
 }
+"""The media types of its files."""
 NAMES = (
     *("index.html", "style.css", "page.js", "motion.js", "line.js", "graph.js"),
     *("words.json", "icon.svg"),
@@ -310,11 +308,6 @@ def page_files(folder: Path | None = None) -> PageFiles:
     texts = {name: (folder / name).read_text(encoding="utf-8") for name in NAMES}
     refusal = (folder / "refused.html").read_text(encoding="utf-8")
     return PageFiles(texts, json.loads(texts["words.json"]), refusal)
-
-
-def content_type(name: str) -> str:
-    """The media type of a file of the page."""
-    return TYPES[Path(name).suffix]
 
 
 # The secret part of the link that the QR code shows.
@@ -401,7 +394,7 @@ class Site:
         name = request.match_info["name"] or "index.html"
         if name not in self._files.texts:
             return _text(404, "There is no such page.")
-        return _text(200, self._files.texts[name], content_type(name))
+        return _text(200, self._files.texts[name], TYPES[Path(name).suffix])
 
     async def _batch(self, request: web.Request) -> web.Response:
         """One batch by POST, for phones that refuse WebSockets to a certificate of our own."""

@@ -6,12 +6,17 @@ import json
 import os
 import subprocess
 import sys
+import threading
 from pathlib import Path
 
 import pytest
 
 from nep_studio import paths
 from nep_studio.__main__ import main
+from nep_studio.blocks.files import load
+from nep_studio.commands import run as run_command
+from nep_studio.run.controller import Subject
+from nep_studio.run.installation import studio_language
 
 KARATE = paths.examples() / "karate_greeting.nep"
 EXAMPLES = sorted(paths.examples().glob("*.nep"))
@@ -220,3 +225,18 @@ def test_exec_tells_in_words_what_went_wrong(
 
     assert result.returncode == 1
     assert words in result.stderr
+
+
+def test_who_stops_a_run_that_is_still_being_prepared_ends_it(monkeypatch) -> None:
+    language = studio_language()
+    subject = Subject(load(KARATE, language), language, KARATE.parent)
+    monkeypatch.setattr(run_command.signal, "signal", lambda *_: None)
+    play = run_command._Play(subject, run_command.Printer(language, as_json=True), None)
+    play._turns.put(play._controller.stop)
+
+    thread = threading.Thread(target=play.play, daemon=True)
+    thread.start()
+    thread.join(10)
+
+    assert not thread.is_alive()
+    assert not play._network.is_open

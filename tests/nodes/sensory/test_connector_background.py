@@ -24,11 +24,12 @@ GRAVITY_M_S2 = 9.81
 def test_a_way_that_is_stopped_as_soon_as_it_was_started_ends():
     begun = []
 
-    async def serve():
-        begun.append(True)
+    class Way(Background):
+        async def _serve(self):
+            begun.append(True)
 
     for _ in range(20):
-        background = Background(serve)
+        background = Way()
         background.start()
         thread = background._thread
         began_s = time.monotonic()

@@ -48,7 +48,7 @@ def test_lines_that_come_together_without_times_are_spread_over_the_time_before(
     found = times(stream, packets)
 
     assert found[-10:] == pytest.approx([0.1 + 0.02 * (n + 1) for n in range(10)])
-    assert stream.rate_hz == pytest.approx(50)
+    assert stream.flow.rate_hz == pytest.approx(50)
 
 
 def test_a_rotation_joins_the_accelerations_after_it_while_it_is_fresh():
@@ -86,9 +86,9 @@ def test_a_clock_that_is_started_anew_goes_on_with_the_time_that_passed():
 def test_the_rate_is_measured():
     stream = SampleStream()
 
-    assert stream.rate_hz == 0
+    assert stream.flow.rate_hz == 0
     times(stream, [(n * 0.03, [Reading(ACC, stamp=n * 0.0201)]) for n in range(100)])
-    assert stream.rate_hz == pytest.approx(1 / 0.0201, rel=0.01)
+    assert stream.flow.rate_hz == pytest.approx(1 / 0.0201, rel=0.01)
 
 
 def test_gravity_is_told_by_the_usual_size():
