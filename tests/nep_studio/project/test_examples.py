@@ -10,7 +10,7 @@ from nep_core.wire.messages import HUMAN_BEHAVIOR, SENSE_REQUEST
 from nep_studio.blocks.checks import check
 from nep_studio.blocks.deployment import robot_entries
 from nep_studio.blocks.files import load
-from nep_studio.project.examples import Example, Try, example_of, examples
+from nep_studio.project.examples import Example, Try, examples
 from nep_studio.run.installation import studio_language
 from nep_studio.run.plan import VIRTUAL_WATCH, Choices, plan
 
@@ -28,10 +28,6 @@ def test_there_are_examples_enough_and_each_is_told_of() -> None:
     assert len(EXAMPLES) >= 14
     assert len({each.title for each in EXAMPLES}) == len(EXAMPLES)
     assert all(str(each.sentence).endswith(".") and each.tags for each in EXAMPLES)
-
-
-def test_an_example_is_found_by_its_file(example: Example) -> None:
-    assert example_of(example.path) is example
 
 
 def test_an_example_is_short_and_nothing_in_it_has_to_be_put_right(example: Example) -> None:

@@ -6,7 +6,7 @@ import threading
 import time
 from collections.abc import Callable
 
-from PySide6.QtCore import Qt, QTimer
+from PySide6.QtCore import Qt
 from PySide6.QtGui import QGuiApplication
 from pytestqt.qtbot import QtBot
 
@@ -16,6 +16,7 @@ from nep_core.wire.pubsub import Publisher
 from nep_studio.run.plan import PlannedNode
 from nep_studio.ui.network_feed import TopicSeen
 from nep_studio.ui.plugins.network.graph import Key
+from nep_studio.ui.running.runner import BATCHES_HZ
 from tests.ui.panels.conftest import KARATE, WAIT_MS, WATCH, Bench
 
 Start = Callable[[PlannedNode], None]
@@ -207,18 +208,14 @@ def test_hidden_it_costs_nothing(bench: Bench, start: Start, qtbot: QtBot) -> No
     qtbot.waitUntil(lambda: not bench.network._feed.is_watching)
 
 
-def test_5000_messages_a_second_do_not_stop_the_window(
+def test_5000_messages_a_second_come_to_the_window_in_a_few_batches(
     bench: Bench, start: Start, qtbot: QtBot
 ) -> None:
     show(bench, qtbot)
     start(KARATE)
     bench.network.open_topic("/fast")
-    busy, last = [], [time.thread_time()]
-
-    def beat() -> None:  # how long the window's own thread worked since the last one
-        now = time.thread_time()
-        busy.append(now - last[0])
-        last[0] = now
+    batches: list[int] = []
+    bench.network.pane._tap.arrived.connect(lambda batch: batches.append(len(batch)))
 
     def flood(publisher: Publisher) -> None:
         begin_s = time.monotonic()
@@ -232,16 +229,13 @@ def test_5000_messages_a_second_do_not_stop_the_window(
         qtbot.waitUntil(lambda: "/fast" in bench.network._feed.seen.topics, timeout=WAIT_MS)
         qtbot.waitUntil(lambda: publisher.subscribers() > 1, timeout=WAIT_MS)  # pane and feed
         thread = threading.Thread(target=flood, args=[publisher])
-        timer = QTimer(interval=5)
-        timer.timeout.connect(beat)
-        last[0] = time.thread_time()
-        timer.start()
+        begin_s = time.monotonic()
         thread.start()
         qtbot.waitUntil(lambda: not thread.is_alive(), timeout=WAIT_MS)
-        timer.stop()
+        took_s = time.monotonic() - begin_s
 
     assert bench.network.pane.heard.count > 500
-    assert max(busy) < 0.05
+    assert len(batches) <= BATCHES_HZ * took_s + 2  # however many came, the window works so often
 
 
 def test_a_topic_of_which_nothing_is_known_says_nothing_of_the_one_before(bench: Bench) -> None:
