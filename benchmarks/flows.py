@@ -41,12 +41,15 @@ NO_FUNCTIONS = ("<module>", "<listcomp>", "<setcomp>", "<dictcomp>", "<genexpr>"
 """What runs as a function of its own in Python, and is none for a reader."""
 
 BEFORE = {
-    "Run to glow": (865, 190),
-    "a node's crash to its sentence": (393, 133),
+    "Run to glow": (882, 190),
+    "a node's crash to its sentence": (316, 120),
     "a dropped block": (470, 130),
     "a key in a field": (444, 128),
 }
-"""Functions and files before the house was rebuilt, measured by this benchmark."""
+"""Functions and files before the house was rebuilt, measured so on a quiet machine.
+
+On a busy one the card that says "It runs" may come before the glow: about 18 more, then as now.
+"""
 
 Row = dict[str, Any]
 

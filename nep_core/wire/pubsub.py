@@ -211,7 +211,7 @@ class Subscriber(Generic[T]):
             yield message
 
     def _tell(self, callback: Callable[[T], None]) -> None:
-        for message in self:
+        while (message := self.receive()) is not None:
             try:
                 callback(message)
             except Exception:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import partial
 from typing import Literal
 
 from PySide6.QtCore import QObject, QSignalBlocker, QSize, Qt, Signal
@@ -169,7 +170,7 @@ class Panels(QObject):
         action.setChecked(self._settings.is_shown(panel.name, default=is_shown))
         place.show_panel(widget, action.isChecked())
         place.show_first()
-        action.toggled.connect(lambda is_on: self._on_toggled(panel, is_on))
+        action.toggled.connect(partial(self._on_toggled, panel))
         self._dress(panel)
         return panel
 

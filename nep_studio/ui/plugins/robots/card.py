@@ -140,6 +140,10 @@ TOUCH_MS = 500
 DOINGS_SHOWN = 3
 
 
+BELOW_KIND = 2
+"""Where a card says that its robot has fallen: below its name and its kind."""
+
+
 class RobotCard(QFrame):
     """Shows one robot.
 
@@ -162,7 +166,8 @@ class RobotCard(QFrame):
         self.name, self.kind = ElidedLabel(), ElidedLabel()
         self.kind_sign, self.sign, self.health = QLabel(), QLabel(), QLabel()
         self.facts = Facts(look)
-        self.fallen = FallenBar(look)
+        self.fallen: FallenBar | None = None
+        """It is made when the robot falls for the first time: most never do."""
         self.touch, self.back = QToolButton(), QToolButton()
         menu = QMenu(self.touch)
         for sensor in TOUCH_SENSORS:
@@ -176,7 +181,6 @@ class RobotCard(QFrame):
         )
         labelled(self.back, text="Back to start", tip="Put the robot back to where it began")
         self._lay_out()
-        self.fallen.help_button.clicked.connect(self.help_asked)
         self.back.clicked.connect(self.start_asked)
         look.theme_changed.connect(self._dress)
         follow_words(self, self._say)
@@ -197,9 +201,9 @@ class RobotCard(QFrame):
         for button in (self.touch, self.back):
             button.setToolButtonStyle(Qt.ToolButtonStyle.ToolButtonTextBesideIcon)
             flow.addWidget(button)
-        parts = head, kind, self.fallen, self.facts, self._buttons
+        parts = head, kind, self.facts, self._buttons
         margins = line // 2, line // 3, line // 2, line // 3
-        in_column(*parts, of=self, margins=margins, spacing=line // 5)
+        self._box = in_column(*parts, of=self, margins=margins, spacing=line // 5)
 
     def show_plan(self, plan: RobotPlan) -> None:
         """Say which kind of robot it is."""
@@ -256,12 +260,21 @@ class RobotCard(QFrame):
             said = says.casefold()
             others = [one for one in doings if not said or not one.casefold().startswith(said)]
             facts.show_fact("doing", "play", "\n".join(others[:DOINGS_SHOWN]), "success")
-        is_fallen = state is not None and state.fallen
-        self.fallen.setVisible(is_fallen)
-        fell = self.fallen.words.text() if is_fallen else ""
+        fell = ""
+        if is_fallen := state is not None and state.fallen:
+            fell = self._fallen_bar().words.text()
+        if self.fallen is not None:
+            self.fallen.setVisible(is_fallen)
         words = " ".join(filter(None, [self.plan.name, fell, facts.text()]))
         self.setAccessibleName(self.plan.name)
         self.setAccessibleDescription(words)
+
+    def _fallen_bar(self) -> FallenBar:
+        if self.fallen is None:
+            self.fallen = FallenBar(self._look)
+            self.fallen.help_button.clicked.connect(self.help_asked)
+            self._box.insertWidget(BELOW_KIND, self.fallen)
+        return self.fallen
 
     def _touch_for_a_moment(self, sensor: str) -> None:
         self.touched.emit(sensor, True)

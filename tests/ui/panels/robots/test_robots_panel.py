@@ -197,7 +197,7 @@ def test_a_running_robot_that_is_pushed_falls_and_is_helped_up(
     qtbot.waitUntil(lambda: "Posture: stand" in card.facts.text(), timeout=NODE_START_MS)
 
     runner.send(m.SENSE_REQUEST, m.SenseRequest(robot="NAO", sense="push", place=(1.0, 0.0, 0.3)))
-    qtbot.waitUntil(card.fallen.isVisible, timeout=NODE_START_MS)
+    qtbot.waitUntil(lambda: bool(card.fallen and card.fallen.isVisible()), timeout=NODE_START_MS)
     qtbot.mouseClick(card.fallen.help_button, Qt.MouseButton.LeftButton)
 
     qtbot.waitUntil(lambda: not card.fallen.isVisible(), timeout=60_000)
