@@ -225,26 +225,39 @@ class ServiceDirectory:
 
 
 class Visitor:
-    """One service of a client. Its own description is asked for once, without waiting."""
+    """One service of a client. Its own description is asked for early, without waiting."""
 
     def __init__(self, peer: Peer, number: int) -> None:
         self.peer = peer
         self.number = number
-        payload = encode("(I)", (MAIN,))
-        self._asked = peer.begin(number, MAIN, META, payload, reader_of(META_OBJECT))
+        self._asked = self._ask_for_meta()
         self._links: dict[tuple[Peer, int], int] = {}
 
-    def tell(self, method: str, values: tuple[Any, ...]) -> None:
-        """Call a method without waiting for its end."""
+    def _ask_for_meta(self) -> Pending:
+        payload = encode("(I)", (MAIN,))
+        return self.peer.begin(self.number, MAIN, META, payload, reader_of(META_OBJECT))
+
+    def tell(self, method: str, values: tuple[Any, ...], attempts: int = 3) -> None:
+        """Call a method without waiting for its end.
+
+        A program of libqi says that its service is ready a moment before it answers for it ("The
+        call request could not be handled."), so what could not be described is asked for again.
+        """
 
         def post(asked: Pending) -> None:
             try:
                 meta = MetaObject.from_wire(asked.result(0.0))
                 RemoteObject(self.peer, meta, self.number).post(method, *values)
             except NaoqiError as problem:
-                log.warning("%s could not be called: %s", method, problem.sentence)
+                if isinstance(problem, CallFailed) and attempts > 1:
+                    self.tell(method, values, attempts - 1)
+                else:
+                    log.warning("%s could not be called: %s", method, problem.sentence)
 
-        self._asked.when_done(post)
+        with contextlib.suppress(ConnectionLost):  # who has gone need not be called
+            if self._asked.failure is not None:
+                self._asked = self._ask_for_meta()
+            self._asked.when_done(post)
 
     def take(self, frame: Frame, peer: Peer) -> None:
         """Pass a call of another client on, and the answer back, both as they are."""

@@ -147,6 +147,29 @@ def test_the_robot_calls_a_service_of_the_client_back(
     until(lambda: caller.got == [("key", 1.5, "message")])
 
 
+class Late(dict[int, Any]):
+    """The services of a client that, as libqi's, are not there for the first who asks."""
+
+    asked = 0
+
+    def get(self, number: int, default: Any = None) -> Any:
+        self.asked += 1
+        return default if self.asked == 1 else super().get(number, default)
+
+
+def test_a_client_whose_service_answers_a_moment_late_is_called_back_all_the_same(
+    lamp_session: Session, lamp_remote: RemoteObject, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    own, caller = Late(), Caller()
+    monkeypatch.setattr(lamp_session, "_own", own)
+    lamp_session.register("Caller", caller)
+    until(lambda: own.asked == 1)
+
+    assert lamp_remote.call("callBack", "Caller")
+
+    until(lambda: caller.got == [("key", 1.5, "message")])
+
+
 def test_a_client_uses_the_service_of_another_through_the_robot(
     lamp_session: Session, lamp_serving: tuple[CallingLamp, Server]
 ) -> None:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import contextlib
 import importlib.util
 import json
 import subprocess
@@ -78,23 +77,13 @@ def test_a_program_of_someone_else_greets_moves_and_reacts(theatre: NaoqiTheatre
     assert told["hand"] == pytest.approx([1.0], abs=0.1)
 
 
-def touched_until_it_ends(theatre: NaoqiTheatre, program: subprocess.Popen[str]) -> tuple[str, str]:
-    """Touch it again when qi, as it rarely does just after a start, did not handle the call."""
-    for _ in range(4):
-        theatre.feel("head_front", 1.0)
-        with contextlib.suppress(subprocess.TimeoutExpired):
-            return program.communicate(timeout=8)
-        theatre.feel("head_front", 0.0)
-    program.kill()
-    return program.communicate()
-
-
 @needs_qi
 def test_the_memory_calls_a_module_of_a_program_back(theatre: NaoqiTheatre) -> None:
     program = start("reacting_module.py", theatre)
     until_it_waits(program)
 
-    output, errors = touched_until_it_ends(theatre, program)
+    theatre.feel("head_front", 1.0)
+    output, errors = program.communicate(timeout=30)
 
     assert program.returncode == 0, errors
     assert output.strip() == "('FrontTactilTouched', 1.0)"
