@@ -8,7 +8,8 @@ own, for what runs at the same time).
 from __future__ import annotations
 
 import ast
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping, Sequence
+from operator import itemgetter
 from typing import Any
 
 from nep_studio.blocks.code_text import CodeText, read_lines, read_value
@@ -57,28 +58,39 @@ def _python(text: str) -> ValueGenerator:
     modules = MODULES.intersection(name.id for name in named)
     api = API.intersection(name.id for name in named)
     slots = [n.id for n in named if n not in functions and n.id not in (*MODULES, "str")]
+    make = _maker(template, slots)
 
     def generate(code: Expressions, block: Block) -> ast.expr:
-        code.modules |= modules
-        code.api |= api
-        filled: ast.expr = _filled(template, {slot: code.slot(block, slot) for slot in slots})
-        return filled
+        if modules or api:
+            code.modules |= modules
+            code.api |= api
+        made: ast.expr = make({slot: code.slot(block, slot) for slot in slots})
+        return made
 
+    if isinstance(template, ast.Name):  # nothing but a slot: most numbers, texts and colours
+        return lambda code, block: code.slot(block, text)
     return generate
 
 
-def _filled(node: Any, slots: Mapping[str, ast.expr]) -> Any:
-    """A copy of a template with what is in the slots; ``list(...)`` is no slot but a function."""
-    if isinstance(node, ast.Name):
-        return slots.get(node.id, node)
-    if isinstance(node, list):
-        return [_filled(one, slots) for one in node]
-    if isinstance(node, ast.Constant) or not isinstance(node, ast.expr):
-        return node
-    if isinstance(node, ast.Call) and isinstance(node.func, ast.Name):
-        arguments = _filled(node.args, slots)
-        return whole(*arguments) if node.func.id == "whole" else ast.Call(node.func, arguments, [])
-    return type(node)(*[_filled(getattr(node, name), slots) for name in node._fields])
+_Maker = Callable[[Mapping[str, ast.expr]], Any]
+
+
+def _maker(part: Any, slots: Sequence[str]) -> _Maker:
+    """What copies a part of a template with what is in the slots; ``list(...)`` is no slot."""
+    if isinstance(part, ast.Name) and part.id in slots:
+        return itemgetter(part.id)
+    if isinstance(part, list):
+        makers = [_maker(one, slots) for one in part]
+        return lambda filled: [make(filled) for make in makers]
+    if not isinstance(part, ast.expr) or isinstance(part, ast.Name | ast.Constant):
+        return lambda _filled: part
+    if isinstance(part, ast.Call) and isinstance(part.func, ast.Name):
+        arguments, function = _maker(part.args, slots), part.func
+        if function.id == "whole":
+            return lambda filled: whole(*arguments(filled))
+        return lambda filled: ast.Call(function, arguments(filled), [])
+    kind, parts = type(part), [_maker(getattr(part, name), slots) for name in part._fields]
+    return lambda filled: kind(*[make(filled) for make in parts])
 
 
 def _by_choice(slot: str, texts: dict[str, str]) -> ValueGenerator:

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import ast
-from collections.abc import Mapping, Sequence
+import itertools
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 from nep_studio.blocks.deployment import RobotEntry, chains, node_entries, robot_entries
@@ -26,7 +27,7 @@ class _Rule:
     """A written rule, what it was written for, and what it needs to be there."""
 
     made_for: tuple[object, ...]
-    lines: list[Line]
+    code: Code
     api: frozenset[str]
     modules: frozenset[str]
     robots: frozenset[str]
@@ -106,7 +107,7 @@ class ProgramGenerator:
         yield from writer.write(function, hat, chain)
         return _Rule(
             made_for,
-            writer.lines,
+            _code(writer.lines),
             frozenset(code.api),
             frozenset(code.modules),
             frozenset(code.robots),
@@ -166,10 +167,15 @@ class ProgramGenerator:
         variables = {name: begins[v] for v, name in names.variables.items() if v in begins}
         globals_ = [f"{name} = {_first(kinds)}" for name, kinds in variables.items()]
         page = [*_unmade(head), *robots, *_unmade([f"behavior = {behavior}", *globals_])]
+        gap = _code(_unmade(["", ""]))
+        parts = [_code(page)]
         for rule in rules:
-            page += [*_unmade(["", ""]), *rule.lines]
-        page += _unmade(["", "", "behavior.run()"] if rules else ["", "behavior.run()"])
-        return _code(page, names.variables)
+            parts += [gap, rule.code]
+        parts.append(
+            _code(_unmade(["", "", "behavior.run()"] if rules else ["", "behavior.run()"]))
+        )
+        blocks = tuple(itertools.chain.from_iterable(part.blocks for part in parts))
+        return Code("".join(part.text for part in parts), blocks, dict(names.variables))
 
     def _robot_lines(self, names: ProgramNames, used: set[str]) -> list[tuple[str, str]]:
         """A line for each robot that the rules use, with its block on the Robots page."""
@@ -196,9 +202,9 @@ def _unmade(lines: Sequence[str]) -> list[Line]:
     return [(line, "") for line in lines]
 
 
-def _code(page: Sequence[Line], variables: Mapping[str, str]) -> Code:
-    text = "".join(f"{line}\n" for line, _ in page)
-    return Code(text, tuple(block for _, block in page), dict(variables))
+def _code(page: Sequence[Line]) -> Code:
+    lines, blocks = zip(*page, strict=True)
+    return Code("\n".join(lines) + "\n", blocks)
 
 
 def _first(kinds: set[str]) -> str:
@@ -224,7 +230,7 @@ def generate_launch(project: Project, language: Language) -> Code:
         page.append((start, robot.block_id))
     for node in node_entries(project, language):
         page.append((_start(node.node, node.name, dict(node.parameters)), node.block_id))
-    return _code(page, {})
+    return _code(page)
 
 
 def _robot_settings(robot: RobotEntry) -> dict[str, Setting]:

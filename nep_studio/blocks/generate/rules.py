@@ -212,7 +212,10 @@ class RuleWriter:
         self._has_code_blocks = False
 
     def write(self, function_name: str, hat: Hat, stack: Sequence[str]) -> Iterator[None]:
-        """Write decorator, header and body; ``stack[0]`` is the block of the hat. Rests often."""
+        """Write decorator, header and body; ``stack[0]`` is the block of the hat.
+
+        It rests before each block.
+        """
         hat_block = self._code.project.blocks[stack[0]]
         self._comment(hat_block, "")
         if hat.decorator is not None:
@@ -220,7 +223,6 @@ class RuleWriter:
         self._line(f"def {function_name}({', '.join(hat.arguments)}):", hat_block.id)
         frames = [self._function(stack[1:], hat_block.id, 1)]
         while frames:
-            yield
             frame = frames[-1]
             item = next(frame.left, None)
             if item is None:
@@ -229,6 +231,7 @@ class RuleWriter:
                     line = f"{_MARGINS[scope.indent]}global {', '.join(sorted(scope.assigned))}"
                     self.lines.insert(scope.line, (line, scope.block))
             elif isinstance(item, Block):
+                yield
                 frames.append(self._block(frame, item))
             elif (inner := self._piece(frame, item)) is not None:
                 frames.append(inner)
