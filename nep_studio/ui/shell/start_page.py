@@ -58,7 +58,8 @@ class TourOffer(QFrame):
         words = in_column(self.words, row)
         parts = (sign, 0, Qt.AlignmentFlag.AlignTop), (words, 1)
         in_row(*parts, of=styled(self, kind="info"), margins=line // 2, spacing=line // 2)
-        self.setVisible(not studio.settings.tour_done)
+        if studio.settings.tour_done:
+            self.hide()
 
     def _on_taken(self) -> None:
         self._on_left()

@@ -6,9 +6,13 @@ import pytest
 from PySide6.QtCore import QPoint, Qt
 from PySide6.QtTest import QTest
 
+from nep_studio import paths
+from nep_studio.ui.services import Studio
 from nep_studio.ui.shell.main_window import MainWindow
 from nep_studio.ui.theme.icons import category_icon_name
 from nep_studio.ui.words import use_language
+from tests.ui.window.putting_away import put_away
+from tests.ui.window_eye import WindowEye
 
 LEFT = Qt.MouseButton.LeftButton
 
@@ -192,3 +196,20 @@ def test_a_tiny_window_still_shows_its_canvas(karate: MainWindow, qtbot) -> None
     canvas = karate.workbench.canvas
     assert canvas.width() > 60 and canvas.grab(canvas.rect()).size() == canvas.size()
     assert canvas.rect().contains(QPoint(10, 10))
+
+
+def test_nothing_but_the_window_is_a_window_for_a_moment(
+    studio: Studio, chooser, qapp, qtbot
+) -> None:
+    with WindowEye(qapp) as eye:
+        made = MainWindow(studio, chooser)
+        qtbot.addWidget(made, before_close_func=put_away)
+        made.show()
+        made.start(None)
+        made.files.open_example(paths.examples() / "karate_greeting.nep")
+        qtbot.waitUntil(lambda: made.workbench.canvas.isVisible())
+        for panel in made.workbench.panels.all:
+            panel.action.setChecked(True)
+            qtbot.wait(20)
+
+    assert eye.seen == ["MainWindow"]

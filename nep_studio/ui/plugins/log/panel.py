@@ -123,9 +123,9 @@ class WhatHappens(QWidget):
         self.buttons.save.clicked.connect(self._on_save_clicked)
         self.buttons.clear.clicked.connect(self.model.clear)
         self._stack = QStackedLayout()
-        self._stack.addWidget(self.list)
-        self._stack.addWidget(self.hint)
         in_column(in_row(self.part, (self.search, 1), self.buttons), (self._stack, 1), of=self)
+        self._stack.addWidget(self.list)  # now: it shows it, which would be a window of its own
+        self._stack.addWidget(self.hint)
 
     # What a person asks for
 
