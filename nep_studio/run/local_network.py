@@ -188,6 +188,8 @@ class LocalNetwork:
         self._end_listeners: tuple[EndListener, ...] = ()
         self._stack = contextlib.ExitStack()
         self._opening = threading.RLock()
+        self._was_open = False
+        """Whether its launchers are closed, and others have to be made."""
         self._make_launchers()
 
     def _make_launchers(self) -> None:
@@ -223,7 +225,9 @@ class LocalNetwork:
                     self.has_master = True
                     self.on_master("back", "")
                 return
-            self._make_launchers()
+            if self._was_open:
+                self._make_launchers()
+            self._was_open = True
             try:
                 self._open()
             except BaseException:
