@@ -188,8 +188,6 @@ class LocalNetwork:
         self._end_listeners: tuple[EndListener, ...] = ()
         self._stack = contextlib.ExitStack()
         self._opening = threading.RLock()
-        self._was_open = False
-        """Whether its launchers are closed, and others have to be made."""
         self._make_launchers()
 
     def _make_launchers(self) -> None:
@@ -225,9 +223,7 @@ class LocalNetwork:
                     self.has_master = True
                     self.on_master("back", "")
                 return
-            if self._was_open:
-                self._make_launchers()
-            self._was_open = True
+            self._make_launchers()  # those before are closed, or write to another folder
             try:
                 self._open()
             except BaseException:
