@@ -15,7 +15,7 @@ from nep_studio.ui.plugins.motion.stage import ROBOT
 from nep_studio.ui.plugins.motion.window import MotionWindow
 from nep_studio.ui.shell.main_window import MainWindow
 from tests.blocks.block_building import B
-from tests.ui.running.window_use import block_of, press, state_is
+from tests.ui.running.window_use import block_of, has_run, press
 
 
 def place_of(motion: MotionWindow, link: str) -> QPointF:
@@ -208,8 +208,7 @@ def test_a_kept_motion_is_played_by_a_block_in_a_run(
     editor.apply(SetField(block_of(window, "robot.play"), "animation", motion.controller.name))
 
     press(window, qtbot, "run")
-    state_is(window, qtbot, "running")
-    state_is(window, qtbot, "idle")
+    has_run(window, qtbot, seen)
 
     results = [one for one in seen.messages if getattr(one, "state", "") == "done"]
     requests = [one for one in seen.messages if getattr(one, "action", "") == "play"]

@@ -16,6 +16,7 @@ from tests.ui.running.window_use import (
     WAIT_MS,
     Seen,
     block_of,
+    has_run,
     press,
     state_is,
 )
@@ -90,12 +91,11 @@ def test_an_error_marks_its_block_and_is_told_with_what_to_do(
 ) -> None:
     divide = B("math.arithmetic", {"operation": "divide", "a": 1, "b": 0})
     broken = B("variable.set", {"variable": "v1"}, {"value": divide})
-    open_program([B("event.started"), broken], variables=("result",))
+    seen = open_program([B("event.started"), broken], variables=("result",))
     block = block_of(window, "variable.set")
 
     press(window, qtbot, "run")
-    state_is(window, qtbot, "running")
-    state_is(window, qtbot, "idle")
+    has_run(window, qtbot, seen)
 
     problem = window.workbench.canvas.problems.problems[block]
     assert "zero" in str(problem.sentence)
@@ -107,10 +107,9 @@ def test_what_went_wrong_is_told_no_more_once_the_program_runs_again(
 ) -> None:
     divide = B("math.arithmetic", {"operation": "divide", "a": 1, "b": 0})
     broken = B("variable.set", {"variable": "v1"}, {"value": divide})
-    open_program([B("event.started"), broken], variables=("result",))
+    seen = open_program([B("event.started"), broken], variables=("result",))
     press(window, qtbot, "run")
-    state_is(window, qtbot, "running")
-    state_is(window, qtbot, "idle")
+    has_run(window, qtbot, seen)
     told = window.messages.history[-1].message
 
     press(window, qtbot, "run")

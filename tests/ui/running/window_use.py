@@ -51,6 +51,12 @@ def state_is(window: MainWindow, qtbot: QtBot, state: str) -> None:
     qtbot.waitUntil(lambda: window.running.runner.state == state, timeout=WAIT_MS)
 
 
+def has_run(window: MainWindow, qtbot: QtBot, seen: Seen) -> None:
+    """Wait for the end of a program; one that ends at once runs for less than a look at it."""
+    qtbot.waitUntil(lambda: "running" in seen.states, timeout=WAIT_MS)
+    state_is(window, qtbot, "idle")
+
+
 def health(window: MainWindow, name: str) -> str:
     status = window.running.runner.board.nodes.get(name)
     return status.health if status is not None else ""
