@@ -158,6 +158,7 @@ class Actor:
         self._last_result[request_id] = result
         if len(self._last_result) > REMEMBERED_REQUESTS:  # forget the oldest that has ended
             known = self._last_result.items()
-            if oldest := next((id for id, result in known if result.state in FINAL), None):
+            oldest = next((id for id, result in known if result.state in FINAL), None)
+            if oldest is not None:  # an id may be empty
                 del self._last_result[oldest]
         return result

@@ -10,10 +10,11 @@ import ast
 import math
 import operator
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from itertools import pairwise
 from typing import Any
 
+from faults import Words
 from robots.errors import RobotError
 
 from .keyframes import SHORTEST_STEP_S, Handle, Keyframes, Track
@@ -215,8 +216,10 @@ class KeyframesUnreadable(RobotError):
 
     title = "This text holds no movement that can be read"
 
-    def __init__(self, sentence: str, **values: Any) -> None:
-        super().__init__(sentence, checklist=EXPORTING, **values)
+    def __init__(
+        self, sentence: Words, /, *, checklist: Sequence[Words] = EXPORTING, **values: Any
+    ) -> None:
+        super().__init__(sentence, checklist=checklist, **values)
 
 
 def read_choregraphe(text: str) -> Keyframes:

@@ -53,14 +53,9 @@ def card_text(editor: Editor, block_id: str) -> str:
 def _about(definition: Definition) -> Iterator[str]:
     yield from (text for text in does(definition) if text)
     yield shape_words(definition)
-    flags = {
-        "in_loop": tr("It belongs inside a loop."),
-        "stands": tr("The robot must stand for it."),
-        "stands_up": tr("The robot stands afterwards."),
-        "rests": tr("The robot rests afterwards, and cannot move until it wakes up."),
-        "silent": tr("It is for people who read the program: the robot does nothing."),
-    }
-    yield from (told for flag, told in flags.items() if flag in definition.flags)
+    yield from flag_words(definition)
+    if "silent" in definition.flags:
+        yield tr("It is for people who read the program: the robot does nothing.")
     yield tr("Blocks like this are in “{category}”.", category=definition.category.title)
 
 
@@ -76,6 +71,17 @@ def shape_words(definition: Definition) -> str:
         "c": tr("It holds other blocks, and decides when or how often they run."),
         "boolean": tr("It answers yes or no, in a place with the same pointed shape."),
     }.get(definition.shape, tr("It is one step: when it is done, the block below it follows."))
+
+
+def flag_words(definition: Definition) -> Iterator[str]:
+    """Where such blocks belong, how the robot must be for them, and how it is afterwards."""
+    flags = {
+        "in_loop": tr("It belongs inside a loop."),
+        "stands": tr("The robot must stand for it."),
+        "stands_up": tr("The robot stands afterwards."),
+        "rests": tr("The robot rests afterwards, and cannot move until it wakes up."),
+    }
+    return (told for flag, told in flags.items() if flag in definition.flags)
 
 
 def _places(editor: Editor, block_id: str) -> Iterator[str]:

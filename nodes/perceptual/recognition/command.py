@@ -6,7 +6,6 @@ import argparse
 import sys
 import time
 from collections.abc import Sequence
-from dataclasses import replace
 from pathlib import Path
 
 from nep_core.cli import steps_of
@@ -27,7 +26,7 @@ def main(arguments: list[str]) -> int:
         material = read_material(asked.directory, asked.everyday)
         has_own_everyday = bool(material.everyday)
         if not has_own_everyday:
-            material = replace(material, everyday=everybodys_movement())
+            material = material.with_everyday(everybodys_movement())
         model = _train(material, methods)
     except RecordingError as error:
         return _tell_error(error, 2)

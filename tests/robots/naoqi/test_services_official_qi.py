@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+import contextlib
 import importlib.util
 import json
 import subprocess
 import sys
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import pytest
@@ -25,14 +26,27 @@ def theatre() -> Iterator[NaoqiTheatre]:
     theatre.close()
 
 
-def start(program: str, theatre: NaoqiTheatre) -> subprocess.Popen[str]:
-    url = f"--qi-url=tcp://127.0.0.1:{theatre.offered.port}"
-    return subprocess.Popen(
-        [sys.executable, str(HERE / program), url],
-        stdout=subprocess.PIPE,
-        stderr=subprocess.PIPE,
-        text=True,
-    )
+Start = Callable[[str], subprocess.Popen[str]]
+
+
+@pytest.fixture
+def start(theatre: NaoqiTheatre) -> Iterator[Start]:
+    """Start a program of this folder, which does not outlive its test."""
+    with contextlib.ExitStack() as stack:
+
+        def start_one(program: str) -> subprocess.Popen[str]:
+            url = f"--qi-url=tcp://127.0.0.1:{theatre.offered.port}"
+            process = subprocess.Popen(
+                [sys.executable, str(HERE / program), url],
+                stdout=subprocess.PIPE,
+                stderr=subprocess.PIPE,
+                text=True,
+            )
+            stack.enter_context(process)
+            stack.callback(process.kill)
+            return process
+
+        yield start_one
 
 
 def until_it_waits(process: subprocess.Popen[str]) -> None:
@@ -46,9 +60,9 @@ def until_it_waits(process: subprocess.Popen[str]) -> None:
 
 
 @needs_qi
-def test_a_program_of_someone_else_greets_moves_and_reacts(theatre: NaoqiTheatre) -> None:
+def test_a_program_of_someone_else_greets_moves_and_reacts(theatre: NaoqiTheatre, start: Start) -> None:
     said, lights = set(), set()
-    program = start("greeter.py", theatre)
+    program = start("greeter.py")
 
     def watch() -> bool:
         state = theatre.state()
@@ -78,8 +92,10 @@ def test_a_program_of_someone_else_greets_moves_and_reacts(theatre: NaoqiTheatre
 
 
 @needs_qi
-def test_the_memory_calls_a_module_of_a_program_back(theatre: NaoqiTheatre) -> None:
-    program = start("reacting_module.py", theatre)
+def test_the_memory_calls_a_module_of_a_program_back(
+    theatre: NaoqiTheatre, start: Start
+) -> None:
+    program = start("reacting_module.py")
     until_it_waits(program)
 
     theatre.feel("head_front", 1.0)

@@ -42,7 +42,7 @@ from nep_studio.help.texts import (
 from nep_studio.ui.canvas.fields.editors import slot_name
 from nep_studio.ui.theme.icons import category_icon_name
 from nep_studio.ui.words import language_code, tr
-from nep_studio.ui.workbench.help_card import shape_words
+from nep_studio.ui.workbench.help_card import flag_words, shape_words
 
 # The page of a block: picture, what it does, its slots, an example, its Python, what is near.
 
@@ -82,15 +82,11 @@ def text_of(block_type: str) -> BlockText:
 def needs(definition: Definition) -> Iterator[str]:
     """What kind of block it is, and what must be there for it."""
     yield _shape(definition)
-    flags = {
-        "takes_time": tr("The program waits here until it is done."),
-        "in_loop": tr("It belongs inside a loop."),
-        "stands": tr("The robot must stand for it."),
-        "stands_up": tr("The robot stands afterwards."),
-        "rests": tr("The robot rests afterwards, and cannot move until it wakes up."),
-        "needs_real_robot": tr("Needs a real robot: the one on the screen cannot do it."),
-    }
-    yield from (words for flag, words in flags.items() if flag in definition.flags)
+    if "takes_time" in definition.flags:
+        yield tr("The program waits here until it is done.")
+    yield from flag_words(definition)
+    if "needs_real_robot" in definition.flags:
+        yield tr("Needs a real robot: the one on the screen cannot do it.")
     if any(slot.kind.name == "gesture" for slot in definition.slots.values()):
         yield tr("A node must recognise the gesture: launch one on the page Nodes.")
 
