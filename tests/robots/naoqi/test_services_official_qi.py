@@ -60,7 +60,9 @@ def until_it_waits(process: subprocess.Popen[str]) -> None:
 
 
 @needs_qi
-def test_a_program_of_someone_else_greets_moves_and_reacts(theatre: NaoqiTheatre, start: Start) -> None:
+def test_a_program_of_someone_else_greets_moves_and_reacts(
+    theatre: NaoqiTheatre, start: Start
+) -> None:
     said, lights = set(), set()
     program = start("greeter.py")
 
@@ -92,9 +94,7 @@ def test_a_program_of_someone_else_greets_moves_and_reacts(theatre: NaoqiTheatre
 
 
 @needs_qi
-def test_the_memory_calls_a_module_of_a_program_back(
-    theatre: NaoqiTheatre, start: Start
-) -> None:
+def test_the_memory_calls_a_module_of_a_program_back(theatre: NaoqiTheatre, start: Start) -> None:
     program = start("reacting_module.py")
     until_it_waits(program)
 

@@ -120,6 +120,22 @@ def test_the_graph_of_a_silent_sensor_is_drawn_once_more_and_then_rests(
     assert drawn == ["again"]
 
 
+def test_another_silent_sensor_is_drawn_once_it_is_chosen(
+    page: TrainerPage, desk: GestureController, push, clock, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    for source in ("watch", "phone"):
+        push(*rest(1.0), source=source)
+    clock.time_s += 10.0
+    page.strip._on_frame()
+    drawn: list[str] = []
+    monkeypatch.setattr(page.strip, "update", lambda: drawn.append("again"))
+    [other] = {"watch", "phone"} - {desk.source}
+
+    desk.use_source(other)
+
+    assert drawn
+
+
 def test_takes_dropped_on_a_card_are_of_its_gesture(
     page: TrainerPage, desk: GestureController
 ) -> None:

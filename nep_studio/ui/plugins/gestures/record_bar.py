@@ -105,8 +105,8 @@ class WearerBox(QObject):
         words = tr("Another name for {person}…", person=person)
         menu.addAction(icon("pencil", theme), words, self._ask_for_name)
         words = tr("Delete {person} with all takes", person=person)
-        delete = icon("trash-2", theme)  # it can be undone
-        menu.addAction(delete, words, lambda: self._keeping.delete_person(person))
+        delete = icon("trash-2", theme)
+        menu.addAction(delete, words, lambda: self._keeping.delete_person(person))  # can be undone
         return menu
 
     def _ask_for_new(self) -> None:

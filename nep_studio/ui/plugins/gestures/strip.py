@@ -226,7 +226,8 @@ class Strip(InLines):
         self.setMouseTracking(True)
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Preferred)
         controller.heard.connect(self._on_heard)
-        for signal in (session.changed, controller.changed, controller.take_chosen, take.changed):
+        of_controller = controller.changed, controller.take_chosen, controller.sources_changed
+        for signal in (session.changed, take.changed, *of_controller):
             signal.connect(self._on_changed)
         controller.look.theme_changed.connect(self._on_changed)
         controller.take_chosen.connect(self._name_it)

@@ -247,9 +247,7 @@ class Buttons(QWidget):
 
     def __init__(self, widgets: Iterable[QWidget] = ()) -> None:
         super().__init__()
-        self._flow = FlowLayout(self, self.fontMetrics().height() // 3)
-        for widget in widgets:
-            self._flow.addWidget(widget)
+        self._flow = FlowLayout(self, self.fontMetrics().height() // 3, widgets)
 
     def replace(self, old: Iterable[OccurrenceButton], new: Iterable[OccurrenceButton]) -> None:
         """Throw buttons away, which are let go, and show others."""

@@ -189,8 +189,9 @@ def _runs(runner: Runner, name: str) -> bool:
 
 def is_same(one: PlannedNode, other: PlannedNode | None) -> bool:
     """Whether two plans start the same process."""
-    names = ("node", "name", "parameters")
-    return other is not None and all(getattr(one, name) == getattr(other, name) for name in names)
+    if other is None or (one.node, one.name) != (other.node, other.name):
+        return False
+    return one.parameters == other.parameters
 
 
 # The dialog that connects a watch or phone: what one has, the steps, what arrives, using it.
