@@ -9,7 +9,7 @@ from nep_core.cli import COMMANDS, overview, parser_of
 
 COLUMNS = "80"
 """How wide the help is on the page."""
-PAGE = Path(__file__).resolve().parents[2] / "docs" / "command_line.md"
+PAGE = Path(__file__).resolve().parents[1] / "docs" / "command_line.md"
 
 START = """\
 # The command line `nep`

@@ -96,7 +96,7 @@ def _messages(options: argparse.Namespace) -> Iterator[Any]:
     else:
         message = _read(options.message, options)
         ready = itertools.repeat(message) if options.rate or options.count else [message]
-    return itertools.islice(ready, options.count or None)
+    return itertools.islice(ready, min(options.count, sys.maxsize) or None)
 
 
 def _read(text: str, options: argparse.Namespace) -> Any:

@@ -34,18 +34,20 @@ LONGEST_NAME = 100
 def check_node_name(name: str) -> str:
     """Give back ``name``, or raise ParameterError that says what is wrong with it."""
     if not name.strip():
-        raise _wrong("A node has no name.")
-    if len(name) > LONGEST_NAME:
-        words = "The name {name}... is longer than {longest_name} letters."
-        raise _wrong(words, name=repr(name[:20]), longest_name=LONGEST_NAME)
-    if any(unicodedata.category(letter) in ("Cc", "Cs") for letter in name):
-        raise _wrong("The name {name} has a letter in it that cannot be written.", name=repr(name))
-    return name
-
-
-def _wrong(words: str, **values: Any) -> ParameterError:
-    steps = ("Give the node a short name, such as watch.",)
-    return ParameterError(words, checklist=steps, **values)
+        wrong = text_of("A node has no name.")
+    elif len(name) > LONGEST_NAME:
+        wrong = text_of(
+            "The name {name}... is longer than {longest_name} letters.",
+            name=repr(name[:20]),
+            longest_name=LONGEST_NAME,
+        )
+    elif any(unicodedata.category(letter) in ("Cc", "Cs") for letter in name):
+        wrong = text_of(
+            "The name {name} has a letter in it that cannot be written.", name=repr(name)
+        )
+    else:
+        return name
+    raise ParameterError(wrong, checklist=("Give the node a short name, such as watch.",))
 
 
 T = TypeVar("T")

@@ -68,8 +68,7 @@ class NodeLog(Closing):
             file.close()
 
     def _begin(self, *, goes_on: bool = False) -> None:
-        if self._file is not None:
-            self.close()  # a file that is open can have no other name on Windows
+        self.close()  # a file that is open can have no other name on Windows
         size = self._path.stat().st_size if self._path.exists() else 0
         goes_on = goes_on and size < LOG_BYTES
         if size and not goes_on:

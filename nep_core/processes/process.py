@@ -251,7 +251,9 @@ class ChildProcess:
             return None
 
     def ask_to_stop(self) -> None:
-        """Send SIGTERM (Windows: Ctrl-Break), or else let go of its life line."""
+        """Send SIGTERM (Windows: Ctrl-Break), or else let go of its life line; once."""
+        if self._asked:  # a second signal could end it while it is leaving in good order
+            return
         self._asked = True
         with contextlib.suppress(OSError):
             if _can_send_signals():
@@ -262,8 +264,7 @@ class ChildProcess:
     def stop(self, grace_s: float = 2.0) -> None:
         """Ask it to stop, and end the whole process tree after ``grace_s``."""
         if self.poll() is None:  # when it has ended, another process may have its number
-            if not self._asked:  # a second signal could end it while it is leaving in good order
-                self.ask_to_stop()
+            self.ask_to_stop()
             if self.wait(grace_s) is None:
                 log.warning("%s did not stop within %.0f s and was ended", self.name, grace_s)
                 with contextlib.suppress(OSError):

@@ -46,7 +46,7 @@ class Text(msgspec.Struct):
 
 @dataclass(frozen=True)
 class Channel:
-    """What all messages of one channel have in common; ``schema`` is empty when there is none."""
+    """What all messages of one channel have in common."""
 
     topic: str
     node: str

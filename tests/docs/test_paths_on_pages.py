@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import ast
 import re
+import textwrap
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -19,6 +21,7 @@ PAGES = [
 """Not CHANGELOG.md: it tells what was."""
 
 FENCE = re.compile(r"^```.*?^```", re.S | re.M)
+PYTHON = re.compile(r"```python\n(.*?)```", re.S)
 NAMED = re.compile(r"`([\w.-]+(?:/[\w.-]+)*/?)`")
 OURS = ("faults", "nep_core", "nep_studio", "nodes", "robots", "resources")
 ROOMS = (*OURS, "tests", "docs", "tools", "examples", "packaging", "benchmarks")
@@ -97,3 +100,17 @@ def test_every_exception_is_still_named_on_a_page() -> None:
     text = "".join(page.read_text(encoding="utf-8") for page in PAGES)
 
     assert [name for name in NOT_HERE if f"`{name}`" not in text] == []
+
+
+def imports_on(page: Path) -> Iterator[tuple[str, str]]:
+    """The modules of ours that the Python on a page imports, each with a name out of it."""
+    for code in PYTHON.findall(page.read_text(encoding="utf-8")):
+        for node in ast.walk(ast.parse(textwrap.dedent(code))):
+            if isinstance(node, ast.ImportFrom) and (node.module or "").split(".")[0] in OURS:
+                yield from ((str(node.module), alias.name) for alias in node.names)
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.relative_to(PROJECT).as_posix())
+def test_what_the_python_of_a_page_imports_is_there(page: Path) -> None:
+    for module, name in imports_on(page):
+        exec(f"from {module} import {name}", {})  # as the reader's program does

@@ -336,14 +336,25 @@ def unfilled() -> tuple[str, ...]:
     return tuple(
         f"{path.relative_to(ROOT)}:{node.lineno} {words}"
         for path, nodes in parsed(files())
-        for node in nodes
-        if isinstance(node, ast.Call) and all(keyword.arg for keyword in node.keywords)
-        for words in _templates_of(node)
+        for node, named in _calls(nodes)
+        if all(keyword.arg for keyword in node.keywords)
+        for words in _templates_of(node, named)
         if set(re.findall(r"\{(\w+)\}", words)) - {keyword.arg for keyword in node.keywords}
     )
 
 
-def _templates_of(call: ast.Call) -> Iterator[str]:
+def _calls(nodes: Iterable[ast.AST]) -> Iterator[tuple[ast.Call, dict[str, ast.expr]]]:
+    """All calls, those in a function with the texts that have a name there."""
+    for place in nodes:
+        if isinstance(place, ast.Module | ast.FunctionDef | ast.AsyncFunctionDef):
+            parts = list(ast.walk(place))
+            given = () if isinstance(place, ast.Module) else parts
+            assigned = [part for part in given if isinstance(part, ast.Assign)]
+            named = {_name(part.targets[0]): part.value for part in assigned if literal(part.value)}
+            yield from ((part, named) for part in parts if isinstance(part, ast.Call))
+
+
+def _templates_of(call: ast.Call, named: Mapping[str, ast.expr]) -> Iterator[str]:
     """The templates of a call that takes their values by name."""
     name = last_name(call.func)
     if name in (*OF_THE_WINDOW, *TEMPLATES, *errors()) and name not in (
@@ -355,4 +366,4 @@ def _templates_of(call: ast.Call) -> Iterator[str]:
         at = TEMPLATES.get(name, 0)
         for argument in call.args[at : at + 1]:
             if not any(isinstance(part, ast.Call) for part in ast.walk(argument)):
-                yield from literals(argument, {})
+                yield from literals(argument, named)

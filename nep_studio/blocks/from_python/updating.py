@@ -292,15 +292,15 @@ def _functions_that_differ(
 def _plain(function: ast.FunctionDef) -> tuple[object, ...]:
     """A function without what the generator writes by itself: the name of a rule, global lines."""
     name = "" if function.decorator_list else function.name
-    return name, _told(function.decorator_list), _told(function.body)
+    return name, _comparable(function.decorator_list), _comparable(function.body)
 
 
-def _told(node: object) -> object:
+def _comparable(node: object) -> object:
     """A tree as something to compare."""
     if isinstance(node, list):
-        return [_told(one) for one in node if not isinstance(one, ast.Global)]
+        return [_comparable(one) for one in node if not isinstance(one, ast.Global)]
     if isinstance(node, ast.AST):
-        return (type(node), *[_told(getattr(node, name, None)) for name in node._fields])
+        return (type(node), *[_comparable(getattr(node, name, None)) for name in node._fields])
     return type(node), node
 
 

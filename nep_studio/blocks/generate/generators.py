@@ -57,7 +57,8 @@ def _python(text: str) -> ValueGenerator:
     functions = [node.func for node in ast.walk(template) if isinstance(node, ast.Call)]
     modules = MODULES.intersection(name.id for name in named)
     api = API.intersection(name.id for name in named)
-    slots = [n.id for n in named if n not in functions and n.id not in (*MODULES, "str")]
+    names = [node.id for node in named if node not in functions]
+    slots = list(dict.fromkeys(name for name in names if name not in (*MODULES, "str")))
     make = _maker(template, slots)
 
     def generate(code: Expressions, block: Block) -> ast.expr:

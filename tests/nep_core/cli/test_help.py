@@ -25,6 +25,7 @@ from nep_core.wire.pubsub import Subscriber
 from tests.conftest import PROJECT
 from tests.nep_core.cli.conftest import Call, nep, until
 from tests.nep_core.node_making import write_node
+from tools.command_line_page import END
 
 SERVICES = ("master", "broker")
 EXAMPLES = [
@@ -174,6 +175,7 @@ def test_the_page_of_the_command_line_has_the_help_of_every_command(
 
     assert f"## nep {command}\n\n```\n{told}```\n" in page, "run: python -m tools.command_line_page"
     assert overview() in page
+    assert page.endswith(END)
 
 
 def test_the_version_is_told(call: Call) -> None:

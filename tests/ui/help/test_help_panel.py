@@ -7,6 +7,7 @@ from PySide6.QtGui import QGuiApplication, QWheelEvent
 from PySide6.QtWidgets import QApplication
 
 from nep_studio.ui.plugins.help.panel import HelpPanel, print_page
+from nep_studio.ui.theme.icons import icon_room
 from tests.ui.help.conftest import LANGUAGE
 
 KEY, LEFT = Qt.Key, Qt.MouseButton.LeftButton
@@ -158,6 +159,15 @@ def test_a_screen_reader_hears_the_example_and_the_names_of_buttons(panel):
     assert "NAO walks 0.3 m forward" in panel.example.insert.accessibleDescription()
     for button in (panel.tools.back, panel.tools.print, panel.tools.contents):
         assert button.accessibleName()
+
+
+def test_the_signs_of_buttons_with_words_keep_their_room_in_every_theme(panel, studio):
+    panel.open("block/robot.walk")
+
+    for theme in ("dark", "light"):
+        studio.look.choose(theme)
+        for button in (panel.example.insert, panel.example.try_it):
+            assert button.iconSize() == icon_room(panel.fontMetrics().height())
 
 
 def test_ctrl_and_the_wheel_make_words_and_pictures_larger(panel, qtbot):

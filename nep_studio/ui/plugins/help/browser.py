@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import replace
 
-from PySide6.QtCore import QPoint, QSize, Qt, QTimer, QUrl, Signal
+from PySide6.QtCore import QPoint, Qt, QTimer, QUrl, Signal
 from PySide6.QtGui import (
     QFontInfo,
     QMouseEvent,
@@ -26,7 +26,7 @@ from nep_studio.ui.canvas.block_pictures import PictureLook, arrange, help_pictu
 from nep_studio.ui.canvas.canvas import Canvas
 from nep_studio.ui.labels import labelled
 from nep_studio.ui.theme.colours import Theme, load_theme
-from nep_studio.ui.theme.icons import icon
+from nep_studio.ui.theme.icons import icon, icon_room
 from nep_studio.ui.theme.look import Look, code_font
 from nep_studio.ui.widgets.layouts import in_row
 from nep_studio.ui.words import is_right_to_left, language_code, tr
@@ -298,7 +298,7 @@ class ExampleBar(QWidget):
         self.insert.setIcon(icon("plus", theme))
         self.try_it.setIcon(icon("play", theme.colour("accent_text")))
         for button in (self.insert, self.try_it):
-            button.setIconSize(QSize(side, side))
+            button.setIconSize(icon_room(side))
 
     def put_on_page(self) -> bool:
         """Put the example's blocks where there is room, each on the page where it belongs."""

@@ -265,7 +265,7 @@ class ComputersList(QWidget):
         self._shown, self.buttons = computers, {}
         _clear(self._box)
         if not computers:
-            self._box.addWidget(hint(tr("None yet. The code above lets one in.")))
+            self._box.addWidget(hint("None yet. The code above lets one in."))
             return
         rows = QWidget()
         grid = QGridLayout(rows)

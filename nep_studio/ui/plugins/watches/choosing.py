@@ -73,8 +73,8 @@ class NetworkQuestion(QWidget):
         self.missing = hint(
             tr("This computer is in no network. Connect it to the Wi-Fi that the device is in.")
         )
-        self.again = quiet_button(tr("Look again"))
-        self.choice = labelled(tr("This computer is"), self.addresses)
+        self.again = quiet_button("Look again")
+        self.choice = labelled("This computer is", self.addresses)
         again = (self.again, 0, Qt.AlignmentFlag.AlignLeading)
         column_in(self, self.switch, self.told, self.choice, self.missing, again)
         self.show_addresses(addresses)
@@ -167,16 +167,16 @@ class MoreSettings(QWidget):
         form.setContentsMargins(0, 0, 0, 0)
         form.setRowWrapPolicy(QFormLayout.RowWrapPolicy.WrapLongRows)
         if self._connector.listens:
-            form.addRow(label_of(tr("Port"), self.port), self.port)
+            form.addRow(label_of("Port", self.port), self.port)
         if self._connector.asks_columns:
-            form.addRow(label_of(tr("Columns"), self.columns), self.columns)
+            form.addRow(label_of("Columns", self.columns), self.columns)
             words = tr(
                 "Empty: they are guessed. t is the time, ax ay az the acceleration, gx gy gz the"
                 " rotation; units may follow, as in t(ms),ax(g),gx(deg/s); a - is left out."
             )
             form.addRow(hint(words))
         if self._connector.asks_units:
-            form.addRow(label_of(tr("How it counts"), self.units), self.units)
+            form.addRow(label_of("How it counts", self.units), self.units)
         column_in(self, self.toggle, self.fields)
         self.fields.hide()
         if not form.rowCount():

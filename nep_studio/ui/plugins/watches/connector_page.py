@@ -75,7 +75,7 @@ class LiveView(QFrame):
         self._listener, self._look = listener, look
         self.dot, self.curve = MoveDot(look), LittleCurve(look)
         self.title, self.sentence, self.understood = QLabel(), QLabel(), QLabel()
-        self.correct_button = quiet_button(tr("Correct the columns…"))
+        self.correct_button = quiet_button("Correct the columns…")
         self.advice = QLabel()
         self.advice_card = QFrame()
         self.rows = [(QLabel(), QLabel(), QLabel(), QLabel()) for _ in range(MOST_FIGURES)]
