@@ -91,7 +91,6 @@ OF_THE_WINDOW = {
     "add_menu": slice(1, 2),
     "_submenu": slice(3, 4),
     "_heading": slice(0, 1),
-    "_quiet_button": slice(0, 1),
     "hint": slice(0, 1),
     "label_of": slice(0, 1),
     "labelled": slice(0, 1),

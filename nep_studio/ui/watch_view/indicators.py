@@ -355,7 +355,7 @@ class MoveDot(InLines):
 Grade = Literal["good", "fair", "poor"]
 GRADES = get_args(Grade)
 
-LEAST_HZ = (-25.0, -14.0)
+GOOD_HZ, FAIR_HZ = 25.0, 14.0
 """Gestures are told apart from 16 samples a second on; 25 and more are better."""
 MOST_LOSS = (0.02, 0.10)
 MOST_DELAY_MS = (150.0, 500.0)
@@ -377,7 +377,7 @@ def figures(flow: Flow) -> list[Figure]:
     """What is known of how a watch sends, the most important first."""
     number = tr("{number} a second", number=round(flow.rate_hz))
     words = tr("fast enough"), tr("enough; 50 are better"), tr("too few: choose 50 in the app")
-    found = [_figure(tr("Samples"), number, -flow.rate_hz, LEAST_HZ, words)]
+    found = [_figure(tr("Samples"), number, -flow.rate_hz, (-GOOD_HZ, -FAIR_HZ), words)]
     if flow.loss is not None:
         percent, digits = flow.loss * 100, 1 if 0 < flow.loss < 0.0995 else 0
         number = tr("{percent} %", percent=f"{percent:.{digits}f}")
