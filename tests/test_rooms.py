@@ -344,7 +344,8 @@ SMALL_FOR_A_REASON = {
 def lonely_modules(root: Path) -> list[str]:
     """Return the small modules that fewer than three others import: they belong into another.
 
-    A package's own file is no choice, and the file that ``python -m`` starts is none either.
+    A package's own file is no choice, and the file that ``python -m`` starts is none either, nor
+    one that a node's manifest beside it names.
     """
     found = dict(modules_in(root))
     importers = Counter(
@@ -357,7 +358,7 @@ def lonely_modules(root: Path) -> list[str]:
         module
         for module in found
         if (path := root / f"{module.replace('.', '/')}.py").exists()
-        if path.name != "__main__.py"
+        if path.name != "__main__.py" and not path.with_suffix(".toml").exists()
         if len(path.read_text(encoding="utf-8").splitlines()) < SMALL_LINES
         if importers[module] < ENOUGH_IMPORTERS
     ]

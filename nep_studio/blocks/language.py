@@ -315,9 +315,14 @@ def faults(language: Language, table: Table, code: str = "") -> Iterator[Fault]:
         yield from (Fault(f"{name}.{v}", "is not translated") for v in known if v not in labels)
     for kind in language.profiles[1:]:
         for name, known in kind.choices.items():
-            labels = {**_labels(name, table), **_labels(f"{kind.name}.{name}", table)}
-            places = (f"{kind.name}.{name}.{v}" for v in known if v not in labels)
-            yield from (Fault(place, "is not translated") for place in places)
+            usual, told = language.choices.get(name, {}), _labels(name, table)
+            own = _labels(f"{kind.name}.{name}", table)
+            yield from (
+                Fault(f"{kind.name}.{name}.{value}", "is not translated")
+                for value, label in known.items()
+                # What others call otherwise is not translated with their words
+                if value not in own and (value not in told or usual.get(value, label) != label)
+            )
 
 
 def _word_or_slot(token: re.Match[str], definition: Definition) -> str | Slot:

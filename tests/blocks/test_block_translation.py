@@ -110,6 +110,17 @@ def test_every_table_translates_every_block_category_and_choice(english, table) 
     assert [str(fault) for fault in faults(english, words, table.stem)] == []
 
 
+def test_what_a_robot_calls_otherwise_than_nao_is_not_translated_with_its_words(
+    english: Language,
+) -> None:
+    words = table_of("de")
+    del words["choices"]["pepper.postures"]["posture_stand_init"]
+
+    missing = [str(fault) for fault in faults(english, words, "de")]
+
+    assert missing == ["pepper.postures.posture_stand_init: is not translated"]
+
+
 def test_a_node_and_a_robot_bring_their_words_along_and_a_table_goes_before_them(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -130,7 +141,7 @@ def test_a_node_and_a_robot_bring_their_words_along_and_a_table_goes_before_them
 
     choices = table_of("de")["choices"]
 
-    assert choices["nodes"] == {"sensory/door": "Tür"}
+    assert choices["nodes"]["sensory/door"] == "Tür"
     assert choices["drivers"] == {"virtual_pip": "ein Pip", "other": "aus der Tabelle"}
 
 

@@ -261,7 +261,7 @@ class ChoicePopup(FieldPopup):
     def _on_typed(self, typed: str) -> None:
         self.fill(typed)
         if self.is_free and typed:
-            self.try_set(typed)
+            self.try_set(self.edit.slot.kind.read(typed))
 
     def _on_row(self, item: QListWidgetItem | None) -> None:
         if item is not None and self.isVisible():
