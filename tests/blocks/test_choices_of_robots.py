@@ -18,6 +18,7 @@ from nep_studio.blocks.generate.program import generate_program
 from nep_studio.blocks.language import Language, translated
 from nep_studio.blocks.operations.fixes import apply_fix
 from nep_studio.blocks.text import sentence
+from nep_studio.run.installation import table_of
 
 RESOURCES = Path(__file__).resolve().parents[2] / "resources"
 ROBOTS = RESOURCES / "robots"
@@ -202,7 +203,7 @@ def test_a_pepper_s_parts_of_the_body_are_those_that_it_has(language: Language) 
 
 def test_a_pepper_has_words_of_its_own_in_every_language(language: Language) -> None:
     for code in ("de", "es", "fr", "it", "ja"):
-        table = tomllib.loads((RESOURCES / "translations" / f"{code}.toml").read_text("utf-8"))
+        table = table_of(code)
         editor = program(translated(language, table), [LISA])
 
         label = editor.language.choices["postures"]["posture_stand_init"]
