@@ -72,6 +72,7 @@ class Publisher:
             self.close()
             raise
         outbox = self.network.outbox
+        outbox.expect(topic, expected)
         if expected and not outbox.wait_for(topic, expected, 0, HANDSHAKE_S):
             log.warning("a subscriber of %s has not connected yet", topic)
         if wait_for_subscribers:

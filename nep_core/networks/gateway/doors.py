@@ -297,7 +297,7 @@ class Door(ABC):
 
     def bind(self, endpoint: str) -> None:
         """Let programs connect; raises PortTaken."""
-        bind(self._socket, endpoint)
+        bind(self._socket, endpoint, is_watched=False)
 
     def connect(self, endpoint: str) -> None:
         """Go to a program that binds."""

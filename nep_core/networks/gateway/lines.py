@@ -25,9 +25,9 @@ import msgspec
 import psutil
 import zmq
 
+from faults.files import whole_file
 from nep_core.errors import BadMessage, MasterNotFound, NameTaken, NetworkError, PortTaken
 from nep_core.networks.zmq_networks import PeerNetwork
-from nep_core.places import whole_file
 from nep_core.wire.frames import CANNOT_DECODE
 from nep_core.wire.pubsub import Publisher, Subscriber
 

@@ -16,8 +16,8 @@ import msgspec
 import zmq
 
 from faults import Text, reason_of
+from faults.files import whole_file
 from nep_core.errors import KeyFileError
-from nep_core.places import whole_file
 from nep_core.wire.frames import CANNOT_DECODE
 
 MOST_BYTES = 1_000_000
