@@ -96,7 +96,12 @@ class Backlog:
         elif header is not None:
             sender = (header.node, header.run)
             if header.sent is None or sender not in self._newest:  # a notice brings what is old
+                self._bytes += len(frame) - len(self._newest.pop(sender, b""))
                 self._newest[sender] = frame
+                while len(self._newest) > 1 and (
+                    len(self._newest) > MOST_PUBLISHERS or self._bytes > BYTES
+                ):
+                    self._pop_newest()
 
     def pop(self) -> bytes | None:
         """The oldest frame that is here."""
@@ -105,8 +110,14 @@ class Backlog:
             self._bytes -= len(frame)
             return frame
         if self._newest:
-            return self._newest.pop(next(iter(self._newest)))
+            return self._pop_newest()
         return None
+
+    def _pop_newest(self) -> bytes:
+        """The newest of the publisher that has been silent for longest."""
+        frame = self._newest.pop(next(iter(self._newest)))
+        self._bytes -= len(frame)
+        return frame
 
     def count_passed(self) -> None:
         """Count the frame that was passed by, before the next one comes."""
