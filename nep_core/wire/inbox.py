@@ -96,8 +96,8 @@ class Backlog:
         elif header is not None:
             sender = (header.node, header.run)
             if header.sent is None or sender not in self._newest:  # a notice brings what is old
-                self._bytes += len(frame) - len(self._newest.pop(sender, b""))
-                self._newest[sender] = frame
+                self._bytes += len(frame) - len(self._newest.get(sender, b""))
+                self._newest[sender] = frame  # in its old turn: who says much waits no longer
                 while len(self._newest) > 1 and (
                     len(self._newest) > MOST_PUBLISHERS or self._bytes > BYTES
                 ):
@@ -114,7 +114,7 @@ class Backlog:
         return None
 
     def _pop_newest(self) -> bytes:
-        """The newest of the publisher that has been silent for longest."""
+        """The newest of the publisher that has waited for longest."""
         frame = self._newest.pop(next(iter(self._newest)))
         self._bytes -= len(frame)
         return frame
