@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from nep_core.errors import BadMessage
 from nep_core.networks.network import HANDSHAKE_S, Network
 from nep_core.wire.frames import NUL, Encoding, check_topic, read_header
+from nep_core.wire.pubsub import MOST_LOGGED
 
 log = logging.getLogger(__name__)
 
@@ -50,7 +51,7 @@ class RawSubscriber:
         self._network = network
         self._clock = clock or SteadyClock()
         self._waiting: list[RawMessage] = []
-        self._next_log_s = 0.0
+        self._logged, self._log_until_s = 0, 0.0
         self._id, self._inbox = network.open_inbox(topic)
         try:
             known = network.add_subscriber(topic, self._id, self._inbox)
@@ -88,8 +89,10 @@ class RawSubscriber:
     def _skip(self, why: str) -> None:
         """Note that a frame could not be read, and log it, but not for each of a flood."""
         self._network.troubles.note("messages_unreadable", self.topic, why)
-        if time.monotonic() >= self._next_log_s:
-            self._next_log_s = time.monotonic() + 1.0
+        if (now_s := time.monotonic()) >= self._log_until_s:
+            self._logged, self._log_until_s = 0, now_s + 1.0
+        self._logged += 1
+        if self._logged <= MOST_LOGGED:
             log.warning("%s: %s", self.topic, why)
 
     def _read(self, frame: bytes) -> list[RawMessage]:
