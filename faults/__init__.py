@@ -8,6 +8,8 @@ with named values and a code; who shows it makes words of them, once, in the rea
     messages.tell(told(error.fault.sentence, tr))
 
 Nobody reads a sentence to learn what happened: that is what ``code`` and ``values`` are for.
+
+``files`` beside it writes a file so that no fault leaves half of one.
 """
 
 from __future__ import annotations

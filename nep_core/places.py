@@ -1,18 +1,12 @@
-"""Where files are kept, beside the installed packages or where a variable says; and written whole.
-
-A file that others read is never seen half written: ``whole_file``.
-"""
+"""Where files are kept, beside the installed packages or where a variable says."""
 
 from __future__ import annotations
 
-import contextlib
 import os
-import secrets
 import sys
 import tempfile
-from collections.abc import Iterator
 from pathlib import Path
-from typing import BinaryIO, Literal
+from typing import Literal
 
 import platformdirs
 
@@ -79,22 +73,3 @@ def robot_folder(robot: str) -> Path:
     if told := os.environ.get(ROBOT_FILES_VARIABLE):
         return Path(told) / robot
     return own_folder("data") / "robots" / robot
-
-
-@contextlib.contextmanager
-def whole_file(path: Path, *, is_private: bool = False) -> Iterator[BinaryIO]:
-    """Write a file beside ``path``, which takes its place when it is whole; raises OSError.
-
-    Whoever reads finds the old one or the new one, also after a crash; one that ``is_private``
-    is this user's alone at every moment.
-    """
-    new = path.with_name(f".{path.name}.{secrets.token_hex(4)}")
-    mode = 0o600 if is_private else 0o666
-    try:
-        with open(new, "xb", opener=lambda name, flags: os.open(name, flags, mode)) as file:
-            yield file
-            file.flush()
-            os.fsync(file.fileno())
-        new.replace(path)
-    finally:
-        new.unlink(missing_ok=True)

@@ -14,8 +14,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from faults import Text, Words, reason_of, text_of
+from faults.files import whole_file
 from nep_core.errors import RecordingError
-from nep_core.places import whole_file
 from nep_core.wire.messages import Wrist
 
 # Which column of a recording is which: time, acceleration, gyroscope, gesture.

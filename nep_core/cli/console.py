@@ -23,6 +23,7 @@ from nep_core.networks.network import Network
 from nep_core.networks.registry import Registration
 from nep_core.networks.transports import topics_of
 from nep_core.recordings.raw import RawMessage
+from nep_core.wire.frames import CANNOT_ENCODE
 
 
 def join(options: argparse.Namespace, name: str = "") -> Network:
@@ -161,7 +162,7 @@ def table(head: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
 
 
 def value_of(message: RawMessage) -> Any:
-    """The message as plain values: text as text, bytes as bytes; raises msgspec.MsgspecError."""
+    """The message as plain values: text as text, bytes as bytes; raises CANNOT_DECODE."""
     if message.encoding == "json":
         return msgspec.json.decode(message.payload)
     if message.encoding == "msgpack":
@@ -180,9 +181,16 @@ def value_text(value: Any, *, pretty: bool = False) -> str:
         return f"{len(value)} bytes: {start}{' ...' if len(value) > SHOWN_BYTES else ''}"
     try:
         text = msgspec.json.encode(value)
-    except (TypeError, ValueError, RecursionError, msgspec.MsgspecError):
-        return repr(value)  # what MessagePack has and JSON has not
+    except CANNOT_ENCODE:
+        return _repr(value)  # what MessagePack has and JSON has not
     return (msgspec.json.format(text, indent=2) if pretty else text).decode(errors="replace")
+
+
+def _repr(value: Any) -> str:
+    try:
+        return repr(value)
+    except RecursionError:
+        return "…"
 
 
 class NoField(Exception):

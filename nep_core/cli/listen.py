@@ -14,6 +14,7 @@ from datetime import datetime
 import msgspec
 
 from nep_core.recordings.raw import RawMessage, RawSubscriber
+from nep_core.wire.frames import CANNOT_DECODE
 
 from .console import (
     NoField,
@@ -99,7 +100,7 @@ def _echo(subscriber: RawSubscriber, options: argparse.Namespace) -> int:
             continue
         try:
             say(_line(message, options))
-        except (NoField, msgspec.MsgspecError) as error:
+        except (NoField, *CANNOT_DECODE) as error:
             if not complained:
                 complained = True
                 remark(f"{error if isinstance(error, NoField) else f'Not readable: {error}.'}")

@@ -126,11 +126,16 @@ def programs(told: list[Registration], states: dict[str, NodeState]) -> list[Pro
 
 
 def states_of(network: Network, wait_s: float = STATES_S) -> dict[str, NodeState]:
-    """The last state that each node told, its heartbeats aside."""
+    """The newest state of each node, its heartbeats aside.
+
+    Newest by its time, not by its arrival: what a launcher told of a crash may come after what the
+    node, started again, says of itself.
+    """
     subscriber = Subscriber(NODE_STATE, NodeState, network=network)
     states: dict[str, NodeState] = {}
     while (state := subscriber.receive(wait_s)) is not None:
-        if state.event != "alive":
+        before = states.get(state.node)
+        if state.event != "alive" and (before is None or state.time >= before.time):
             states[state.node] = state
         wait_s = min(wait_s, 0.05)
     return states

@@ -14,6 +14,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
+from .endpoints import LAST_PORT
 from .security.addresses import endpoint_at, host_of, is_ours, own_addresses
 
 if TYPE_CHECKING:
@@ -105,7 +106,12 @@ def find(
             for name in [name for name in names if name not in found]:
                 if time.monotonic() > end_s:
                     break
-                info = zeroconf.get_service_info(SERVICE, name, timeout=300)
+                try:
+                    info = zeroconf.get_service_info(SERVICE, name, timeout=300)
+                except Exception as error:  # one odd announcement must not hide the others
+                    log.info("an announcement cannot be asked for: %s", error)
+                    names.remove(name)
+                    continue
                 if info is not None and (one := _found_of(info)) is not None:
                     found[name] = one
     except Exception as error:
@@ -150,14 +156,17 @@ def _found_of(info: ServiceInfo) -> Found | None:
             key.decode(): (value or b"").decode() for key, value in (info.properties or {}).items()
         }
         address = info.parsed_scoped_addresses()[0]
+        door_port = int(told["door"])
+        if not 0 < door_port <= LAST_PORT:
+            raise ValueError(f"there is no port {door_port}")
         return Found(
             title=_shown(told["title"]),
             computer=_shown(told["computer"]),
             network=_shown(told["network"]),
             master=endpoint_at(address, info.port or 0),
-            door_port=int(told["door"]),
+            door_port=door_port,
         )
-    except (KeyError, IndexError, ValueError) as error:
+    except (LookupError, ValueError, TypeError, AttributeError) as error:
         log.info("an announcement cannot be read: %s", error)
         return None
 

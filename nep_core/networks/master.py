@@ -16,12 +16,12 @@ import uuid
 from collections.abc import Callable, Iterable
 from typing import TYPE_CHECKING
 
-import msgspec
 import psutil
 import zmq
 
 from faults import Fault
 from nep_core.errors import NameTaken, NetworkError, PortTaken
+from nep_core.wire.frames import CANNOT_DECODE
 from nep_core.wire.io_thread import Wake
 from nep_core.wire.outbox import bind
 
@@ -292,7 +292,7 @@ class Master:
         address, *rest = frames
         try:
             answer = self._answer(says.decode_request(rest[-1] if rest else b""), address)
-        except (msgspec.MsgspecError, RecursionError, UnicodeError) as error:
+        except CANNOT_DECODE as error:
             log.info("a request could not be read: %s", error)
             answer = says.Mistake(sentence=f"This request cannot be read: {error}.")
         except NetworkError as error:

@@ -10,6 +10,7 @@ import msgspec
 import zmq
 
 from nep_core.errors import BrokerNotFound, MasterNotFound
+from nep_core.wire.frames import CANNOT_DECODE
 
 from . import security
 from .endpoints import fixed_endpoint
@@ -210,7 +211,7 @@ def arrived(socket: zmq.Socket[bytes]) -> list[Answer]:
             frame = socket.recv(zmq.NOBLOCK)
             try:
                 answers.append(decode_answer(frame))
-            except msgspec.MsgspecError as error:
+            except CANNOT_DECODE as error:
                 log.warning("the master says what cannot be read: %s", error)
     return answers
 
@@ -238,7 +239,7 @@ class MasterProbe:
         self._socket.send(encode(request))
         if not self._socket.poll(int(timeout_s * 1000)):
             return None
-        with contextlib.suppress(msgspec.MsgspecError):  # something else answers there
+        with contextlib.suppress(*CANNOT_DECODE):  # something else answers there
             answer = decode_answer(self._socket.recv())
             return answer if isinstance(answer, kind) else None
         return None

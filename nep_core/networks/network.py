@@ -13,7 +13,7 @@ from collections.abc import Callable
 from typing import Any, Literal, Protocol, TypeVar
 from weakref import WeakSet
 
-from faults import Fault
+from faults import LONGEST, Fault, fault_of
 from nep_core.closing import Closing
 from nep_core.errors import NetworkError
 from nep_core.wire.io_thread import IoThread
@@ -26,6 +26,56 @@ HANDSHAKE_S = 1.0
 
 Policy = Literal["events", "state"]
 """What a subscriber keeps while it does not read: events, or of each publisher the newest state."""
+
+
+MOST_TROUBLES = 100
+"""So many kinds of trouble are remembered until they are told."""
+
+TroubleKind = Literal["messages_unreadable", "callback_failed"]
+
+
+class Troubles:
+    """What went wrong with messages, counted by kind and topic until a node tells it; any thread.
+
+    One bad message, or a thousand, is one telling: a flood of faults is no flood of words.
+    """
+
+    def __init__(self) -> None:
+        self._lock = threading.Lock()
+        self._counts: dict[tuple[TroubleKind, str], tuple[int, str]] = {}
+
+    def note(self, kind: TroubleKind, topic: str, error: object) -> None:
+        """Remember that something of this kind happened at ``topic``, and the last reason."""
+        with self._lock:
+            count, _last = self._counts.get((kind, topic), (0, ""))
+            if count or len(self._counts) < MOST_TROUBLES:
+                self._counts[kind, topic] = count + 1, str(error)[:LONGEST]
+
+    def take(self) -> Fault | None:
+        """The one that is known longest, as a warning of a node; None when all is well."""
+        with self._lock:
+            if not self._counts:
+                return None
+            kind, topic = next(iter(self._counts))
+            count, error = self._counts.pop((kind, topic))
+        if kind == "callback_failed":
+            return fault_of(
+                "What to do with a message of {topic} failed: {count} times. The last error: "
+                "{error}",
+                code=kind,
+                checklist=("Look into its log.",),
+                topic=topic,
+                count=count,
+                error=error,
+            )
+        return fault_of(
+            "Messages of {topic} could not be read: {count}. The last reason: {error}",
+            code=kind,
+            checklist=("Use the same version of NEP Studio on all computers.",),
+            topic=topic,
+            count=count,
+            error=error,
+        )
 
 
 class Receiving(Protocol):
@@ -70,6 +120,8 @@ class Network(Closing, ABC):
         self.instance = uuid.uuid4().hex
         self.io = IoThread(self.node)
         self.on_stop: Callable[[], None] = lambda: None
+        self.troubles = Troubles()
+        """What went wrong with messages here, until take_warning() gives it."""
         self.closed = False
         self._lock = threading.RLock()
         self._shared_lock = threading.RLock()
@@ -122,7 +174,7 @@ class Network(Closing, ABC):
 
     def take_warning(self) -> Fault | None:
         """What a person should know about the network since the last time; None for nothing."""
-        return None
+        return self.troubles.take()
 
     def interrupt(self) -> None:
         """End every wait for messages; safe in a signal handler."""

@@ -51,6 +51,7 @@ PROGRAM_WAITS_US = 100_000
 ROUTER_WAITS_US = 20_000
 """A router's longest wait for a program; while that one stays frozen it does not wait again."""
 
+_PID = re.compile(r"\d{1,9}", re.ASCII)
 _ENDPOINT = re.compile(r"(?P<how>tcp|tls|quic)/(?P<host>\[[0-9a-f:]+\]|[\w.\-]+):\d{1,5}", re.I)
 
 
@@ -208,7 +209,7 @@ def registrations_of(tokens: Iterable[str], endpoint: str) -> list[Registration]
     told: dict[str, Registration] = {}
     for parts in said:
         match parts:
-            case ["node", node, instance, pid, host] if pid.isdecimal():
+            case ["node", node, instance, pid, host] if _PID.fullmatch(pid):
                 told[instance] = Registration(
                     instance=instance, node=node, pid=int(pid), host=host, endpoint=endpoint
                 )

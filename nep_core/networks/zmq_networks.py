@@ -92,8 +92,9 @@ class ZmqNetwork(Network):
             ) from error
 
     def take_warning(self) -> Fault | None:
-        """Who was refused since the last time, and what to do."""
-        return self.security.take_warning() if self.security else None
+        """Who was refused since the last time, and what to do; or what could not be read."""
+        refused = self.security.take_warning() if self.security else None
+        return refused or super().take_warning()
 
     def _key_at(self, endpoint: str) -> str:
         return self.security.key_at(endpoint) if self.security else ""

@@ -15,6 +15,7 @@ from pathlib import Path
 import msgspec
 
 from faults import Fault, heard_fault
+from nep_core.wire.frames import CANNOT_DECODE
 
 log = logging.getLogger(__name__)
 
@@ -47,5 +48,5 @@ def take(path: Path) -> Fault | None:
         path.unlink()
     try:
         return heard_fault(msgspec.json.decode(data))
-    except (msgspec.MsgspecError, RecursionError):
+    except CANNOT_DECODE:
         return None

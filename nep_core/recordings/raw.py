@@ -8,7 +8,8 @@ from dataclasses import dataclass
 
 from nep_core.errors import BadMessage
 from nep_core.networks.network import HANDSHAKE_S, Network
-from nep_core.wire.frames import NO_HEADER, NUL, Encoding, check_topic, read_header
+from nep_core.wire.frames import NUL, Encoding, check_topic, read_header
+from nep_core.wire.pubsub import MOST_LOGGED
 
 log = logging.getLogger(__name__)
 
@@ -50,6 +51,7 @@ class RawSubscriber:
         self._network = network
         self._clock = clock or SteadyClock()
         self._waiting: list[RawMessage] = []
+        self._logged, self._log_until_s = 0, 0.0
         self._id, self._inbox = network.open_inbox(topic)
         try:
             known = network.add_subscriber(topic, self._id, self._inbox)
@@ -61,8 +63,10 @@ class RawSubscriber:
 
     def receive(self, timeout_s: float | None = None) -> RawMessage | None:
         """The next message; None when nothing came for ``timeout_s``, or when closed."""
+        until_s = None if timeout_s is None else time.monotonic() + timeout_s
         while not self._waiting:
-            frame = self._inbox.take(timeout_s)
+            # A flood of frames that cannot be read must not keep the caller here
+            frame = self._inbox.take(until_s and max(0.0, until_s - time.monotonic()))
             if frame is None:
                 return None
             self._waiting = self._read(frame)[::-1]
@@ -82,16 +86,25 @@ class RawSubscriber:
         """Hear no more; a thread that waits in receive() gets None."""
         self._network.remove_subscriber(self._id)
 
+    def _skip(self, why: str) -> None:
+        """Note that a frame could not be read, and log it, but not for each of a flood."""
+        self._network.troubles.note("messages_unreadable", self.topic, why)
+        if (now_s := time.monotonic()) >= self._log_until_s:
+            self._logged, self._log_until_s = 0, now_s + 1.0
+        self._logged += 1
+        if self._logged <= MOST_LOGGED:
+            log.warning("%s: %s", self.topic, why)
+
     def _read(self, frame: bytes) -> list[RawMessage]:
         arrived_ns = self._clock.now_ns()
         parts = frame.split(NUL, 2)
         if len(parts) < 3:
-            log.warning(NO_HEADER, self.topic)
+            self._skip("a frame has no header: its sender does not speak NEP")
             return []
         try:
             header = read_header(parts[1])
         except BadMessage as error:
-            log.warning("%s: %s", self.topic, error)
+            self._skip(str(error))
             return []
         payloads = parts[2].split(NUL) if header.encoding == "json" else [parts[2]]
         return [

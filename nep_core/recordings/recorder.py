@@ -187,7 +187,11 @@ class Recorder(Closing):
 
     def _record(self, subscriber: RawSubscriber) -> None:
         while not (self._ended.is_set() or subscriber.closed):
-            self._keep_next(subscriber, TURN_S)
+            try:
+                self._keep_next(subscriber, TURN_S)
+            except Exception:  # one message that cannot be kept is not the end of a topic
+                log.exception("%s: a message is not recorded", subscriber.topic)
+                self._ended.wait(TURN_S)
         end_s = time.monotonic() + LAST_S
         while self._keep_next(subscriber, 0.0) and time.monotonic() < end_s:
             pass

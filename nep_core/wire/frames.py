@@ -20,7 +20,6 @@ from nep_core.errors import BadMessage, NetworkError
 Encoding = Literal["json", "text", "msgpack", "bytes"]
 Sendable = msgspec.Struct | dict[str, Any] | list[Any] | str | bytes
 
-NO_HEADER = "%s: a frame has no header: its sender does not speak NEP"
 NUL = b"\0"
 RUN_CHARACTERS = 8
 MOST = 2**63 - 1
@@ -48,6 +47,9 @@ class Header(msgspec.Struct, array_like=True):
 to_json = msgspec.json.Encoder().encode
 _encode_msgpack = msgspec.msgpack.Encoder().encode
 CANNOT_ENCODE = (TypeError, ValueError, OverflowError, RecursionError, msgspec.MsgspecError)
+CANNOT_DECODE = (ValueError, TypeError, RecursionError, OverflowError, MemoryError)
+"""All that decoding what others sent can raise: msgspec's own errors are ValueErrors, as is text
+that is not UTF-8; and what is nested a thousand deep is a RecursionError."""
 _decode_header = msgspec.json.Decoder(Header).decode
 
 
@@ -105,7 +107,7 @@ def read_header(head: bytes) -> Header:
     """The header of a frame; raises BadMessage."""
     try:
         return _decode_header(head)
-    except msgspec.MsgspecError as error:
+    except CANNOT_DECODE as error:
         raise BadMessage(
             "A frame has an unreadable header: {error}.",
             checklist=("Use the same version of NEP Studio on all computers.",),
@@ -157,7 +159,7 @@ Decode = Callable[[bytes], Any]
 def decoders(kind: type[Any] | None) -> dict[Encoding, Decode]:
     """How to decode payloads of each encoding into ``kind`` (None: whatever is there).
 
-    They raise msgspec.MsgspecError or UnicodeDecodeError, naming the key that is missing or wrong.
+    They raise one of CANNOT_DECODE, which names the key that is missing or wrong.
     """
     wanted = Any if kind is None else kind
     ways: dict[Encoding, Decode] = {

@@ -6,7 +6,7 @@ import math
 import threading
 import time
 from collections import deque
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Collection, Mapping
 from typing import TYPE_CHECKING
 
 import zmq
@@ -17,7 +17,7 @@ from nep_core.networks.network import Policy
 from nep_core.networks.security import connect
 
 from . import outbox
-from .frames import NUL, Header, read_header, subscription
+from .frames import NUL, RUN_CHARACTERS, Header, read_header, subscription
 from .outbox import HIGH_WATER_MARK, PRIVATE_BYTE, bind
 
 if TYPE_CHECKING:
@@ -69,6 +69,17 @@ class Backlog:
         """How many messages are lost so far."""
         return self._lost if self.policy == "events" else 0
 
+    @property
+    def notes(self) -> int:
+        """How many frames and notices were counted so far."""
+        return self._notes
+
+    def heard_of_others(self, instances: Collection[str]) -> int:
+        """At which note somebody was heard last who is none of these ``instances``."""
+        runs = {instance[:RUN_CHARACTERS] for instance in instances}
+        others = (known[2] for (_node, run), known in self._known.items() if run not in runs)
+        return max(others, default=0)
+
     def put(self, frame: bytes) -> None:
         """Take in a frame or a notice."""
         self.count_passed()
@@ -85,7 +96,12 @@ class Backlog:
         elif header is not None:
             sender = (header.node, header.run)
             if header.sent is None or sender not in self._newest:  # a notice brings what is old
-                self._newest[sender] = frame
+                self._bytes += len(frame) - len(self._newest.get(sender, b""))
+                self._newest[sender] = frame  # in its old turn: who says much waits no longer
+                while len(self._newest) > 1 and (
+                    len(self._newest) > MOST_PUBLISHERS or self._bytes > BYTES
+                ):
+                    self._pop_newest()
 
     def pop(self) -> bytes | None:
         """The oldest frame that is here."""
@@ -94,8 +110,14 @@ class Backlog:
             self._bytes -= len(frame)
             return frame
         if self._newest:
-            return self._newest.pop(next(iter(self._newest)))
+            return self._pop_newest()
         return None
+
+    def _pop_newest(self) -> bytes:
+        """The newest of the publisher that has waited for longest."""
+        frame = self._newest.pop(next(iter(self._newest)))
+        self._bytes -= len(frame)
+        return frame
 
     def count_passed(self) -> None:
         """Count the frame that was passed by, before the next one comes."""
@@ -140,8 +162,9 @@ class Backlog:
 # The C back end's own: socket.EVENTS takes eight times longer, for each of 1,000 subscribers.
 _option = BackendSocket.get
 
-LAST_WORDS_S = 1.0
-"""How long a publisher that has left is still heard: disconnecting drops what is on its way."""
+LAST_WORDS_S = 3.0
+"""How long a publisher that has left is still heard: disconnecting drops what is on its way. One
+that says more meanwhile stays: the master may have lost sight of it, we have not."""
 
 WAKE_ENDPOINT = "inproc://wake"
 """Where the I/O thread's socket is bound that ends another thread's wait for a message."""
@@ -193,6 +216,8 @@ class Inbox:
         """Where the publishers are, as it was told since the socket was used last."""
         self._wanted: set[str] = set()
         self._leaving: dict[str, float] = {}
+        self._heard_of_left = 0
+        """Up to which note of the backlog those that leave were heard, when it was looked last."""
         self._publishers: set[str] = set()
         self._known: set[str] | None = None
         """The publishers that are there, where somebody keeps a list: all others are gone."""
@@ -324,6 +349,7 @@ class Inbox:
             endpoints, now_s = self._told.popleft(), time.monotonic()
             for endpoint in self._wanted - endpoints.keys():
                 self._leaving[endpoint] = now_s + LAST_WORDS_S
+                self._heard_of_left = self._backlog.notes
             for endpoint, key in endpoints.items():
                 if endpoint not in self._wanted and self._leaving.pop(endpoint, None) is None:
                     if self._security is not None:
@@ -335,6 +361,12 @@ class Inbox:
 
     def _disconnect_left(self) -> None:
         now_s = time.monotonic()
+        if min(self._leaving.values()) < now_s:
+            heard = self._backlog.heard_of_others(self._known or set())
+            if heard > self._heard_of_left:
+                self._heard_of_left = heard
+                self._leaving = dict.fromkeys(self._leaving, now_s + LAST_WORDS_S)
+                return
         for endpoint in [e for e, until_s in self._leaving.items() if until_s < now_s]:
             del self._leaving[endpoint]
             self._socket.disconnect(endpoint)

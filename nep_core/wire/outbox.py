@@ -16,7 +16,7 @@ from zmq.backend import Socket as BackendSocket
 
 from faults import reason_of
 from nep_core.errors import NetworkError, PortTaken
-from nep_core.networks.security import connect
+from nep_core.networks.security import connect, watch_over
 from nep_core.networks.security.addresses import require_loopback
 
 from . import frames
@@ -206,6 +206,8 @@ class Outbox:
         self._ids: dict[str, set[str]] = defaultdict(set)
         self._slow: set[tuple[str, str]] = set()
         self._streams: dict[str, Stream] = {}
+        self._expected: dict[tuple[str, str], int] = {}
+        """Who should have been there when so many messages had been sent."""
         self._next_mark_s = 0.0
 
     def _sender(self, topic: str) -> SendFrame:
@@ -250,11 +252,23 @@ class Outbox:
                 lambda: ids <= self._ids[topic] and len(self._ids[topic]) >= count, timeout_s
             )
 
+    def expect(self, topic: str, ids: set[str]) -> None:
+        """Whoever of these comes only later has lost what is sent from now on, and is told so."""
+        with self._lock:
+            stream = self._streams.get(topic)
+            sent = stream.sent if stream else 0
+            self._expected |= {(topic, subscriber): sent for subscriber in ids}
+
     def note(self, topic: str, subscriber: str, present: bool) -> None:
         """Welcome a subscriber that has come, or forget one that has left."""
         if present:
             with self._lock:
                 stream = self._streams.get(topic)
+                due = self._expected.pop((topic, subscriber), None)
+                if due is not None and stream is not None and due < stream.sent:
+                    # Its own count begins there, so that it counts what it came too late for
+                    began = frames.mark(topic, self._node, self._run, due)
+                    self._send_privately(topic, subscriber, began)
                 if stream is not None and stream.latched:
                     welcome = frames.notice(stream.latched, stream.sent)
                 else:
@@ -358,13 +372,16 @@ def read_welcome(frame: bytes) -> tuple[str, bytes]:
 HIGH_WATER_MARK = 4_000
 """Frames that wait for a subscriber whose program is frozen, on each side.
 
-A frame holds one message, or in a flood several of up to 16 KB together: at most 64 MB wait for
-each subscriber while messages are below 16 KB. Larger ones are not bounded by that: 4,000 times
-their size may wait. Whoever sends images gives the network a lower high-water mark.
+A frame holds one message, or in a flood several of up to 16 KB together. A larger one is followed
+by a *filler* for each UNIT_BYTES of it, a private frame without content, so that ZeroMQ, which
+counts frames, keeps at most 4,000 times UNIT_BYTES, 80 MB, of messages of whatever size.
 
 What comes when all that is full is lost, and counted: ZeroMQ keeps the oldest here. It is the
 subscriber's own backlog (inbox.py) that keeps the newest while its program is merely busy.
 """
+
+UNIT_BYTES = 20_000
+"""So many bytes count as one frame of the high-water mark."""
 
 # The send of the C back end: pyzmq's own looks for options that we never use.
 _send = BackendSocket.send
@@ -447,6 +464,8 @@ class ZmqOutbox(Outbox):
         """Send without waiting; the lock is held."""
         try:
             _send(self._socket, frame, zmq.NOBLOCK)
+            if len(frame) >= UNIT_BYTES:
+                self._weigh(frame)
         except zmq.Again:
             # Note who has none; from then on ZeroMQ leaves those out until they have read
             with self._changed:
@@ -465,6 +484,21 @@ class ZmqOutbox(Outbox):
         except zmq.ZMQError as error:
             raise network_closed(self._node) from error
 
+    def _weigh(self, frame: bytes) -> None:
+        """Let a large frame take as much of each subscriber's high-water mark as it has bytes."""
+        if frame[0] == PRIVATE_BYTE:
+            return  # a latched message in a welcome: one at a time
+        topic = frame[: frame.index(NUL)].decode()
+        with self._changed:
+            ids = list(self._ids.get(topic, ()))
+        for subscriber in ids:
+            filler = private_frame(topic, subscriber, self._instance)
+            try:
+                for _ in range(min(len(frame) // UNIT_BYTES, HIGH_WATER_MARK)):
+                    _send(self._socket, filler, zmq.NOBLOCK)
+            except zmq.Again:
+                self.note_slow(topic, subscriber)
+
     def _send_privately(self, topic: str, subscriber: str, notice: bytes) -> None:
         if not self._socket.closed:
             self._send(private_frame(topic, subscriber, self._instance, notice))
@@ -477,11 +511,21 @@ def network_closed(node: str) -> NetworkError:
     )
 
 
-def bind(socket: zmq.Socket[bytes], endpoint: str, security: Security | None = None) -> None:
+def bind(
+    socket: zmq.Socket[bytes],
+    endpoint: str,
+    security: Security | None = None,
+    *,
+    is_watched: bool = True,
+) -> None:
     """Bind, or raise PortTaken with a sentence when the endpoint cannot be had.
 
     Without keys it must be one that only this computer reaches, else NetworkError is raised.
+    ``is_watched``: who does not answer heartbeats is disconnected; programs with a ZeroMQ before
+    4.2 know none.
     """
+    if is_watched:
+        watch_over(socket)
     if security is None:
         require_loopback(endpoint)
     else:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import logging
 import threading
+import time
 from collections import deque
 from collections.abc import Callable, Iterator
 from typing import Any, Generic, TypeVar
@@ -15,9 +16,9 @@ from nep_core.networks.network import HANDSHAKE_S, Network, Policy
 from nep_core.networks.transports import default_network
 
 from .frames import (
+    CANNOT_DECODE,
     JSON_HEAD,
     JSON_MARK,
-    NO_HEADER,
     NUL,
     Decode,
     Encoding,
@@ -33,7 +34,10 @@ log = logging.getLogger(__name__)
 
 T = TypeVar("T")
 
-CANNOT_READ = (msgspec.MsgspecError, UnicodeDecodeError, RecursionError)
+MOST_LOGGED = 10
+"""So many lines a second are logged of what is wrong with a topic's messages."""
+AFTER_ERROR_S = 0.02
+"""So long a thread that hears rests after an error of ours: never spin on one that repeats."""
 
 
 class Publisher:
@@ -68,6 +72,7 @@ class Publisher:
             self.close()
             raise
         outbox = self.network.outbox
+        outbox.expect(topic, expected)
         if expected and not outbox.wait_for(topic, expected, 0, HANDSHAKE_S):
             log.warning("a subscriber of %s has not connected yet", topic)
         if wait_for_subscribers:
@@ -100,9 +105,10 @@ class Subscriber(Generic[T]):
     """Receives the messages of one topic.
 
     ``kind``: the struct that messages are read into (default: what JSON gives). ``callback``:
-    called with each message, in a thread of its own. A message that is not of that kind is
-    skipped with a warning that names the key, and so is null, which would look like no message.
-    Only one thread may receive at a time.
+    called with each message, in a thread of its own, until the subscriber is closed: what it
+    raises is logged, and told by the node of this network, and the next message comes. A message
+    that cannot be read, or is not of that kind, is skipped with a warning that names the key, and
+    so is null, which would look like no message. Only one thread may receive at a time.
 
     ``policy``: what is kept while nobody receives. "events" (the default): up to 10,000 frames,
     or 64 MB; then the oldest are dropped, and counted in ``lost``. "state": the newest message
@@ -127,6 +133,7 @@ class Subscriber(Generic[T]):
         self._header: Header | None = None
         self._head = b""
         self._keeps_newest = policy == "state"
+        self._logged, self._log_until_s = 0, 0.0
         self._decoders = decoders(kind)
         self._from_json = self._decoders["json"]
         wanted: Any = Any if kind is None else kind
@@ -152,7 +159,8 @@ class Subscriber(Generic[T]):
             try:
                 self._header = read_header(head)
             except BadMessage as error:
-                log.warning("%s: %s", self.topic, error)
+                self._header = None
+                self._skip("a header cannot be read", error)
         return self._header
 
     @property
@@ -164,7 +172,11 @@ class Subscriber(Generic[T]):
         return self._inbox.lost
 
     def receive(self, timeout_s: float | None = None) -> T | None:
-        """The next message; waits ``timeout_s`` (None: for ever). None: nothing came, or closed."""
+        """The next message; waits ``timeout_s`` (None: for ever). None: nothing came, or closed.
+
+        What cannot be read is passed over.
+        """
+        until_s: float | None = None
         while True:
             if self._waiting:
                 return self._waiting.popleft()
@@ -177,11 +189,14 @@ class Subscriber(Generic[T]):
                 self._head = parts[1]
                 decode = self._from_json
             elif (decode := self._decoder_of(parts)) is None:
+                if timeout_s is not None:  # a flood of such frames must not keep the caller here
+                    until_s = until_s or time.monotonic() + timeout_s
+                    timeout_s = max(0.0, until_s - time.monotonic())
                 continue
             payload = parts[2]
             try:  # a lone message, the commonest: no call more than it needs
                 message: T | None = decode(payload)
-            except CANNOT_READ:
+            except CANNOT_DECODE:
                 message = None
             if message is not None:
                 return message
@@ -189,6 +204,9 @@ class Subscriber(Generic[T]):
                 self._take_in(payload)
             else:
                 self._read(decode, payload)  # tells why there is none
+            if timeout_s is not None:
+                until_s = until_s or time.monotonic() + timeout_s
+                timeout_s = max(0.0, until_s - time.monotonic())
 
     def pending(self) -> list[T]:
         """All that has arrived, without waiting."""
@@ -211,28 +229,40 @@ class Subscriber(Generic[T]):
             yield message
 
     def _tell(self, callback: Callable[[T], None]) -> None:
-        while (message := self.receive()) is not None:
+        """Call back for each message until the subscriber is closed, whatever happens meanwhile."""
+        while not self._inbox.closed:
+            try:
+                message = self.receive()
+            except Exception as error:  # a fault of ours, which must not make anybody deaf
+                self._skip("a message could not be taken", error)
+                time.sleep(AFTER_ERROR_S)
+                continue
+            if message is None:
+                continue
             try:
                 callback(message)
-            except Exception:
-                log.exception("%s: the callback failed", self.topic)
             except SystemExit:
                 log.warning("%s: the callback ended itself, and hears no more", self.topic)
                 self.close()  # else it would look as if it heard
+            except BaseException as error:  # also one that is no Exception, as the end of a rule
+                self.network.troubles.note("callback_failed", self.topic, _named(error))
+                if self._may_log():
+                    log.exception("%s: the callback failed", self.topic)
 
     def _decoder_of(self, parts: list[bytes]) -> Decode | None:
         """How to decode a frame that begins in an unusual way; None: it cannot be read."""
+        self._header, self._head = None, b""
         if len(parts) < 3:
-            log.warning(NO_HEADER, self.topic)
+            self._skip("a frame has no header: its sender does not speak NEP")
             return None
         try:
-            self._header, self._head = read_header(parts[1]), b""
+            self._header = read_header(parts[1])
         except BadMessage as error:
-            log.warning("%s: %s", self.topic, error)
+            self._skip("a header cannot be read", error)
             return None
         decode = self._decoders.get(self._header.encoding)
         if decode is None:
-            log.warning("%s: a message of %s is not JSON", self.topic, self._sender())
+            self._skip(f"a message of {self._sender()} is not JSON")
         return decode
 
     def _take_in(self, payloads: bytes) -> None:
@@ -241,7 +271,7 @@ class Subscriber(Generic[T]):
             payloads = payloads.rpartition(NUL)[2]
         try:
             messages = self._from_lines(payloads.replace(NUL, b"\n"))
-        except CANNOT_READ:
+        except CANNOT_DECODE:
             messages = [None]
         there = [message for message in messages if message is not None]
         if len(there) < len(messages):
@@ -253,12 +283,35 @@ class Subscriber(Generic[T]):
         """One message; None, with a warning, when it cannot be read or is null."""
         try:
             message: T | None = decode(payload)
-        except CANNOT_READ as error:
-            log.warning("%s: a message of %s: %s", self.topic, self._sender(), error)
+        except CANNOT_DECODE as error:
+            self._skip(f"a message of {self._sender()}", error)
             return None
         if message is None:
-            log.warning("%s: a message of %s is null: it is skipped", self.topic, self._sender())
+            self._skip(f"a message of {self._sender()} is null: it is skipped")
         return message
+
+    def _skip(self, what: str, error: Exception | None = None) -> None:
+        """Note that something could not be read; the node of this network tells it."""
+        why = what if error is None else f"{what}: {error}"
+        self.network.troubles.note("messages_unreadable", self.topic, why)
+        if self._may_log():
+            log.warning("%s: %s", self.topic, why)
+
+    def _may_log(self) -> bool:
+        """Whether there may be another line in the log: a flood of faults is no flood of words."""
+        if (now_s := time.monotonic()) >= self._log_until_s:
+            self._logged, self._log_until_s = 0, now_s + 1.0
+        self._logged += 1
+        return self._logged <= MOST_LOGGED
 
     def _sender(self) -> str:
         return header.node if (header := self.header) else "somebody"
+
+
+def _named(error: BaseException) -> str:
+    """An error with its kind: many have no words of their own, or only a key."""
+    try:
+        words = str(error)
+    except Exception:  # one whose words cannot be made
+        words = ""
+    return f"{type(error).__name__}: {words}" if words else type(error).__name__

@@ -13,6 +13,7 @@ from typing import Any, Literal
 import msgspec
 
 from faults import Text, reason_of
+from faults.files import put_in_place
 
 from .edit_rules import (
     MOST_NOTES,
@@ -392,7 +393,7 @@ def save(project: Project, path: Path) -> None:
             os.fsync(file.fileno())
         if target.exists():
             shutil.copymode(target, new)
-        os.replace(new, target)
+        put_in_place(new, target)
     except (OSError, UnicodeEncodeError) as error:
         with suppress(OSError):
             new.unlink(missing_ok=True)

@@ -22,7 +22,7 @@ from pathlib import Path
 
 import msgspec
 
-from nep_core.places import whole_file
+from faults.files import whole_file
 from nep_studio.blocks.editor import Editor
 from nep_studio.blocks.edits import ANY_EDIT, Edit
 from nep_studio.blocks.errors import BlocksError

@@ -17,7 +17,8 @@ from pathlib import Path
 
 import msgspec
 
-from nep_core.places import cache_folder, whole_file
+from faults.files import sync_folder, whole_file
+from nep_core.places import cache_folder
 from nep_studio.blocks.own_animations import JointKeys, OwnAnimation, own_animations
 from nep_studio.blocks.own_gestures import (
     OwnGesture,
@@ -89,6 +90,7 @@ class TakeFiles:
             write_recordings(part, self.gestures, self.recordings)
             with suppress(OSError):  # another window was quicker
                 part.rename(self.folder)
+                sync_folder(self.folder.parent)
         finally:
             shutil.rmtree(part, ignore_errors=True)
         _forget_old(self.folder)

@@ -26,7 +26,7 @@ from typing import Literal, TypeVar
 import msgspec
 
 from faults import Tr, plain
-from nep_core.places import whole_file
+from faults.files import whole_file
 
 # The System Usability Scale: its items and its score, as in the paper and as Brooke made it.
 #

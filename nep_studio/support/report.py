@@ -21,10 +21,11 @@ from pathlib import Path
 
 import msgspec
 
+from faults.files import whole_file
 from nep_core.cli import doctor
 from nep_core.cli.doctor import Finding, examined, finding_lines
 from nep_core.networks.security.addresses import own_addresses
-from nep_core.places import cache_folder, key_file, log_folder, portable_folder, whole_file
+from nep_core.places import cache_folder, key_file, log_folder, portable_folder
 from nep_core.processes.process import program_command
 from nep_studio import __version__
 

@@ -14,7 +14,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from nep_core.places import whole_file
+from faults.files import whole_file
 
 NAME = "nep-studio-show"
 LABEL = "org.nep-studio.show"

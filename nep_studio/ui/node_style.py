@@ -13,6 +13,7 @@ import msgspec
 from nep_core.errors import NepError
 from nep_core.places import node_folders
 from nep_core.processes.manifest import Manifest, NodeCatalog
+from nep_core.wire.frames import CANNOT_ENCODE
 from nep_studio.run.node_board import Health, NodeStatus
 from nep_studio.ui.network_feed import NodeSeen, TopicSeen
 from nep_studio.ui.words import count_words, tr
@@ -187,14 +188,27 @@ def as_json(message: Any) -> str:
         return message
     if isinstance(message, bytes):
         return repr(message)
-    return msgspec.json.encode(message).decode()
+    try:
+        return msgspec.json.encode(message).decode()
+    except CANNOT_ENCODE:  # what MessagePack has and JSON has not, or nested too deep
+        return _repr(message)
+
+
+def _repr(message: Any) -> str:
+    try:
+        return repr(message)
+    except RecursionError:
+        return "…"
 
 
 def pretty(message: Any) -> str:
     """A message as JSON in lines; short lists stay on one."""
     if isinstance(message, str | bytes):
         return as_json(message)
-    return _pretty(msgspec.to_builtins(message), "")
+    try:
+        return _pretty(msgspec.to_builtins(message), "")
+    except CANNOT_ENCODE:
+        return as_json(message)
 
 
 def _pretty(value: Any, indent: str) -> str:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import contextlib
 import math
 import os
 import shutil
@@ -15,6 +14,8 @@ from typing import IO, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
+
+from faults.files import whole_file
 
 from .body import Camera
 from .driver import Thing
@@ -373,15 +374,8 @@ def frames_in(path: Path) -> int:
 def _replace(path: Path, write: Callable[[IO[bytes]], object]) -> None:
     """Write a file beside the place where it goes, so that a broken one never is there."""
     path.parent.mkdir(parents=True, exist_ok=True)
-    made, name = tempfile.mkstemp(dir=path.parent, prefix=".", suffix=ENDING)
-    try:
-        with os.fdopen(made, "wb") as file:
-            write(file)
-        os.replace(name, path)
-    except OSError:
-        with contextlib.suppress(OSError):
-            os.unlink(name)
-        raise
+    with whole_file(path, is_private=True) as file:
+        write(file)
 
 
 def _filtered(picture: Picture) -> bytes:

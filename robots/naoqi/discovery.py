@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import contextlib
 import ipaddress
 import os
 import tempfile
@@ -16,6 +15,7 @@ from typing import Any
 import msgspec
 import platformdirs
 
+from faults.files import whole_file
 from robots.errors import WrongAddress
 
 # Where a NAOqi robot is found: the host and port that a person wrote.
@@ -187,18 +187,16 @@ def _key(place: str) -> str:
 def _read() -> dict[str, SavedLogin]:
     try:
         return msgspec.json.decode(logins_file().read_bytes(), type=dict[str, SavedLogin])
-    except (OSError, msgspec.DecodeError):  # none yet, or one that is no use: asked for again
+    except (
+        OSError,
+        ValueError,
+        RecursionError,
+    ):  # none yet, or of no use: asked for again
         return {}
 
 
 def _write(logins: dict[str, SavedLogin]) -> None:
     path = logins_file()
     path.parent.mkdir(parents=True, exist_ok=True)
-    new = path.with_suffix(".new")
-    with contextlib.suppress(FileNotFoundError):
-        new.unlink()
-    # made for its owner only from the first moment on, and never half written
-    handle = os.open(new, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o600)
-    with os.fdopen(handle, "wb") as file:
+    with whole_file(path, is_private=True) as file:
         file.write(msgspec.json.format(msgspec.json.encode(logins), indent=2))
-    new.replace(path)

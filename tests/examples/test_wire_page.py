@@ -16,6 +16,7 @@ import pytest
 from nep_core.networks import master_messages as says
 from nep_core.networks.master import Master
 from nep_core.networks.master_messages import ask_to_stop
+from nep_core.networks.network import TroubleKind
 from nep_core.networks.security.curve import NOT_LET_IN
 from nep_core.networks.zmq_networks import PeerNetwork
 from nep_core.processes import handover
@@ -28,6 +29,7 @@ from nep_core.wire.messages import (
     PROCESS_RESTARTS,
     PROCESS_STOPPED,
     NodeEvent,
+    RobotState,
 )
 from nep_core.wire.pubsub import Publisher
 from nodes.sensory.arm.gestures import MAKES_GESTURE
@@ -112,7 +114,10 @@ def test_the_fault_that_a_node_hands_over_is_read_with_its_values_and_steps(tmp_
 
 
 def test_the_page_names_every_code_that_means_the_same_from_every_node() -> None:
-    codes = (PROCESS_ENDED, PROCESS_RESTARTS, PROCESS_STOPPED, NOT_LET_IN, MAKES_GESTURE)
+    codes = (
+        *(PROCESS_ENDED, PROCESS_RESTARTS, PROCESS_STOPPED, NOT_LET_IN, MAKES_GESTURE),
+        *get_args(TroubleKind),
+    )
 
     assert [code for code in codes if f"| `{code}` |" not in PAGE] == []
 
@@ -178,3 +183,12 @@ def test_the_whole_program_of_the_page_hears_the_first_message_and_stops_when_as
     finally:
         ear.kill()
         ear.communicate()
+
+
+def test_the_keys_of_a_robots_state_are_those_of_its_struct() -> None:
+    _, _, table = PAGE.partition("| key of `/robot_state` |")
+    keys = re.findall(r"^\| `(\w+)` \|", table.partition("\n\n")[0], re.MULTILINE)
+
+    assert keys == list(RobotState.__struct_fields__)
+    [shown] = blocks("json", "message /robot_state")
+    assert list(json.loads(shown)) == keys

@@ -184,3 +184,16 @@ def test_received_and_lost_are_what_was_sent(sizes: list[int], data: st.DataObje
 
     assert received + backlog.lost == sent
     assert frames.read_header(told(sent).split(NUL)[1]).sent == sent
+
+
+def test_states_of_ever_new_publishers_are_bounded(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(backlog_module, "BYTES", 10 * len(frame(1)))
+    backlog = Backlog("/t", "state")
+
+    for start in range(50):
+        backlog.put(frame(1, run=f"{start:08}"))
+        backlog.put(frame(2, run=f"{start:08}"))
+
+    assert len(backlog) == 10
+    assert all_of(backlog)[-1] == frame(2, run="00000049")
+    assert backlog._bytes == 0

@@ -18,7 +18,7 @@ import zmq
 from zmq.utils.monitor import parse_monitor_message
 
 from nep_core.errors import BadMessage, NetworkError
-from nep_core.wire.frames import CANNOT_ENCODE, check_topic, to_json
+from nep_core.wire.frames import CANNOT_DECODE, CANNOT_ENCODE, check_topic, to_json
 from nep_core.wire.outbox import bind
 
 # How programs of the original put messages into frames, and how our values become such frames.
@@ -35,8 +35,6 @@ KINDS: dict[str, Kind] = {
     "image": "image",
 }
 """Every other message type of theirs is JSON."""
-
-CANNOT_DECODE = (ValueError, TypeError, RecursionError, msgspec.MsgspecError)
 
 
 @dataclass(frozen=True)
@@ -205,6 +203,8 @@ def refused(frame: bytes, sentence: str, ip: str) -> bytes:
         topic = _decoded(frame).get("topic", "")
     except BadMessage:
         topic = ""
+    if isinstance(topic, dict | list):  # it may be too deep to be written again
+        topic = ""
     answer = {"topic": topic, "port": 0, "ip": ip, "state": "failure", "error": sentence}
     return json.dumps(answer).encode()  # a topic of half a character is answered too
 
@@ -212,7 +212,7 @@ def refused(frame: bytes, sentence: str, ip: str) -> bytes:
 def _decoded(frame: bytes) -> dict[str, Any]:
     try:
         told = json.loads(frame)
-    except (ValueError, RecursionError) as error:
+    except CANNOT_DECODE as error:
         raise BadMessage("The request cannot be read: {error}.", error=error) from error
     if not isinstance(told, dict):
         raise BadMessage("The request is not a JSON object.")
@@ -297,7 +297,7 @@ class Door(ABC):
 
     def bind(self, endpoint: str) -> None:
         """Let programs connect; raises PortTaken."""
-        bind(self._socket, endpoint)
+        bind(self._socket, endpoint, is_watched=False)
 
     def connect(self, endpoint: str) -> None:
         """Go to a program that binds."""

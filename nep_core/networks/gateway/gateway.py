@@ -60,7 +60,7 @@ class RegistryFeed:
         self._socket.linger = 0
         self._socket.setsockopt(zmq.XPUB_MANUAL, 1)
         try:
-            bind(self._socket, endpoint)
+            bind(self._socket, endpoint, is_watched=False)
         except BaseException:
             self._socket.close()
             raise
@@ -185,7 +185,7 @@ class Gateway:
             socket.linger = 200
             socket.maxmsgsize = MAX_REQUEST
             try:
-                bind(socket, self._endpoint(port))
+                bind(socket, self._endpoint(port), is_watched=False)
             except PortTaken as error:
                 socket.close()
                 troubles.append(error)

@@ -25,9 +25,10 @@ import msgspec
 import psutil
 import zmq
 
+from faults.files import whole_file
 from nep_core.errors import BadMessage, MasterNotFound, NameTaken, NetworkError, PortTaken
 from nep_core.networks.zmq_networks import PeerNetwork
-from nep_core.places import whole_file
+from nep_core.wire.frames import CANNOT_DECODE
 from nep_core.wire.pubsub import Publisher, Subscriber
 
 from .doors import Context, Door, Request, Shape, Warner, Watch, WayIn, WayOut
@@ -95,7 +96,7 @@ def recall(file: Path) -> list[KeptLine]:
     """What the file holds; nothing when it cannot be read."""
     try:
         return msgspec.json.decode(file.read_bytes(), type=list[KeptLine])
-    except (OSError, msgspec.MsgspecError) as error:
+    except (OSError, *CANNOT_DECODE) as error:
         log.info("no ports of the original's programs are known: %s", error)
         return []
 

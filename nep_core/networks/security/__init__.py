@@ -53,7 +53,24 @@ def connect_to_master(socket: zmq.Socket[bytes], endpoint: str) -> None:
     connect(socket, endpoint)
 
 
+BEAT_MS = 1_000
+"""Each end of a connection asks so often whether the other is there (ZMTP 3.1, PING) ..."""
+SILENT_MS = 4_000
+"""... and after so long without any sign it ends the connection, and makes a new one."""
+CONNECT_MS = 2_000
+"""An attempt to connect is given up after so long: the system would wait twice as long each time,
+and a cut of eight seconds would cost fifteen."""
+
+
+def watch_over(socket: zmq.Socket[bytes]) -> None:
+    """Let a socket see when a connection is cut without a word; before it binds or connects."""
+    socket.heartbeat_ivl = BEAT_MS
+    socket.heartbeat_timeout = socket.heartbeat_ttl = SILENT_MS
+    socket.connect_timeout = CONNECT_MS
+
+
 def connect(socket: zmq.Socket[bytes], endpoint: str) -> None:
     """Connect a socket to an endpoint, which may have an address of IPv6."""
+    watch_over(socket)
     socket.ipv6 = "[" in endpoint
     socket.connect(endpoint)

@@ -16,8 +16,9 @@ import msgspec
 import zmq
 
 from faults import Text, reason_of
+from faults.files import whole_file
 from nep_core.errors import KeyFileError
-from nep_core.places import whole_file
+from nep_core.wire.frames import CANNOT_DECODE
 
 MOST_BYTES = 1_000_000
 LONGEST_NAME = 60
@@ -187,7 +188,7 @@ def _decode(path: Path, data: bytes) -> Keys:
         keys = msgspec.json.decode(data, type=Keys)
         if zmq.curve_public(keys.secret.encode()).decode() != keys.public:
             raise ValueError("its secret key does not belong to its public key")
-    except (ValueError, zmq.ZMQError) as error:  # msgspec's errors are ValueErrors too
+    except (*CANNOT_DECODE, zmq.ZMQError) as error:
         raise KeyFileError(
             "{path} is no key file, or it is damaged.",
             checklist=(

@@ -26,6 +26,7 @@ import zmq
 from faults import DEEPEST, Fault, Text, fault_of, heard_fault, reason_of, text_of
 from nep_core.errors import KeyFileError, NetworkError, PairingError, PortTaken
 from nep_core.networks.endpoints import fixed_endpoint
+from nep_core.wire.frames import CANNOT_DECODE
 
 from .keys import Computer, Key, KeyFile, Keys, Name, own_name, plain_name, write_keys
 
@@ -97,6 +98,9 @@ class Host(msgspec.Struct, kw_only=True):
     master: str
 
 
+T = TypeVar("T")
+
+
 class GuestTalk:
     """The guest's side of one talk."""
 
@@ -119,7 +123,7 @@ class GuestTalk:
     def read(self, welcome: Welcome) -> Host:
         """What the door told, if it knows the code as well; raises PairingError."""
         _check(welcome.mac, _mac(self._secret, _DOOR, self._guest, welcome.told))
-        return msgspec.json.decode(welcome.told, type=Host)
+        return _told(welcome.told, Host)
 
 
 class DoorTalk:
@@ -140,7 +144,7 @@ class DoorTalk:
     def read(self, proof: Proof) -> Guest:
         """Who the guest is, if it knows the code; raises PairingError."""
         _check(proof.mac, _mac(self._secret, _GUEST, proof.told))
-        return msgspec.json.decode(proof.told, type=Guest)
+        return _told(proof.told, Guest)
 
     def welcome(self, proof: Proof, host: Host) -> Welcome:
         """The last message."""
@@ -176,6 +180,14 @@ def _finish(spake: Any, told: str, side: bytes) -> bytes:
             checklist=("Is that the address of a computer that opened a NEP network?",),
             details=str(error),
         ) from error
+
+
+def _told(text: str, kind: type[T]) -> T:
+    """What the other side says of itself; raises PairingError."""
+    try:
+        return msgspec.json.decode(text, type=kind)
+    except CANNOT_DECODE as error:
+        raise _strange() from error
 
 
 def _mac(secret: bytes, role: bytes, *texts: str) -> str:
@@ -222,7 +234,7 @@ class Lines:
         line, _, self._arrived = self._arrived.partition(b"\n")
         try:
             return decode(line)  # type: ignore[no-any-return]
-        except (msgspec.MsgspecError, UnicodeDecodeError, RecursionError) as error:
+        except CANNOT_DECODE as error:
             raise _broken() from error
 
     def _wait_at_most_the_rest(self) -> None:
@@ -377,7 +389,7 @@ class Door:
             if not isinstance(proof, Proof):
                 raise wrong_code()
             guest = talk.read(proof)
-        except (PairingError, msgspec.MsgspecError):
+        except PairingError:
             self._refuse(lines, address)
             return
         try:
@@ -442,8 +454,6 @@ def _no(fault: Fault) -> No:
     )
 
 
-T = TypeVar("T")
-
 JOINING_TALK_S = 10.0
 
 
@@ -507,9 +517,9 @@ def _talk(host: str, port: int, code: str, guest: Guest) -> Host:
         try:
             told = talk.read(_expect(Welcome, lines.hear()))
             fixed_endpoint(told.master)
-        except (msgspec.MsgspecError, NetworkError) as error:
-            if isinstance(error, PairingError):
-                raise
+        except PairingError:
+            raise
+        except NetworkError as error:
             raise _strange() from error
     return told
 

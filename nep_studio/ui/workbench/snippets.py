@@ -8,7 +8,7 @@ import unicodedata
 from dataclasses import dataclass
 from pathlib import Path
 
-from nep_core.places import whole_file
+from faults.files import whole_file
 from nep_studio.blocks.errors import BlocksError, EditRefused
 from nep_studio.blocks.language import Language
 from nep_studio.blocks.operations.copying import Clip, from_text, to_text

@@ -20,8 +20,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from faults import reason_of
+from faults.files import whole_file
 from nep_core.errors import RecordingError
-from nep_core.places import whole_file
 from nep_core.wire.messages import Wrist
 from nodes.recordings import writing
 

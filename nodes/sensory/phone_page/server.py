@@ -16,8 +16,9 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from faults import Text, reason_of, text_of
+from faults.files import whole_file
 from nep_core.errors import NodeStartError
-from nep_core.places import own_folder, whole_file
+from nep_core.places import own_folder
 from nodes.sensory.connectors.connector import Settings
 from nodes.sensory.connectors.servers import LOOPBACK, Background, lan_addresses, open_tcp
 

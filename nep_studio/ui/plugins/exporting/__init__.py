@@ -7,7 +7,7 @@ from pathlib import Path
 
 from PySide6.QtGui import QGuiApplication, QKeySequence
 
-from nep_core.places import whole_file
+from faults.files import whole_file
 from nep_studio.blocks.errors import BlocksError
 from nep_studio.blocks.generate.program import generate_program
 from nep_studio.run.python_file import SUFFIX, python_file, write_kept

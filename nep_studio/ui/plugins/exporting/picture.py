@@ -32,7 +32,7 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from nep_core.places import whole_file
+from faults.files import whole_file
 from nep_studio.blocks.errors import EditRefused
 from nep_studio.blocks.files import to_bytes
 from nep_studio.blocks.operations.copying import copy, to_text

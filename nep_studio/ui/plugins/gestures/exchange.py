@@ -14,8 +14,8 @@ import numpy as np
 from msgspec.structs import replace
 
 from faults import reason_of, text_of
+from faults.files import whole_file
 from nep_core.errors import RecordingError
-from nep_core.places import whole_file
 from nep_core.wire.messages import IMU, Imu
 from nep_studio.blocks.edits.content import SetExtra
 from nep_studio.blocks.own_gestures import (

@@ -11,8 +11,8 @@ from PySide6.QtCore import QPoint, Qt, QUrl, Signal
 from PySide6.QtGui import QDesktopServices, QHideEvent, QPixmap, QResizeEvent, QShowEvent
 from PySide6.QtWidgets import QLabel, QPushButton, QScrollArea, QSplitter, QStackedWidget, QWidget
 
+from faults.files import whole_file
 from nep_core.errors import NepError, RecordingError
-from nep_core.places import whole_file
 from nep_core.wire.messages import IMU
 from nep_studio.run.plan import VIRTUAL_WATCH, PlannedNode
 from nep_studio.ui.labels import labelled

@@ -1,0 +1,65 @@
+"""Files that are written whole: whoever reads finds the old one or the new one, never a half.
+
+It stands in this room because it is the one that every other may import, and saving is where a
+fault would lose somebody's work.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import os
+import secrets
+import sys
+import time
+from collections.abc import Iterator
+from pathlib import Path
+from typing import BinaryIO
+
+IN_USE_S = 1.0
+"""Windows gives no new content to a file that another program has open: so long it is tried."""
+AGAIN_S = 0.02
+
+
+@contextlib.contextmanager
+def whole_file(path: Path, *, is_private: bool = False) -> Iterator[BinaryIO]:
+    """Write a file beside ``path``, which takes its place when it is whole; raises OSError.
+
+    Whoever reads finds the old one or the new one, also after a crash or a power cut; one that
+    ``is_private`` is this user's alone at every moment.
+    """
+    new = path.with_name(f".{path.name[:40]}.{secrets.token_hex(4)}")
+    mode = 0o600 if is_private else 0o666
+    try:
+        with open(new, "xb", opener=lambda name, flags: os.open(name, flags, mode)) as file:
+            yield file
+            file.flush()
+            os.fsync(file.fileno())
+        put_in_place(new, path)
+    finally:
+        new.unlink(missing_ok=True)
+
+
+def put_in_place(new: Path, path: Path) -> None:
+    """Let the whole file ``new`` take the place of ``path``, to stay; raises OSError."""
+    until_s = time.monotonic() + IN_USE_S
+    while True:
+        try:
+            os.replace(new, path)
+            break
+        except PermissionError:
+            if sys.platform != "win32" or time.monotonic() >= until_s:
+                raise
+            time.sleep(AGAIN_S)
+    sync_folder(path.parent)
+
+
+def sync_folder(folder: Path) -> None:
+    """Bring to the disk which files a folder has: else a power cut may take a new name back."""
+    if sys.platform == "win32":  # it keeps names by itself, and opens no folder
+        return
+    with contextlib.suppress(OSError):  # some file systems, as of networks, cannot
+        number = os.open(folder, os.O_RDONLY)
+        try:
+            os.fsync(number)
+        finally:
+            os.close(number)
