@@ -227,12 +227,17 @@ def table_of(code: str) -> dict[str, Any]:
 
     So a node or a robot is added by its own files; where both have words, the table's are used.
     """
-    table = tomllib.loads(_table_file(code).read_text(encoding="utf-8"))
+    table = table_in(_table_file(code))
     choices = table.setdefault("choices", {})
     for brought in (_titles_of_nodes(code), *_words_of_robots(code)):
         for name, labels in brought.items():
             choices[name] = {**labels, **choices.get(name, {})}
     return table
+
+
+def table_in(path: Path) -> dict[str, Any]:
+    """A language's table."""
+    return tomllib.loads(path.read_text(encoding="utf-8"))
 
 
 def _table_file(code: str) -> Path:

@@ -92,10 +92,14 @@ def _known() -> Iterable[str]:
 
 
 def _name(code: str) -> str:
-    """The language's own name, which stands before the tables: those take long to read."""
-    with _path(code).open(encoding="utf-8") as lines:
+    return read_name(_path(code))
+
+
+def read_name(path: Path) -> str:
+    """The own name of a table's language, which stands before the rest: that takes long to read."""
+    with path.open(encoding="utf-8") as lines:
         head = takewhile(lambda line: not line.startswith("["), lines)
-        name: str = tomllib.loads("".join(head)).get("name", code)
+        name: str = tomllib.loads("".join(head)).get("name", path.stem)
     return name
 
 
@@ -108,7 +112,12 @@ def _catalogue(code: str, _resources: Path) -> _Catalogue:
     """The words of a language, which take long to read, from the resources in use."""
     if code in (ENGLISH, PSEUDO):
         return _Catalogue(code)
-    table = tomllib.loads(_path(code).read_text(encoding="utf-8"))
+    return read_catalogue(code, _path(code))
+
+
+def read_catalogue(code: str, path: Path) -> _Catalogue:
+    """The words of a table."""
+    table = tomllib.loads(path.read_text(encoding="utf-8"))
     return _Catalogue(code, {**table.get("messages", {}), **table.get("window", {})})
 
 

@@ -1,0 +1,5 @@
+x = 5
+l = []
+while x:
+    x = x - 1
+print(x)
