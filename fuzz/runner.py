@@ -29,7 +29,7 @@ MOST_FINDINGS = 30
 MOST_GROWN = 50_000_000
 """A child that has grown by more has kept something of each input."""
 _LOOK_S = 0.1
-_DEATHS_TRIES = 12
+_DEATHS_TRIES = 8
 _WORDS = 3000
 
 Say = Callable[[str], None]
@@ -110,19 +110,18 @@ class Child:
         self._lines: queue.Queue[bytes] = queue.Queue()
         threading.Thread(target=self._read, daemon=True).start()
 
-    def told(self) -> Iterator[dict[str, Any]]:
-        """What the child tells until it has ended; TimeoutError when it hangs."""
-        started_s = time.monotonic()
+    def told(self, hangs_s: float) -> Iterator[dict[str, Any]]:
+        """What the child tells until it has ended; TimeoutError when it hangs for so long."""
         while True:
             try:
                 line = self._lines.get(timeout=_LOOK_S)
             except queue.Empty:
                 number, began_s, _ = self.board.read()
-                is_late = time.monotonic() - (began_s if number >= 0 else started_s)
-                if number >= 0 and is_late > HANGS_S:
+                passed_s = time.monotonic() - began_s
+                if number >= 0 and passed_s > hangs_s:
                     raise TimeoutError from None
-                if number < 0 and is_late > START_S and self.done == 0:
-                    raise ChildProcessError(f"it did not start: {self.last_words}") from None
+                if number < 0 and passed_s > START_S:
+                    raise ChildProcessError(f"it does not go on: {self.last_words}") from None
                 yield {}
                 continue
             if not line:
@@ -186,11 +185,14 @@ class Run:
         seed: int,
         module: str = "fuzz.targets",
         found: Path = FOUND,
+        hangs_s: float = HANGS_S,
+        makes_smaller: bool = True,
         say: Say = lambda words: None,
     ) -> None:
         self.tally = Tally(target.name)
         self._target, self._seed, self._module = target, seed, module
-        self._found, self._say = found, say
+        self._found, self._say, self._hangs_s = found, say, hangs_s
+        self._makes_smaller = makes_smaller
         self._child: Child | None = None
         self._said_s = 0.0
 
@@ -229,7 +231,7 @@ class Run:
         """One child's work; after a hang or a death, the number to go on from; None: all done."""
         self._child = child = Child(self._target, self._module, *arguments)
         try:
-            for told in child.told():
+            for told in child.told(self._hangs_s):
                 self._progress(child)
                 if "fault" in told:
                     self._keep(told["fault"], told, bytes.fromhex(told["data"]))
@@ -239,7 +241,7 @@ class Run:
             code, number = child.wait(), child.number
             kind, words = "ends", f"exit code {code}\n{child.last_words}"
         except TimeoutError:
-            number, kind, words = child.number, "hangs", f"more than {HANGS_S:g} s"
+            number, kind, words = child.number, "hangs", f"more than {self._hangs_s:g} s"
         finally:
             done = child.done
             child.close()
@@ -247,7 +249,7 @@ class Run:
         if number < 0:
             raise ChildProcessError(f"{self._target.name} cannot be tried: {words}")
         self.tally.done += done + 1
-        data = self._input(arguments, number)
+        data = self._smaller(kind, self._input(arguments, number))
         self._keep(kind, {"signature": kind, "words": words, "number": number}, data)
         return number + 1
 
@@ -255,6 +257,27 @@ class Run:
         if "--file" in arguments:
             return Path(arguments[2 * number + 1]).read_bytes()
         return self._target.input(self._seed, number)
+
+    def _smaller(self, kind: str, data: bytes) -> bytes:
+        """A smaller input that ends or holds up a child as this one does, by a few children."""
+        if not self._makes_smaller:
+            return data
+
+        def still(less: bytes) -> bool:
+            with tempfile.TemporaryDirectory() as folder:
+                path = Path(folder) / "input"
+                path.write_bytes(less)
+                again = Run(
+                    self._target,
+                    seed=self._seed,
+                    module=self._module,
+                    found=Path(folder),
+                    hangs_s=self._hangs_s,
+                    makes_smaller=False,
+                )
+                return any(one.kind == kind for one in again.files([path]).findings)
+
+        return smaller(data, still, tries=_DEATHS_TRIES)
 
     def _progress(self, child: Child) -> None:
         now_s = time.monotonic()
@@ -272,22 +295,8 @@ class Run:
         path.parent.mkdir(parents=True, exist_ok=True)
         path.write_bytes(data)
         words = told["words"]
-        path.with_suffix(".txt").write_text(f"{kind}: {which}\n{words}\n", encoding="utf-8")
-        finding = Finding(
-            self._target.name, kind, which, words, data, told.get("number", -1), path
-        )
+        told_text = f"{kind}: {which}\n{words}\n".encode(errors="backslashreplace")
+        path.with_suffix(".txt").write_bytes(told_text)
+        finding = Finding(self._target.name, kind, which, words, data, told.get("number", -1), path)
         self.tally.findings.append(finding)
         self._say(f"{self._target.name}: FOUND, {kind}: {which}; the input is {path}")
-
-
-def minimised(run: Run, finding: Finding, target: Target, module: str) -> bytes:
-    """A smaller input that hangs, ends or fills a child as this one does, by a few children."""
-
-    def still(data: bytes) -> bool:
-        with tempfile.TemporaryDirectory() as folder:
-            path = Path(folder) / "input"
-            path.write_bytes(data)
-            again = Run(target, seed=0, module=module, found=Path(folder))
-            return any(one.kind == finding.kind for one in again.files([path]).findings)
-
-    return smaller(finding.data, still, tries=_DEATHS_TRIES)

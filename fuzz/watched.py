@@ -34,7 +34,7 @@ LONGEST_S = 1.0
 MOST_BYTES = 50_000_000
 """More memory than this for one input, while it is fed, is found."""
 _ROOM_BYTES = 1_500_000_000
-"""So much address space more than at first a child may have, so that it does not eat the machine."""
+"""So much more address space a child may have, so that it does not eat the machine."""
 _TRIES = 3
 _BOARD = struct.Struct("<qdq")
 BOARD_BYTES = _BOARD.size
@@ -228,6 +228,7 @@ def watch(target: Target, inputs: Iterator[tuple[int, bytes]], board: Board, fol
             board.write(number, time.monotonic(), done)
             found = watched.fault(data)
             done += 1
+            board.write(-1, time.monotonic(), done)  # to make the next one takes time, too
             slowest = max(slowest, (watched.took_s, number))
             largest = max(largest, watched.more_bytes)
             if found is None:
@@ -239,7 +240,6 @@ def watch(target: Target, inputs: Iterator[tuple[int, bytes]], board: Board, fol
             if kind == "raises":
                 data = smaller(data, _same(watched, which), tries=60)
             _tell(fault=kind, number=number, signature=which, words=words, data=data.hex())
-        board.write(-1, time.monotonic(), done)
         grown = psutil.Process().memory_info().rss - first_bytes
     seconds = time.monotonic() - began_s
     _tell(
@@ -297,7 +297,11 @@ def main(arguments: list[str]) -> None:
     if given.file:
         inputs = ((number, path.read_bytes()) for number, path in enumerate(given.file))
     else:
-        numbers = range(given.first, given.first + given.count) if given.count else itertools.count(given.first)
+        numbers = (
+            range(given.first, given.first + given.count)
+            if given.count
+            else itertools.count(given.first)
+        )
         timely = itertools.takewhile(
             lambda _: not given.until or time.monotonic() < given.until, numbers
         )

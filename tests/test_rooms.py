@@ -38,6 +38,11 @@ SHARED = (
 """What several plugins use of what runs and of the canvas: below all plugins."""
 ROOMS = {
     "dev": Room(("dev_system", "dev_tests")),
+    "fuzz": Room(("fuzz", "faults"), ("psutil",)),
+    "fuzz.targets": Room(
+        ("fuzz", "fuzz.targets", "faults", "nep_core", "robots", "nodes", "nep_studio"),
+        ("zmq", "msgspec", "numpy", "aiohttp"),
+    ),
     "dev_tests": Room(("dev_system",)),
     "dev_system": Room(),
     "faults": Room((), ("msgspec",)),
@@ -70,7 +75,7 @@ ROOMS = {
 """The arrows of the design; a module is in the room with the longest name that fits."""
 
 LATE = {
-    "nep_core": ("mcap", "spake2", "zenoh", "zeroconf"),
+    "nep_core": ("mcap", "lz4", "zstandard", "spake2", "zenoh", "zeroconf"),
     "robots.naoqi": ("zeroconf",),
     "nodes.sensory": ("aiohttp", "cryptography", "bleak"),
     "nep_studio.ui": ("segno", "mcap"),

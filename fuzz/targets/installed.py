@@ -41,6 +41,7 @@ def manifests(folder: Path) -> Iterator[Feed]:
     from nep_core.processes.manifest import NodeCatalog, read_manifest
     from nep_studio.run.installation import launchable_nodes
 
+    before = dict(os.environ)
     os.environ[NODES_VARIABLE] = str(folder)
     place = folder / "sensory"
     place.mkdir()
@@ -66,7 +67,11 @@ def manifests(folder: Path) -> Iterator[Feed]:
                 continue
         manifest.read_parameters({})
 
-    yield feed
+    try:
+        yield feed
+    finally:
+        os.environ.clear()
+        os.environ.update(before)
 
 
 @contextmanager
@@ -74,7 +79,9 @@ def settings(folder: Path) -> Iterator[Feed]:
     """The file of what a person has chosen: every value is asked for, and one is changed."""
     from nep_studio.settings import Settings
 
-    asked = [name for name, one in vars(Settings).items() if not name.startswith("__") and _asks(one)]
+    asked = [
+        name for name, one in vars(Settings).items() if not name.startswith("__") and _asks(one)
+    ]
 
     def feed(data: bytes) -> None:
         with tempfile.TemporaryDirectory(dir=folder) as place:
@@ -94,7 +101,7 @@ def settings(folder: Path) -> Iterator[Feed]:
 
 
 def _asks(one: object) -> bool:
-    return isinstance(one, property) or hasattr(type(one), "__get__") and not callable(one)
+    return isinstance(one, property) or (hasattr(type(one), "__get__") and not callable(one))
 
 
 @contextmanager

@@ -11,13 +11,17 @@ import threading
 import time
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
+from functools import partial
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import zmq
 
 from fuzz.mutations import flipped, json_changed, lines_changed
 from fuzz.target import Feed, Target
+
+if TYPE_CHECKING:
+    from nep_core.wire.pubsub import Subscriber
 
 HOST = "127.0.0.1"
 ANSWER_MS = 5000
@@ -57,7 +61,9 @@ def frames(folder: Path) -> Iterator[Feed]:
         plain: Subscriber[Any] = Subscriber("/t", network=network)
         newest: Subscriber[Any] = Subscriber("/t", network=network, policy="state")
         raw = RawSubscriber("/t", network=network)
-        kinds = {topic: Subscriber(topic, kind, network=network) for topic, kind in BY_TOPIC.items()}
+        kinds = {
+            topic: Subscriber(topic, kind, network=network) for topic, kind in BY_TOPIC.items()
+        }
         callbacks: list[Subscriber[Any]] = []
 
         def call() -> None:
@@ -73,8 +79,9 @@ def frames(folder: Path) -> Iterator[Feed]:
         def begin() -> None:
             """Send until all hear: a new subscriber of ZeroMQ is not there at once."""
             call()
-            for hears in (plain.receive, newest.receive, raw.receive, lambda _: _next(called)):
-                _until(lambda hears=hears: end() and hears(0.1))
+            all_hear = (plain.receive, newest.receive, raw.receive, lambda _: _next(called))
+            for hears in all_hear:
+                _until(partial(_hears_after, end, hears))
 
         begin()
 
@@ -85,9 +92,11 @@ def frames(folder: Path) -> Iterator[Feed]:
                 speaker.send(frame)
             word = end()
             for one in (plain, newest):
-                _until(lambda one=one: one.receive(HEARD_S) == word)
+                _until(partial(_hears, one, word))
                 _ = one.header
-            _until(lambda: (heard := raw.receive(HEARD_S)) and heard.payload == f'"{word}"'.encode())
+            _until(
+                lambda: (heard := raw.receive(HEARD_S)) and heard.payload == f'"{word}"'.encode()
+            )
             for heard in kinds[topic].pending() if topic in kinds else ():
                 assert heard is not None
                 _ = kinds[topic].header
@@ -101,6 +110,15 @@ def frames(folder: Path) -> Iterator[Feed]:
 
 
 HEARD_S = 1.0
+
+
+def _hears_after(send: Callable[[], object], hears: Callable[[float], object]) -> bool:
+    send()
+    return hears(0.1) is not None
+
+
+def _hears(one: Subscriber[Any], word: str) -> bool:
+    return bool(one.receive(HEARD_S) == word)
 
 
 def _next(waiting: queue.Queue[object]) -> object:
@@ -267,7 +285,10 @@ def pairing(folder: Path) -> Iterator[Feed]:
 
 
 def _guest_hears(
-    line: bytes, kinds: Sequence[type[Any]], decode: Callable[[bytes], Any], expect: Callable[..., Any]
+    line: bytes,
+    kinds: Sequence[type[Any]],
+    decode: Callable[[bytes], Any],
+    expect: Callable[..., Any],
 ) -> Exception | None:
     """What a guest makes of a line; the sentence that it tells."""
     import msgspec
@@ -395,9 +416,13 @@ def _naoqi_changed(data: bytes, chance: random.Random, seeds: Sequence[bytes]) -
                 frames[at:at] = chance.choice(seeds).split(_MAGIC)[1:][:3]
                 continue
             case 2 if len(frame) >= 24:
-                frame[12:24] = flipped(bytes(frame[12:24]), chance, [frame])[:12].ljust(12, b"\0")
+                frame[12:24] = flipped(bytes(frame[12:24]), chance, [bytes(frame)])[:12].ljust(
+                    12, b"\0"
+                )
             case 3 if len(frame) >= 24:
-                frame[20:24] = chance.choice((0, 1, 2, 100, 101, 102, 103, 120, 200)).to_bytes(4, "little")
+                frame[20:24] = chance.choice((0, 1, 2, 100, 101, 102, 103, 120, 200)).to_bytes(
+                    4, "little"
+                )
             case _:
                 frame[24:] = flipped(bytes(frame[24:]), chance, [bytes(frame[24:])])
         if chance.random() < 0.9 and len(frame) >= 24:
@@ -410,7 +435,9 @@ def _frame_changed(data: bytes, chance: random.Random, seeds: Sequence[bytes]) -
     """A frame with its header or a payload changed as JSON."""
     parts = data.split(b"\0")
     at = chance.randrange(len(parts))
-    parts[at] = json_changed(parts[at], chance, [parts[at]]) if at else flipped(parts[at], chance, seeds)
+    parts[at] = (
+        json_changed(parts[at], chance, [parts[at]]) if at else flipped(parts[at], chance, seeds)
+    )
     if chance.random() < 0.2:
         parts[at:at] = [chance.choice(parts)]
     return b"\0".join(parts)

@@ -62,12 +62,13 @@ def _told(words: Any) -> None:
     told(words).encode()
 
 
-def raw_answer(address: tuple[str, int], data: bytes, own: str = "") -> bytes:
-    """What a server says to these bytes until it closes, or says no more."""
+def raw_answer(address: tuple[str, int], data: bytes, own: str = "", *, ends: bool = True) -> bytes:
+    """What a server says to these bytes until it closes; ``ends``: it sees that no more come."""
     with socket.create_connection(address, ANSWER_S, (own, 0) if own else None) as caller:
         with contextlib.suppress(OSError):
             caller.sendall(data)
-            caller.shutdown(socket.SHUT_WR)
+            if ends:
+                caller.shutdown(socket.SHUT_WR)
         answer = b""
         with contextlib.suppress(OSError):
             while part := caller.recv(65536):
@@ -92,7 +93,7 @@ def push(folder: Path) -> Iterator[Feed]:
     def feed(data: bytes) -> None:
         is_raw = data[:5] in (b"POST ", b"GET /")
         head = b"POST /data HTTP/1.1\r\nHost: a\r\nConnection: close\r\nContent-Length: %d\r\n\r\n"
-        answer = raw_answer(address, data if is_raw else head % len(data) + data)
+        answer = raw_answer(address, data if is_raw else head % len(data) + data, ends=is_raw)
         assert is_raw or answer.startswith(b"HTTP/1.1 "), answer[:80]
         assert not answer.startswith(b"HTTP/1.1 500"), answer[:80]
         stream = SampleStream()
@@ -263,7 +264,9 @@ def models(folder: Path) -> Iterator[Feed]:
         for recogniser in model.recognisers:
             raw = few[:, :, : recogniser.channels.columns]
             with np.errstate(all="ignore"):
-                certainties = recogniser.certainties(recogniser.windows(raw, np.array([20, 30, 40])))
+                certainties = recogniser.certainties(
+                    recogniser.windows(raw, np.array([20, 30, 40]))
+                )
             assert certainties.shape == (3, len(model.gestures))
             assert not np.isnan(certainties).any(), "a certainty is no number"
             assert ((certainties >= 0) & (certainties <= 1)).all(), "a certainty is none"
@@ -271,7 +274,7 @@ def models(folder: Path) -> Iterator[Feed]:
     yield feed
 
 
-ANSWERED = ("HttpProcessingError",)
+ANSWERED = ("HttpProcessingError", "RequestPayloadError")
 """What is no HTTP: aiohttp answers that it is none."""
 
 TARGETS = {

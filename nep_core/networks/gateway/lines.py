@@ -95,7 +95,7 @@ def recall(file: Path) -> list[KeptLine]:
     """What the file holds; nothing when it cannot be read."""
     try:
         return msgspec.json.decode(file.read_bytes(), type=list[KeptLine])
-    except (OSError, msgspec.MsgspecError) as error:
+    except (OSError, ValueError, RecursionError) as error:
         log.info("no ports of the original's programs are known: %s", error)
         return []
 
