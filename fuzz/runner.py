@@ -121,7 +121,7 @@ class Child:
                 if number >= 0 and passed_s > hangs_s:
                     raise TimeoutError from None
                 if number < 0 and passed_s > START_S:
-                    raise ChildProcessError(f"it does not go on: {self.last_words}") from None
+                    raise ChildProcessError(f"it does not start: {self.last_words}") from None
                 yield {}
                 continue
             if not line:
@@ -195,6 +195,7 @@ class Run:
         self._makes_smaller = makes_smaller
         self._child: Child | None = None
         self._said_s = 0.0
+        self._first = 0
 
     def random(self, *, count: int = 0, seconds: float = 0.0) -> Tally:
         """Feed so many inputs, or as many as there is time for; the kept ones are the first."""
@@ -203,6 +204,7 @@ class Run:
         while (not count or first < count) and len(self.tally.findings) < MOST_FINDINGS:
             left = ["--count", str(count - first)] if count else []
             left += ["--until", str(until_s)] if until_s else []
+            self._first = first
             following = self._turn("--seed", str(self._seed), "--first", str(first), *left)
             if following is None or (until_s and time.monotonic() >= until_s):
                 break
@@ -246,10 +248,16 @@ class Run:
             done = child.done
             child.close()
             self._child = None
-        if number < 0:
+        if number < 0 and (kind == "ends" or not done):
             raise ChildProcessError(f"{self._target.name} cannot be tried: {words}")
-        self.tally.done += done + 1
-        data = self._smaller(kind, self._input(arguments, number))
+        self.tally.done += done + (number >= 0)
+        if number < 0:  # it went on while we looked: a busy machine
+            return done if "--file" in arguments else self._first + done
+        data = self._input(arguments, number)
+        if kind == "hangs" and self._makes_smaller and not self._again(kind, data):
+            self._say(f"{self._target.name}: number {number} was held up, and not again")
+            return number + 1
+        data = self._smaller(kind, data)
         self._keep(kind, {"signature": kind, "words": words, "number": number}, data)
         return number + 1
 
@@ -263,21 +271,22 @@ class Run:
         if not self._makes_smaller:
             return data
 
-        def still(less: bytes) -> bool:
-            with tempfile.TemporaryDirectory() as folder:
-                path = Path(folder) / "input"
-                path.write_bytes(less)
-                again = Run(
-                    self._target,
-                    seed=self._seed,
-                    module=self._module,
-                    found=Path(folder),
-                    hangs_s=self._hangs_s,
-                    makes_smaller=False,
-                )
-                return any(one.kind == kind for one in again.files([path]).findings)
+        return smaller(data, lambda less: self._again(kind, less), tries=_DEATHS_TRIES)
 
-        return smaller(data, still, tries=_DEATHS_TRIES)
+    def _again(self, kind: str, data: bytes) -> bool:
+        """Whether an input breaks a child of its own in the same way."""
+        with tempfile.TemporaryDirectory() as folder:
+            path = Path(folder) / "input"
+            path.write_bytes(data)
+            again = Run(
+                self._target,
+                seed=self._seed,
+                module=self._module,
+                found=Path(folder),
+                hangs_s=self._hangs_s,
+                makes_smaller=False,
+            )
+            return any(one.kind == kind for one in again.files([path]).findings)
 
     def _progress(self, child: Child) -> None:
         now_s = time.monotonic()

@@ -38,9 +38,9 @@ SHARED = (
 """What several plugins use of what runs and of the canvas: below all plugins."""
 ROOMS = {
     "dev": Room(("dev_system", "dev_tests")),
-    "fuzz": Room(("fuzz", "faults"), ("psutil",)),
+    "fuzz": Room(("fuzz", "fuzz.targets", "faults"), ("msgspec", "psutil")),
     "fuzz.targets": Room(
-        ("fuzz", "fuzz.targets", "faults", "nep_core", "robots", "nodes", "nep_studio"),
+        ("fuzz", *UI),  # every door, wherever it is
         ("zmq", "msgspec", "numpy", "aiohttp"),
     ),
     "dev_tests": Room(("dev_system",)),
@@ -79,6 +79,7 @@ LATE = {
     "robots.naoqi": ("zeroconf",),
     "nodes.sensory": ("aiohttp", "cryptography", "bleak"),
     "nep_studio.ui": ("segno", "mcap"),
+    "fuzz": ("numpy", "lz4", "zstandard"),
 }
 """Libraries that are imported when they are needed: only inside functions, or for types."""
 LEARNING = ("sklearn", "scipy")

@@ -80,7 +80,8 @@ def certainty_of(scores: Floats, usual: Floats) -> Floats:
 
     1 is a score as left-out takes usually have; half of that is at TRIGGER.
     """
-    return np.interp(scores / usual, [0.0, 0.5, 1.0], [0.0, TRIGGER, 1.0])
+    shares = np.nan_to_num(scores / usual, nan=0.0)  # a model of numbers too large to reckon with
+    return np.interp(shares, [0.0, 0.5, 1.0], [0.0, TRIGGER, 1.0])
 
 
 class Sensor(msgspec.Struct, frozen=True, rename={"gravity_included": "gravity"}):
