@@ -25,7 +25,7 @@ def test_a_door_takes_whatever_comes(
     if name in WAITING:
         request.applymarker(pytest.mark.xfail(reason=WAITING[name], strict=False))
     door = target(name)
-    run = Run(door, seed=SEED, found=tmp_path, makes_smaller=False)
+    run = Run(door, seed=SEED, found=tmp_path, hangs_s=30.0, makes_smaller=False)
 
     tally = run.random(count=len(door.seeds) + BY_CHANCE)
 
