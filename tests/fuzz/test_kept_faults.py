@@ -117,7 +117,7 @@ def test_a_picture_that_unpacks_to_much_more_than_its_size_has_no_program() -> N
 
 def test_a_project_of_too_many_values_is_refused_before_they_are_made() -> None:
     with pytest.raises(ProjectFileError, match="too many values"):
-        decode(b"[" + b"[]," * MOST_VALUES + b"0]", "many.nep")
+        decode(b"[" + b"[]," * (MOST_VALUES + 1) + b"0]", "many.nep")
 
 
 def test_only_a_short_number_behind_a_dot_is_one_of_a_group() -> None:
