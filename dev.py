@@ -37,6 +37,9 @@ python3 dev.py test [ARGUMENTS]    run the tests; the arguments go to pytest
 python3 dev.py lint                check format, style and types
 python3 dev.py bench [NAME...] [--json] [--with-peers]
                                    measure against references; exit code 1 when a goal is missed
+python3 dev.py fuzz [TARGET...] [--minutes N] [--count N] [--seed N]
+                                   feed bad input to what reads strangers' files and messages;
+                                   exit code 1 when something breaks
 python3 dev.py freeze              make the program that needs no Python: dist/nep-studio
 python3 dev.py package [--quick]   freeze it, try it, and pack the installers of this system
 python3 dev.py setup               make the environment only
@@ -130,6 +133,7 @@ def modules(arguments: list[str], *, is_shown: bool) -> dict[str, list[list[str]
         "test": [["pytest", *arguments]],
         "lint": [["ruff", "format", "--check", "."], ["ruff", "check", "."], ["mypy"]],
         "bench": [["benchmarks", *arguments]],
+        "fuzz": [["fuzz", *arguments]],
         "freeze": [["packaging/freeze.py"]],
         "package": [["packaging/package.py", *arguments]],
         "setup": [],

@@ -95,6 +95,13 @@ class SettingsFile:
     def __init__(self, folder: Path) -> None:
         self.values = QSettings(str(folder / "settings.ini"), QSettings.Format.IniFormat)
 
+    def value(self, name: str, usual: object) -> object:
+        """What the file has under a name; ``usual`` where it has nothing that Python knows."""
+        try:
+            return self.values.value(name, usual)
+        except (RuntimeError, ValueError, OverflowError):  # one of the hundred types of Qt
+            return usual
+
 
 class Kept(Generic[T]):
     """A text, a switch or a list of texts that a file keeps under a name; else as usual."""
@@ -103,7 +110,7 @@ class Kept(Generic[T]):
         self._name, self._usual = name, usual
 
     def __get__(self, file: SettingsFile, _kind: object = None) -> T:
-        value: object = file.values.value(self._name, self._usual)
+        value = file.value(self._name, self._usual)
         match self._usual:
             case bool():
                 value = value == YES if value in (YES, NO) else self._usual
@@ -221,7 +228,7 @@ class Settings(SettingsFile):
 
     def state(self, name: str) -> QByteArray:
         """What a part of the window remembers of its shape; empty when nothing."""
-        value = self.values.value(f"window/{name}")
+        value = self.value(f"window/{name}", None)
         return value if isinstance(value, QByteArray) else QByteArray()
 
     def set_state(self, name: str, state: QByteArray) -> None:
@@ -255,7 +262,7 @@ class Settings(SettingsFile):
         self.values.sync()
 
     def _text(self, name: str, default: str) -> str:
-        value = self.values.value(name, default)
+        value = self.value(name, default)
         return value if isinstance(value, str) else default
 
     def _number(self, name: str, default: int, least: int, most: int) -> int:

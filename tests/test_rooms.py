@@ -38,6 +38,11 @@ SHARED = (
 """What several plugins use of what runs and of the canvas: below all plugins."""
 ROOMS = {
     "dev": Room(("dev_system", "dev_tests")),
+    "fuzz": Room(("fuzz", "fuzz.targets", "faults"), ("msgspec", "psutil")),
+    "fuzz.targets": Room(
+        ("fuzz", *UI),  # every door, wherever it is
+        ("zmq", "msgspec", "numpy", "aiohttp"),
+    ),
     "dev_tests": Room(("dev_system",)),
     "dev_system": Room(),
     "faults": Room((), ("msgspec",)),
@@ -70,10 +75,11 @@ ROOMS = {
 """The arrows of the design; a module is in the room with the longest name that fits."""
 
 LATE = {
-    "nep_core": ("mcap", "spake2", "zenoh", "zeroconf"),
+    "nep_core": ("mcap", "lz4", "zstandard", "spake2", "zenoh", "zeroconf"),
     "robots.naoqi": ("zeroconf",),
     "nodes.sensory": ("aiohttp", "cryptography", "bleak"),
     "nep_studio.ui": ("segno", "mcap"),
+    "fuzz": ("numpy", "lz4", "zstandard"),
 }
 """Libraries that are imported when they are needed: only inside functions, or for types."""
 LEARNING = ("sklearn", "scipy")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 import tomllib
 from dataclasses import dataclass
 from functools import lru_cache
@@ -182,16 +183,38 @@ def read_manifest(path: Path) -> Manifest:
     return manifest
 
 
+LARGEST_TOML = 1_000_000
+_DEEP_KEY = re.compile(r"""(?<![\w"'-])(?:[\w"'-]++[ \t]*+\.[ \t]*+){60}""")
+
+
+def read_toml(path: Path) -> dict[str, Any]:
+    """The values in a TOML file; OSError, ValueError or RecursionError when there are none.
+
+    Python's reader takes seconds for a name of a thousand parts, and for ever for more.
+    """
+    with path.open("rb") as file:
+        return toml_of(file.read(LARGEST_TOML + 1).decode())
+
+
+def toml_of(text: str) -> dict[str, Any]:
+    """The values in such a text; ValueError or RecursionError when there are none."""
+    text = text.replace("\r\n", "\n")
+    if len(text) > LARGEST_TOML:
+        raise ValueError("it is too large")
+    if _DEEP_KEY.search(text):
+        raise ValueError("a name in it has too many parts")
+    return tomllib.loads(text)
+
+
 @lru_cache(maxsize=MOST_KEPT)
 def _read(path: Path, _changed_ns: int, _size: int) -> Manifest:
     try:
-        data = tomllib.loads(path.read_text(encoding="utf-8"))
-        manifest = msgspec.convert(data, Manifest)
+        manifest = msgspec.convert(read_toml(path), Manifest)
         manifest.path = str(path)
         _check(manifest)
-    except (OSError, UnicodeDecodeError, tomllib.TOMLDecodeError, ParameterError) as error:
+    except (OSError, ParameterError) as error:
         raise _wrong(path, error) from error
-    except msgspec.ValidationError as error:
+    except (ValueError, RecursionError) as error:  # of TOML, UTF-8, numbers and types too
         raise _wrong(path, str(error)) from error
     if (manifest.type, manifest.name) != (path.parent.name, path.stem):
         raise _wrong(path, f"it describes {manifest.id}, but its place says otherwise")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 import os
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
@@ -19,7 +20,7 @@ from nep_core.wire.messages import BY_TOPIC
 from .raw import RawMessage
 
 if TYPE_CHECKING:
-    from mcap.records import McapRecord
+    from mcap.records import Chunk, McapRecord
 
 
 # How a message lies in an MCAP file, so that Foxglove shows it and play gives back its bytes.
@@ -146,9 +147,12 @@ def _one_way(schema: Json, definitions: Json) -> Json:
 
 
 LARGEST_RECORD = 256_000_000
+_MOST_UNPACKED, _MOST_PACKED = 2_000_000, 20
+"""A chunk is unpacked to 2 MB, twice what is usual, or to 20 times its packed size. What packs
+better was made to fill the memory: the sizes that such a file tells of itself may be lies too."""
 _MAGIC = b"\x89MCAP0\r\n"
-_UNPACKING = ("zstandard", "lz4", "struct", "_struct")
-"""The libraries that unpack raise errors of their own, with no common name."""
+_LARGEST_WINDOW = 8_388_608
+"""What zstd itself lets a stranger's file ask for, in bytes."""
 
 
 class Recording:
@@ -192,7 +196,7 @@ class Recording:
     def _records(self, file: Any) -> Iterator[list[McapRecord]]:
         """The records of a chunk at a time, as far as they can be read."""
         from mcap.records import Chunk
-        from mcap.stream_reader import StreamReader, breakup_chunk
+        from mcap.stream_reader import StreamReader
 
         reader = StreamReader(
             file, emit_chunks=True, validate_crcs=True, record_size_limit=LARGEST_RECORD
@@ -201,7 +205,7 @@ class Recording:
         while True:
             record = _next_whole(lambda: next(records, None))
             if isinstance(record, Chunk):
-                found = _next_whole(partial(breakup_chunk, record, validate_crc=True))
+                found = _next_whole(partial(_records_in, record))
             else:
                 found = record if record in (None, _DAMAGED) else [record]
             if found is _DAMAGED:
@@ -287,16 +291,52 @@ _DAMAGED: Any = object()
 
 def _next_whole(read: Callable[[], Any]) -> Any:
     """What ``read`` gives, or _DAMAGED when the file ends or is damaged there."""
-    from mcap.exceptions import McapError
-
     try:
         return read()
-    except (McapError, ValueError, EOFError, KeyError, IndexError, MemoryError, RuntimeError):
+    except OSError:  # of the disk: nothing is known of the file
+        raise
+    except Exception:  # the library, and those that unpack for it, raise whatever comes to them
         return _DAMAGED
-    except Exception as error:
-        if type(error).__module__.partition(".")[0] not in _UNPACKING:
-            raise
-        return _DAMAGED
+
+
+def _records_in(chunk: Chunk) -> list[McapRecord]:
+    """The records of a chunk; ValueError when they are more than is bearable."""
+    from mcap.records import Chunk as ChunkRecord
+    from mcap.stream_reader import breakup_chunk
+
+    room = min(LARGEST_RECORD, max(_MOST_UNPACKED, _MOST_PACKED * len(chunk.data)))
+    if chunk.uncompressed_size > room:
+        raise ValueError("the chunk is far larger than its file")
+    data = _unpack(chunk.compression, chunk.data, int(chunk.uncompressed_size))
+    unpacked = ChunkRecord(
+        compression="",
+        data=data,
+        message_end_time=chunk.message_end_time,
+        message_start_time=chunk.message_start_time,
+        uncompressed_crc=chunk.uncompressed_crc,
+        uncompressed_size=len(data),
+    )
+    return breakup_chunk(unpacked, validate_crc=True)
+
+
+def _unpack(compression: str, packed: bytes, size: int) -> bytes:
+    """The ``size`` bytes that are packed; ValueError when there are not so many."""
+    if compression == "lz4":
+        import lz4.frame
+
+        with lz4.frame.open(io.BytesIO(packed)) as frame:
+            data = bytes(frame.read(size + 1))
+    elif compression == "zstd":
+        import zstandard
+
+        reader = zstandard.ZstdDecompressor(max_window_size=max(_LARGEST_WINDOW, size))
+        with reader.stream_reader(packed) as unpacking:
+            data = unpacking.read(size + 1)
+    else:
+        data = packed
+    if len(data) != size:
+        raise ValueError("the chunk is not as large as it says")
+    return data
 
 
 def _message(channel: Channel, record: Any) -> RawMessage | None:

@@ -34,8 +34,19 @@ class Flaw(BlocksError):
         self.block = block
 
 
+MOST_VALUES = 400_000
+"""So many values can be in a file: each takes some hundred bytes of memory, and two of the file."""
+
+
 def decode(data: bytes, file_name: str) -> object:
     """The values in a JSON file, or ProjectFileError."""
+    if data.count(b",") > MOST_VALUES:
+        raise ProjectFileError(
+            "{file_name} holds too many values: {most} at most.",
+            checklist=("Take blocks or recordings out of it into another project.", OLD_COPY),
+            file_name=file_name,
+            most=MOST_VALUES,
+        )
     try:
         return msgspec.json.decode(data.removeprefix(b"\xef\xbb\xbf"))
     except (msgspec.DecodeError, UnicodeDecodeError, RecursionError) as error:

@@ -234,10 +234,15 @@ class Project:
         self.changes.whole = True
 
 
+LONGEST_NUMBER = 9
+"""Digits of a number in an id or a slot's key; Python refuses to read thousands of them."""
+
+
 def split_slot(key: str) -> tuple[str, int]:
     """Take ``also_do.2`` apart into its name and number; the number is 0 outside groups."""
     name, dot, number = key.partition(".")
-    return (name, int(number)) if dot and number.isdecimal() else (key, 0)
+    is_number = dot and number.isdecimal() and len(number) <= LONGEST_NUMBER
+    return (name, int(number)) if is_number else (key, 0)
 
 
 def _own(value: FieldValue) -> FieldValue:

@@ -17,6 +17,8 @@ SIGNATURE = b"\x89PNG\r\n\x1a\n"
 KEY = b"nep-studio-project"
 LARGEST_PROJECT = 64_000_000
 """More bytes than any program has; what is larger is a file made to do harm."""
+_MOST_UNPACKED, _MOST_PACKED = 2_000_000, 50
+"""A program is unpacked to 2 MB, or to 50 times what it takes in the picture: blocks pack by 15."""
 
 
 def png_with_program(png: bytes, program: bytes) -> bytes:
@@ -47,8 +49,9 @@ def _text_of(rest: bytes) -> bytes | None:
     if not is_packed:
         return parts[2] if len(parts[2]) <= LARGEST_PROJECT else None
     unpacking = zlib.decompressobj()
+    room = min(LARGEST_PROJECT, max(_MOST_UNPACKED, _MOST_PACKED * len(parts[2])))
     try:
-        text = unpacking.decompress(parts[2], LARGEST_PROJECT)
+        text = unpacking.decompress(parts[2], room)
     except zlib.error:
         return None
     return text if unpacking.eof and not unpacking.unconsumed_tail else None

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-import tomllib
+import logging
 from collections.abc import Collection, Iterable, Iterator, Mapping
 from contextlib import suppress
 from pathlib import Path
@@ -11,11 +11,12 @@ from typing import Any
 from faults import Text, Words, text_of
 from nep_core.errors import ManifestError, NepError
 from nep_core.places import node_folders
-from nep_core.processes.manifest import NodeCatalog, read_manifest
+from nep_core.processes.manifest import NodeCatalog, read_manifest, read_toml
 from nep_studio import paths
 from nep_studio.blocks.checks import KnownChains, check_steps
 from nep_studio.blocks.checks.diagnostic import SEVERITIES, Diagnostic
-from nep_studio.blocks.definition_files import load_definitions, load_profiles, read_toml
+from nep_studio.blocks.definition_files import load_definitions, load_profiles
+from nep_studio.blocks.definition_files import read_toml as read_definitions
 from nep_studio.blocks.deployment import (
     GESTURE_NODE,
     NodeEntry,
@@ -29,6 +30,8 @@ from nep_studio.blocks.language import Language, together, translated
 from nep_studio.blocks.own_gestures import trained_gestures
 from nep_studio.blocks.program import Project
 from nep_studio.blocks.slices import Steps, at_once
+
+log = logging.getLogger(__name__)
 
 RESERVED_NAMES = ("master", "studio", "program", "recording")
 """Names of the parts that every session has."""
@@ -187,7 +190,7 @@ def load_language(
 def shipped_gestures() -> dict[str, str]:
     """The gestures of the shipped model: name to label."""
     path = paths.resources() / "gestures" / "paper.toml"
-    gestures: dict[str, str] = read_toml(path)["gestures"]
+    gestures: dict[str, str] = read_definitions(path)["gestures"]
     return gestures
 
 
@@ -227,12 +230,25 @@ def table_of(code: str) -> dict[str, Any]:
 
     So a node or a robot is added by its own files; where both have words, the table's are used.
     """
-    table = tomllib.loads(_table_file(code).read_text(encoding="utf-8"))
-    choices = table.setdefault("choices", {})
+    table = table_in(_table_file(code))
+    choices = table.get("choices", {})
+    table["choices"] = choices = dict(choices) if isinstance(choices, dict) else {}
     for brought in (_titles_of_nodes(code), *_words_of_robots(code)):
         for name, labels in brought.items():
-            choices[name] = {**labels, **choices.get(name, {})}
+            told = choices.get(name, {})
+            choices[name] = {**labels, **(told if isinstance(told, dict) else {})}
     return table
+
+
+def table_in(path: Path) -> dict[str, Any]:
+    """A language's table; an empty one, and a warning, when it cannot be read."""
+    try:
+        return read_toml(path)
+    except (OSError, ValueError, RecursionError) as error:
+        log.warning(
+            "The blocks' words in %s cannot be read, and stay English: %s", path.name, error
+        )
+        return {}
 
 
 def _table_file(code: str) -> Path:
@@ -252,5 +268,5 @@ def _titles_of_nodes(code: str) -> dict[str, dict[str, str]]:
 def _words_of_robots(code: str) -> Iterator[dict[str, dict[str, str]]]:
     """``[translations.de.drivers]`` and so on of each robot.toml: value = label."""
     for path in sorted((paths.resources() / "robots").glob("*/robot.toml")):
-        brought = read_toml(path).get("translations", {}).get(code, {})
+        brought = read_definitions(path).get("translations", {}).get(code, {})
         yield {name: labels for name, labels in brought.items() if isinstance(labels, dict)}

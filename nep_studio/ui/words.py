@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import logging
 import re
-import tomllib
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from functools import lru_cache
@@ -12,6 +11,7 @@ from itertools import takewhile
 from pathlib import Path
 
 from faults import Text, Words, filled, told
+from nep_core.processes.manifest import read_toml, toml_of
 from nep_studio import paths
 
 log = logging.getLogger(__name__)
@@ -20,6 +20,7 @@ ENGLISH = "en"
 PSEUDO = "qps-rtl"
 """A made-up language for tests: longer than English, written from the right, still readable."""
 
+LONGEST_NAME = 60
 _RIGHT_TO_LEFT = {"ar", "dv", "fa", "he", "ks", "ku", "ps", "sd", "ug", "ur", "yi", PSEUDO}
 _PLACES = re.compile(r"(\{[^{}]*\})")
 _ACCENTED = str.maketrans("aeiouyAEIOUYcnCN", "àéîôûýÀÉÎÔÛÝçñÇÑ")
@@ -92,11 +93,19 @@ def _known() -> Iterable[str]:
 
 
 def _name(code: str) -> str:
-    """The language's own name, which stands before the tables: those take long to read."""
-    with _path(code).open(encoding="utf-8") as lines:
-        head = takewhile(lambda line: not line.startswith("["), lines)
-        name: str = tomllib.loads("".join(head)).get("name", code)
-    return name
+    return read_name(_path(code))
+
+
+def read_name(path: Path) -> str:
+    """The own name of a table's language, which stands before the rest: that takes long to read."""
+    try:
+        with path.open(encoding="utf-8") as lines:
+            head = takewhile(lambda line: not line.startswith("["), lines)
+            name = toml_of("".join(head)).get("name", "")
+    except (OSError, ValueError, RecursionError):
+        return path.stem  # what is wrong is told when it is chosen
+    is_name = isinstance(name, str) and name.isprintable() and 0 < len(name) <= LONGEST_NAME
+    return name if is_name else path.stem
 
 
 def _path(code: str) -> Path:
@@ -108,8 +117,19 @@ def _catalogue(code: str, _resources: Path) -> _Catalogue:
     """The words of a language, which take long to read, from the resources in use."""
     if code in (ENGLISH, PSEUDO):
         return _Catalogue(code)
-    table = tomllib.loads(_path(code).read_text(encoding="utf-8"))
-    return _Catalogue(code, {**table.get("messages", {}), **table.get("window", {})})
+    return read_catalogue(code, _path(code))
+
+
+def read_catalogue(code: str, path: Path) -> _Catalogue:
+    """The words of a table; none, and a warning, when it cannot be read: they stay English then."""
+    try:
+        table = read_toml(path)
+    except (OSError, ValueError, RecursionError) as error:
+        log.warning("The words of %s cannot be read, and stay English: %s", path.name, error)
+        return _Catalogue(code)
+    parts = (table.get(name) for name in ("messages", "window"))
+    texts = [item for part in parts if isinstance(part, dict) for item in part.items()]
+    return _Catalogue(code, {key: words for key, words in texts if isinstance(words, str)})
 
 
 def _pseudo(text: str) -> str:

@@ -111,7 +111,7 @@ def read_json(line: str) -> dict[str, object] | None:
     """A line's JSON object with its names in small letters, None where it is none."""
     try:
         found = msgspec.json.decode(line)
-    except (msgspec.DecodeError, RecursionError):
+    except (msgspec.DecodeError, UnicodeError, RecursionError):
         return None
     if not isinstance(found, dict):
         return None

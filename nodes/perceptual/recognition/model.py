@@ -80,7 +80,8 @@ def certainty_of(scores: Floats, usual: Floats) -> Floats:
 
     1 is a score as left-out takes usually have; half of that is at TRIGGER.
     """
-    return np.interp(scores / usual, [0.0, 0.5, 1.0], [0.0, TRIGGER, 1.0])
+    shares = np.nan_to_num(scores / usual, nan=0.0)  # a model of numbers too large to reckon with
+    return np.interp(shares, [0.0, 0.5, 1.0], [0.0, TRIGGER, 1.0])
 
 
 class Sensor(msgspec.Struct, frozen=True, rename={"gravity_included": "gravity"}):
@@ -281,6 +282,11 @@ def about_text(model: Model) -> str:
 
 MAX_BYTES = 200_000_000
 _MAX_ARRAYS = 200
+_MOST_UNPACKED = 16_000_000
+_MOST_PACKED = 12
+"""A model is unpacked to no more than 16 MB, or to 12 times its file: numbers pack by 3 at most,
+and what packs better was made to fill the memory of who opens it."""
+_MAX_ABOUT_BYTES = 1_500_000
 _PACKED = (zipfile.ZIP_STORED, zipfile.ZIP_DEFLATED)
 _ENCRYPTED = 0x1  # a bit of a member's flags in a ZIP archive
 # what zipfile, NumPy's reader of array headers, and msgspec raise for bytes that are no model
@@ -296,7 +302,8 @@ def read_arrays(content: bytes) -> dict[str, NDArray[Any]]:
         members = archive.infolist()
         if any(one.compress_type not in _PACKED or one.flag_bits & _ENCRYPTED for one in members):
             raise ValueError("the file is packed or encrypted as no gesture model is")
-        if len(members) > _MAX_ARRAYS or sum(one.file_size for one in members) > MAX_BYTES:
+        room = max(_MOST_UNPACKED, _MOST_PACKED * len(content))
+        if len(members) > _MAX_ARRAYS or sum(one.file_size for one in members) > room:
             raise ValueError("the file is far larger than a gesture model")
         return {one.filename.removesuffix(".npy"): _array(archive.read(one)) for one in members}
 
@@ -364,6 +371,8 @@ def read_model(path: Path) -> Model:
     try:
         arrays = read_arrays(content)
         text = arrays["about"].tobytes()
+        if len(text) > _MAX_ABOUT_BYTES:
+            raise ValueError("it tells more about itself than a gesture model")
         found = msgspec.json.decode(text, type=_Version)
         if found.format != FORMAT:
             raise ValueError("it is another kind of file")

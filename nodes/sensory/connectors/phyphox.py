@@ -134,7 +134,7 @@ def read_answer(body: bytes) -> Mapping[str, object] | None:
 def _object(body: bytes) -> dict[str, object] | None:
     try:
         found = msgspec.json.decode(body)
-    except (msgspec.DecodeError, RecursionError):
+    except (msgspec.DecodeError, UnicodeDecodeError, RecursionError):
         return None
     return found if isinstance(found, dict) else None
 

@@ -87,7 +87,7 @@ def read_message(body: bytes) -> Message | None:
     """A pushed body; None when it is none."""
     try:
         message = msgspec.json.decode(body, type=Message)
-    except (msgspec.DecodeError, RecursionError):
+    except (msgspec.DecodeError, UnicodeDecodeError, RecursionError):
         return None
     message.payload = [_needed(one) for one in message.payload]
     return message

@@ -303,10 +303,10 @@ async def serve(
 
 
 async def body_of(request: web.Request) -> bytes | None:
-    """The body, None when it is too large or too slow."""
+    """The body, None when it is too large or too slow, or is not what its head says."""
     from aiohttp import web
 
     try:
         return await asyncio.wait_for(request.read(), _BODY_S)
-    except (TimeoutError, web.HTTPRequestEntityTooLarge):
+    except (TimeoutError, ConnectionError, web.HTTPRequestEntityTooLarge, web.RequestPayloadError):
         return None

@@ -398,6 +398,8 @@ class Site:
 
     async def _batch(self, request: web.Request) -> web.Response:
         """One batch by POST, for phones that refuse WebSockets to a certificate of our own."""
+        from aiohttp import web
+
         address = request.remote or ""
         if not is_our_origin(request.headers, request.host):
             return _text(403, "Only the page itself may send.")
@@ -406,7 +408,7 @@ class Site:
         try:
             async with asyncio.timeout(READ_S):
                 message = read_message(await request.read())
-        except TimeoutError:
+        except (TimeoutError, ConnectionError, web.RequestPayloadError):
             return _text(408, "The batch did not arrive.")
         except ValueError as error:
             return _text(400, f"This is no batch of the page: {error}")
@@ -423,7 +425,10 @@ class Site:
         )
         if not socket.can_prepare(request):
             return _text(400, "The page itself uses this.")
-        await socket.prepare(request)
+        try:
+            await socket.prepare(request)
+        except ConnectionError:
+            return _text(408, "The phone has left.")
         talk = _Talk(self._receiving, socket, request.remote or "")
         try:
             await talk.go_on()

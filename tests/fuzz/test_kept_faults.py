@@ -1,0 +1,126 @@
+"""What once broke a reader is told in a sentence now, or passed over, and the rest goes on."""
+
+from __future__ import annotations
+
+import logging
+import zlib
+from pathlib import Path
+
+import pytest
+from PySide6.QtCore import QSettings
+
+from faults import FaultError
+from fuzz.target import SEEDS
+from fuzz.targets import target
+from nep_core.errors import ManifestError
+from nep_core.places import NODES_VARIABLE
+from nep_core.processes.manifest import NodeCatalog
+from nep_core.recordings.file import overview
+from nep_studio.blocks.errors import ProjectFileError
+from nep_studio.blocks.file_text import MOST_VALUES, decode
+from nep_studio.blocks.program import split_slot
+from nep_studio.project.picture_files import png_with_program, program_in_png
+from nep_studio.run.installation import launchable_nodes, table_in
+from nep_studio.settings import Settings
+from nep_studio.ui.words import read_catalogue, read_name
+from nodes.sensory.connectors.phyphox import read_answer
+from nodes.sensory.connectors.sensor_logger import read_message
+
+
+@pytest.mark.parametrize(
+    ("name", "kept", "said"),
+    [
+        ("nep", "digits_in_slot.nep", "cannot be used"),
+        ("nep", "digits.nep", "number in it that is too large"),
+        ("models", "bomb.gestures", "is not a gesture model"),
+        ("manifests", "deep.toml", "cannot be used"),
+        ("manifests", "digits.toml", "cannot be used"),
+        ("manifests", "dotted.toml", "too many parts"),
+        ("manifests", "not_text.toml", "cannot be used"),
+        ("csv", "long_number.csv", "not finite"),
+        ("csv", "not_text.csv", "not a text file"),
+    ],
+)
+def test_a_bad_file_is_told_in_a_sentence(tmp_path: Path, name: str, kept: str, said: str) -> None:
+    with target(name).open(tmp_path) as feed, pytest.raises(FaultError) as raised:
+        feed((SEEDS / name / kept).read_bytes())
+
+    assert said in str(raised.value.sentence)
+
+
+@pytest.mark.parametrize("kept", sorted(path.name for path in (SEEDS / "mcap").iterdir()))
+def test_of_a_damaged_or_lying_recording_the_whole_part_is_read(kept: str) -> None:
+    told = overview(SEEDS / "mcap" / kept)
+
+    is_sound = kept in ("plain.mcap", "chunk.mcap", "zstd.mcap", "lz4.mcap")
+    assert told.is_whole == is_sound
+    assert not is_sound or told.messages == 5
+
+
+def test_one_broken_manifest_hides_no_other(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    (tmp_path / "sensory").mkdir()
+    kept = [path for path in (SEEDS / "manifests").iterdir() if path.stem != "lamp"]
+    for path in kept:
+        (tmp_path / "sensory" / path.name).write_bytes(path.read_bytes())
+    monkeypatch.setenv(NODES_VARIABLE, str(tmp_path))
+
+    shown = launchable_nodes()
+
+    assert "sensory/virtual_watch" in shown
+    assert {f"sensory/{path.stem}" for path in kept} <= shown.keys()
+    for path in kept:
+        with pytest.raises(ManifestError):
+            NodeCatalog((tmp_path,)).find(f"sensory/{path.stem}")
+
+
+def test_a_push_that_is_no_text_is_no_message() -> None:
+    assert read_message((SEEDS / "push" / "not_text.json").read_bytes()) is None
+    assert read_message(b'{"payload": [{"name": "\xff"}]}') is None
+    assert read_answer((SEEDS / "push" / "phyphox_not_text.json").read_bytes()) is None
+
+
+@pytest.mark.parametrize("kept", ["deep.toml", "not_text.toml", "tables.toml", "other_kinds.toml"])
+def test_a_broken_translation_leaves_the_words_english(
+    tmp_path: Path, kept: str, caplog: pytest.LogCaptureFixture
+) -> None:
+    path = SEEDS / "translations" / kept
+    with caplog.at_level(logging.CRITICAL):
+        words = read_catalogue("xx", path).words
+        table = table_in(path)
+
+    assert all(isinstance(text, str) for text in words.values())
+    assert isinstance(table, dict)
+    assert read_name(path)
+    with target("translations").open(tmp_path) as feed:
+        feed(path.read_bytes())
+
+
+def test_a_setting_of_no_type_of_python_counts_as_not_set(tmp_path: Path) -> None:
+    kept = (SEEDS / "settings" / "no_type_of_python.ini").read_bytes()
+    (tmp_path / "settings.ini").write_bytes(kept)
+
+    settings = Settings(tmp_path)
+
+    assert (settings.theme, settings.language, settings.text_scale) == ("system", "system", 1.0)
+    assert isinstance(settings.values, QSettings)
+
+
+def test_a_picture_that_unpacks_to_much_more_than_its_size_has_no_program() -> None:
+    plain = (SEEDS / "png" / "plain.png").read_bytes()
+    program = zlib.compress(bytes(100)) * 2000  # packs by much less than a bomb
+
+    assert program_in_png((SEEDS / "png" / "bomb.png").read_bytes()) is None
+    assert program_in_png(png_with_program(plain, program)) == program
+
+
+def test_a_project_of_too_many_values_is_refused_before_they_are_made() -> None:
+    with pytest.raises(ProjectFileError, match="too many values"):
+        decode(b"[" + b"[]," * (MOST_VALUES + 1) + b"0]", "many.nep")
+
+
+def test_only_a_short_number_behind_a_dot_is_one_of_a_group() -> None:
+    assert split_slot("item.12") == ("item", 12)
+    assert split_slot("item." + "9" * 5000) == ("item." + "9" * 5000, 0)
+    assert split_slot("item") == ("item", 0)
