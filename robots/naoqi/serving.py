@@ -14,6 +14,7 @@ from typing import Any
 
 from robots.body.actor import FINAL, Actor
 from robots.body.driver import ActionRequest, ActionResult, RobotState
+from robots.body.gait import is_stepping
 from robots.body.limbs import Limb
 from robots.body.pose import VirtualRobot
 from robots.body.schedule import Command
@@ -63,6 +64,24 @@ class ServedRobot:
                     told += self.actor.stop(command.id)
             endings = self._sort(told)
         _tell(endings)
+
+    def kill(self, which: Callable[[Command], bool], *, legs: bool = False) -> None:
+        """End what ``which`` wants, and care for nothing: who is in the middle of a step falls.
+
+        ``legs``: also the step that ends a walk, which is no command any more.
+        """
+        with self.lock:
+            walks = [one for one in self.actor.schedule.running if Limb.LEGS in one.limbs]
+            is_tripped = self.is_stepping and (any(map(which, walks)) if walks else legs)
+            self.stop(which)
+            if is_tripped:
+                self.robot.stance.trip()
+
+    @property
+    def is_stepping(self) -> bool:
+        """Whether it walks, or ends the step with which a walk ends."""
+        with self.lock:
+            return is_stepping(self.robot) and self.state().moving
 
     def stop_one(self, request_id: str) -> None:
         """End one request, at once."""
