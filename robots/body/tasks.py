@@ -47,8 +47,6 @@ def take_posture(robot: VirtualRobot, goal: str) -> Task:
     """Move to a posture, through the postures and key poses that lie between."""
     body = robot.body
     path = posture_path(body, robot.posture, goal)
-    if robot.fallen:  # its motors have let go
-        robot.released, robot.stiffness = frozenset(), {}
     if robot.passed and path[0] != robot.towards:
         yield from _go_back(robot)
     for posture in path:

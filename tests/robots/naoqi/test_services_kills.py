@@ -1,4 +1,4 @@
-"""ALMotion's kills in a walk: the robot falls, as NAOqi's documentation warns; stopMove lets it stand."""
+"""Kills in a walk let the robot fall, as NAOqi's documentation warns; stopMove lets it stand."""
 
 from __future__ import annotations
 
