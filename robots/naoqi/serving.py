@@ -18,10 +18,13 @@ from robots.body.gait import is_stepping
 from robots.body.limbs import Limb
 from robots.body.pose import VirtualRobot
 from robots.body.schedule import Command
+from robots.naoqi.wire.errors import CallFailed
 
 OnEnd = Callable[[ActionResult], None]
 Condition = Callable[[], bool]
 Ending = tuple[OnEnd, ActionResult]
+MOST_WAITING = 2000
+"""A program that asks for more at once has lost its way, and would make all others wait."""
 
 
 class ServedRobot:
@@ -45,9 +48,16 @@ class ServedRobot:
     def ask(self, action: str, on_end: OnEnd | None = None, **args: Any) -> str:
         """Let the robot do something; the request's id. ``on_end`` gets its last result.
 
-        What the robot refuses ends as failed before this returns.
+        What the robot refuses ends as failed before this returns. Raises CallFailed when too many
+        wait already.
         """
         with self.lock:
+            if len(self.actor.schedule.waiting) >= MOST_WAITING:
+                raise CallFailed(
+                    "{most} requests wait already. Wait for the end of some of them, or end all "
+                    "movements with ALMotion.killAll.",
+                    most=MOST_WAITING,
+                )
             request_id = f"naoqi {self.name} {next(self._numbers)}"
             self._on_end[request_id] = on_end or (lambda result: None)
             request = ActionRequest(id=request_id, robots=[self.name], action=action, args=args)
@@ -58,11 +68,8 @@ class ServedRobot:
     def stop(self, which: Callable[[Command], bool]) -> None:
         """End what is done or waits, and is wanted by ``which``; at once."""
         with self.lock:
-            told: list[ActionResult] = []
-            for command in self.commands():
-                if which(command):
-                    told += self.actor.stop(command.id)
-            endings = self._sort(told)
+            wanted = [command.id for command in self.commands() if which(command)]
+            endings = self._sort(self.actor.stop_these(wanted))
         _tell(endings)
 
     def kill(self, which: Callable[[Command], bool], *, legs: bool = False) -> None:
