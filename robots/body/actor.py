@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection
+
 from faults import Fault, Words, fault_of
 from robots.errors import ActionFailed
 
@@ -104,6 +106,12 @@ class Actor:
             self.driver.halt()
         return results
 
+    def stop_these(self, command_ids: Collection[str]) -> list[ActionResult]:
+        """End some of what is running and what waits, all at once."""
+        wanted = set(command_ids)
+        stopped = [command.id for command in self._commands() if command.id in wanted]
+        return self._end(stopped, "cancelled", "stopped")
+
     def noticed(self) -> list[str]:
         """Return the human states that the robot noticed by itself since the last call."""
         return self.driver.noticed()
@@ -132,8 +140,7 @@ class Actor:
 
     def _end(self, command_ids: list[str], state: ActionState, words: Words) -> list[ActionResult]:
         self.driver.stop(command_ids)
-        for command_id in command_ids:
-            self.schedule.end(command_id)
+        self.schedule.end(*command_ids)
         return [self._result(one, state, fault_of(words)) for one in command_ids]
 
     def step(self, now_s: float) -> list[ActionResult]:

@@ -46,10 +46,12 @@ class Link(msgspec.Struct, frozen=True):
     """One stiff part of the body: its mass, and how far out it reaches, in its joint's frame.
 
     ``hull_m`` are round shapes: x, y, z and radius. ``sole_m`` is the outline of a foot's sole.
+    ``inertia_kg_m2`` is about the centre of mass: xx, yy, zz, xy, xz, yz.
     """
 
     mass_kg: float = 0.0
     centre_m: Vector = (0.0, 0.0, 0.0)
+    inertia_kg_m2: tuple[float, float, float, float, float, float] = (0.0,) * 6
     hull_m: tuple[tuple[float, float, float, float], ...] = ()
     sole_m: tuple[Vector, ...] = ()
 

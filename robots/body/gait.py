@@ -423,6 +423,11 @@ def walk(
     return ""
 
 
+def is_stepping(robot: VirtualRobot) -> bool:
+    """Whether a walk carries the torso: a foot is in the air, or was, or will be in a moment."""
+    return isinstance(robot.stance.last_guide, Carried)
+
+
 def _planned_walk(
     robot: VirtualRobot, way: Angles, at_least_steps: int
 ) -> Generator[None, None, Walk]:

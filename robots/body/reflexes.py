@@ -12,7 +12,7 @@ import numpy as np
 
 from faults import Text, text_of
 
-from .body import Angles, part_of, parts_of_limbs
+from .body import SINGLE_PARTS, Angles, part_of, parts_of_limbs
 from .inverse import Place, head_angles, in_torso
 from .limbs import Limb
 from .motion import TICK_S, move
@@ -73,11 +73,12 @@ def steadily(robot: VirtualRobot, task: Task) -> Task:
 
 
 def fall(robot: VirtualRobot) -> Task:
-    """Fall where the body tips to, and lie there."""
+    """Fall where the body tips to, lie there, and let all motors go, as NAO's fall manager does."""
     robot.fallen = True
     posture = "LyingBelly" if robot.stance.down[0] > 0.0 else "LyingBack"
     if posture not in robot.body.postures:
-        return (yield from _come_to_rest(robot))
+        yield from _come_to_rest(robot)
+        return _let_go(robot)
     goal = robot.body.posture_angles(posture)
     columns = range(len(robot.body.names))
     motion = move(robot.body, robot.angles, goal, columns, speed=PROTECTING_SPEED)
@@ -89,6 +90,12 @@ def fall(robot: VirtualRobot) -> Task:
         yield from _come_to_rest(robot)
     robot.be_in(posture)
     yield from lean(robot, goal, np.asarray(resting_down(robot, posture)))
+    return _let_go(robot)
+
+
+def _let_go(robot: VirtualRobot) -> str:
+    robot.released = frozenset(SINGLE_PARTS)
+    robot.stiffness = {}
     return ""
 
 
@@ -149,6 +156,8 @@ class Sagging:
 
     @property
     def _loose(self) -> frozenset[str]:
+        if self._robot.fallen:  # the floor holds the limbs of one that lies
+            return frozenset()
         return self._robot.released & frozenset(HANGING_PARTS)
 
     def step(self) -> None:

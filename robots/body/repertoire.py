@@ -16,12 +16,14 @@ from .body import PLAIN_NAMES, parts_of_limbs, posture_name, single_parts
 from .gait import walk
 from .limbs import MOVING, Limb
 from .pose import VirtualRobot
+from .reflexes import fallen_sentence
 from .schedule import Task
 from .tasks import speaking_limbs
 
 ARM_OF = {"left": Limb.LEFT_ARM, "right": Limb.RIGHT_ARM}
 OTHER_ARM = {Limb.LEFT_ARM: Limb.RIGHT_ARM, Limb.RIGHT_ARM: Limb.LEFT_ARM}
 LOCKS_BY_ITSELF = (a.Do, a.WakeUp, a.Rest, a.Stiffness)
+WALKS = (a.Walk, a.Turn, a.WalkFreely)
 MOTOR_ACTIONS = (a.Approach, a.ReachAngles, a.MoveThrough, a.SetStiffness, a.Silence)
 """What a joint whose motor is off does not follow, without telling."""
 
@@ -86,11 +88,15 @@ def task_of(robot: VirtualRobot, action: a.Action) -> Task:
     task = TASKS[type(action)](robot, action)
     if isinstance(action, (*LOCKS_BY_ITSELF, *MOTOR_ACTIONS)):
         return task
+    if robot.fallen and isinstance(action, WALKS):
+        return task  # it says that a robot which lies does not walk
     return _locked(robot, parts, task)
 
 
 def _locked(robot: VirtualRobot, parts: frozenset[str], task: Task) -> Task:
     if loose := sorted(parts & robot.released):
+        if robot.fallen:
+            raise ActionFailed(fallen_sentence(robot))
         part = Text(PLAIN_NAMES[loose[0]])
         raise ActionFailed(
             "{name}'s {part} is released and cannot move. Lock it first, or let the robot wake up.",

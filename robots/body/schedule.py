@@ -54,10 +54,12 @@ class Schedule:
             self._running[command.id] = command
         return ready
 
-    def end(self, command_id: str) -> None:
-        """Forget a command, running or waiting; its limbs are free."""
-        self._running.pop(command_id, None)
-        self._waiting = [command for command in self._waiting if command.id != command_id]
+    def end(self, *command_ids: str) -> None:
+        """Forget commands, running or waiting; their limbs are free."""
+        ended = set(command_ids)
+        for command_id in ended:
+            self._running.pop(command_id, None)
+        self._waiting = [command for command in self._waiting if command.id not in ended]
 
     def _ready(self) -> Iterator[Command]:
         taken: set[Limb] = set()

@@ -49,6 +49,8 @@ class Carried:
 
 PUSHED_RAD, PUSHED_S = 0.5, 0.1
 """How far a hard push tips the body, and how long it has been falling then."""
+TRIPPING_RAD_S = 0.4
+"""How fast a body begins to tip that is stopped in the middle of a step."""
 
 
 class Stance:
@@ -62,6 +64,8 @@ class Stance:
         self.last_guide: Leaning | Carried | None = None
         """How a task held the torso at the last tick, if one did."""
         self._speed_rad_s = FOLLOWING_RAD_S
+        self._drift: Points = np.zeros(3)
+        self._thrown: float | None = None
         self._angles: Angles = angles
         self.places: Points = np.zeros((0, 3))
         """Where the skeleton's outline points are in the room (points, 3), m."""
@@ -76,6 +80,7 @@ class Stance:
         middle = self.turn @ self.skeleton.feet_middle(frames)
         self.place: Points = np.array([base[0] - middle[0], base[1] - middle[1], 0.0])
         self._steady_down = self.down
+        self._thrown = None
         self._take_places(angles)
 
     def roll_to(self, base: Angles) -> None:
@@ -109,6 +114,8 @@ class Stance:
     def follow(self, angles: Angles, tick_s: float) -> None:
         """Take in how the joints are now: stay on the floor, lean, or tip."""
         guide, self.guide = self.guide, None
+        if self._thrown is not None:
+            guide = None
         self.last_guide = guide
         if guide is None and self.is_steady and np.array_equal(angles, self._angles):
             return
@@ -118,7 +125,9 @@ class Stance:
         self._turn_by(guide, outline, tick_s)
         places = outline @ self.turn.T
         if isinstance(guide, Carried):
-            self.place = np.array([guide.x, guide.y, 0.0])
+            place = np.array([guide.x, guide.y, 0.0])
+            self._drift = place - self.place
+            self.place = place
         else:
             # Move the body over the floor so that what touches it slides as little as it can
             low = places[:, 2] < places[:, 2].min() + TOUCHING_M
@@ -147,7 +156,11 @@ class Stance:
         self.has_lost_balance = False
 
     def _tip(self, outline: Points, tick_s: float) -> None:
-        self.turn, left = tipped(outline - self._centre, self.turn, self._speed_rad_s * tick_s)
+        angle, left = self._speed_rad_s * tick_s, 0.0
+        if self._thrown is not None:
+            self.turn = _tilt(self._thrown, angle) @ self.turn
+        else:
+            self.turn, left = tipped(outline - self._centre, self.turn, angle)
         if left > 0.0:
             self._speed_rad_s = FOLLOWING_RAD_S
             self._steady_down = self.down
@@ -155,6 +168,7 @@ class Stance:
         self._speed_rad_s += FALLING_RAD_S2 * tick_s
         if float(self.down @ self._steady_down) < math.cos(LOST_RAD):
             self.has_lost_balance = True
+            self._thrown = None
 
     def _bend(self, angles: Angles) -> Points:
         """Have joints at angles; return the body's outline in the torso's frame."""
@@ -170,13 +184,17 @@ class Stance:
 
     def push(self, heading: float) -> None:
         """Tip the body over towards a direction on the floor (rad), as a hard push does."""
-        axis = np.array([-math.sin(heading), math.cos(heading), 0.0])
-        cross = np.cross(np.eye(3), axis)
-        sine, cosine = math.sin(PUSHED_RAD), math.cos(PUSHED_RAD)
-        tilt = np.eye(3) + sine * cross + (1.0 - cosine) * cross @ cross
-        self.turn = tilt @ self.turn
+        self.turn = _tilt(heading, PUSHED_RAD) @ self.turn
         self._take_places(self._angles)
         self._speed_rad_s = FOLLOWING_RAD_S + FALLING_RAD_S2 * PUSHED_S
+
+    def trip(self) -> None:
+        """Fall over the step that is under way: its swing goes on, and nothing holds the torso."""
+        forward = float(self.turn[1, 0]), float(self.turn[0, 0])
+        swing = (float(self._drift[1]), float(self._drift[0])) if self._drift.any() else forward
+        self._thrown, self.last_guide = math.atan2(*swing), None
+        self._speed_rad_s = TRIPPING_RAD_S
+        self._steady_down = self.down
 
     @property
     def touching(self) -> Touching:
@@ -215,6 +233,14 @@ class Stance:
         places = np.array([self.link_place(link)[:2] for link in links])
         headings = np.array([self.link_turn(link)[:2, 0] for link in links]).sum(axis=0)
         return np.array([*places.mean(axis=0), math.atan2(headings[1], headings[0])])
+
+
+def _tilt(heading: float, angle: float) -> Rotation:
+    """Return the rotation that tips what is up towards a direction on the floor (both rad)."""
+    axis = np.array([-math.sin(heading), math.cos(heading), 0.0])
+    cross = np.cross(np.eye(3), axis)
+    turn: Rotation = np.eye(3) + math.sin(angle) * cross + (1.0 - math.cos(angle)) * cross @ cross
+    return turn
 
 
 def leaning_s(before: Points, after: Points) -> float:

@@ -14,13 +14,17 @@ from typing import Any
 
 from robots.body.actor import FINAL, Actor
 from robots.body.driver import ActionRequest, ActionResult, RobotState
+from robots.body.gait import is_stepping
 from robots.body.limbs import Limb
 from robots.body.pose import VirtualRobot
 from robots.body.schedule import Command
+from robots.naoqi.wire.errors import CallFailed
 
 OnEnd = Callable[[ActionResult], None]
 Condition = Callable[[], bool]
 Ending = tuple[OnEnd, ActionResult]
+MOST_WAITING = 2000
+"""A program that asks for more at once has lost its way, and would make all others wait."""
 
 
 class ServedRobot:
@@ -44,9 +48,16 @@ class ServedRobot:
     def ask(self, action: str, on_end: OnEnd | None = None, **args: Any) -> str:
         """Let the robot do something; the request's id. ``on_end`` gets its last result.
 
-        What the robot refuses ends as failed before this returns.
+        What the robot refuses ends as failed before this returns. Raises CallFailed when too many
+        wait already.
         """
         with self.lock:
+            if len(self.actor.schedule.waiting) >= MOST_WAITING:
+                raise CallFailed(
+                    "{most} requests wait already. Wait for the end of some of them, or end all "
+                    "movements with ALMotion.killAll.",
+                    most=MOST_WAITING,
+                )
             request_id = f"naoqi {self.name} {next(self._numbers)}"
             self._on_end[request_id] = on_end or (lambda result: None)
             request = ActionRequest(id=request_id, robots=[self.name], action=action, args=args)
@@ -57,12 +68,27 @@ class ServedRobot:
     def stop(self, which: Callable[[Command], bool]) -> None:
         """End what is done or waits, and is wanted by ``which``; at once."""
         with self.lock:
-            told: list[ActionResult] = []
-            for command in self.commands():
-                if which(command):
-                    told += self.actor.stop(command.id)
-            endings = self._sort(told)
+            wanted = [command.id for command in self.commands() if which(command)]
+            endings = self._sort(self.actor.stop_these(wanted))
         _tell(endings)
+
+    def kill(self, which: Callable[[Command], bool], *, legs: bool = False) -> None:
+        """End what ``which`` wants, and care for nothing: who is in the middle of a step falls.
+
+        ``legs``: also the step that ends a walk, which is no command any more.
+        """
+        with self.lock:
+            walks = [one for one in self.actor.schedule.running if Limb.LEGS in one.limbs]
+            is_tripped = self.is_stepping and (any(map(which, walks)) if walks else legs)
+            self.stop(which)
+            if is_tripped:
+                self.robot.stance.trip()
+
+    @property
+    def is_stepping(self) -> bool:
+        """Whether it walks, or ends the step with which a walk ends."""
+        with self.lock:
+            return is_stepping(self.robot) and self.state().moving
 
     def stop_one(self, request_id: str) -> None:
         """End one request, at once."""

@@ -29,6 +29,7 @@ from robots.naoqi.wire.errors import (
     NaoqiError,
     NeedsTls,
     NoAnswer,
+    NoRoom,
     NoSuchService,
     NoTls,
     NotNaoqi,
@@ -39,6 +40,7 @@ from robots.naoqi.wire.line import (
     AUTHENTICATE,
     CAPABILITIES,
     DONE,
+    FULL,
     GOES_ON,
     NEW_TOKEN,
     STATE,
@@ -179,10 +181,14 @@ CHECK_LOGIN = (
     "Are user and password right? The user is “nao” unless somebody changed it.",
     "The password is the one of the robot's web page.",
 )
+MAKE_ROOM = (
+    "Close programs that use the robot on the screen and are not needed.",
+    "Does a program connect again and again without closing the connection?",
+)
 
 
 def enter(peer: Peer, login: Login | None, until_s: float) -> None:
-    """Say who we are. Raises LoginRefused, NoAnswer, ConnectionLost."""
+    """Say who we are. Raises LoginRefused, NoRoom, NoAnswer, ConnectionLost."""
     said: dict[str, Any] = dict(CAPABILITIES)
     if login is not None:
         said |= {USER: login.user, TOKEN: login.password}
@@ -194,6 +200,9 @@ def enter(peer: Peer, login: Login | None, until_s: float) -> None:
     except CallFailed as problem:
         if is_about_login(str(problem)):
             raise _refused(login, str(problem)) from problem
+        if str(problem).startswith(FULL):
+            sentence = text_of("The robot serves as many programs as it can.")
+            raise NoRoom(sentence, checklist=MAKE_ROOM, details=str(problem)) from problem
         # NAOqi up to 2.1 does not know the call
         peer.send(Frame(Kind.CAPABILITY, 0, 0, 0, 0, encode("{sm}", CAPABILITIES)))
         return

@@ -6,6 +6,7 @@ The directory tells which services there are, where they are, who offers them.
 from __future__ import annotations
 
 import contextlib
+import functools
 import hmac
 import itertools
 import logging
@@ -18,7 +19,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from typing import Any
 
-from faults import Words, text_of
+from faults import Text, Words, text_of
 from robots.errors import PortTaken
 from robots.naoqi.wire.codec import Reader, encode, read_value, reader_of
 from robots.naoqi.wire.errors import BadFrame, CallFailed, ConnectionLost, NaoqiError
@@ -399,9 +400,37 @@ class Doorkeeper:
             self._peer.answer(Frame(Kind.CAPABILITY, 0, 0, 0, 0, payload))
 
 
+def _refuse(peer: Peer, why: Text, frame: Frame) -> bool:
+    """Answer a call by why it is not done, and end the connection; let nothing pass."""
+    if frame.kind == Kind.CALL:
+        peer.answer_error(frame, why)
+        peer.close()
+    return False
+
+
+def _line(connected: socket.socket, context: ssl.SSLContext | None) -> Line | None:
+    """Return the line of a connection, encrypted if it is to be; None if it could not be."""
+    if context is None:
+        return Line(connected)
+    connected.settimeout(HANDSHAKE_S)
+    try:
+        return Line(context.wrap_socket(connected, server_side=True))
+    except (OSError, ValueError) as problem:
+        log.info("a client did not encrypt: %s", problem)
+        connected.close()
+        return None
+
+
 HANDSHAKE_S = 5.0
 LISTEN_S = 0.5
 MOST_CLIENTS = 128
+MOST_TURNED_AWAY = 16
+"""So many more are told at the same time that there is no room; others are only closed."""
+NO_ROOM = (
+    "There is no room for another program: {most} are connected to this robot. Close programs that "
+    "are not needed, then try again."
+)
+"""It begins with FULL, by which our client knows it."""
 _numbers = itertools.count(1)
 
 
@@ -432,6 +461,7 @@ class Server:
         self._listener: socket.socket | None = None
         self._lock = threading.Lock()
         self._peers: set[Peer] = set()
+        self._turning_away = threading.BoundedSemaphore(MOST_TURNED_AWAY)
         self._visitors: dict[int, Visitor] = {}
         self._directory = ServiceDirectory(self._endpoints)
         self._directory.offer("ServiceDirectory", self._directory)
@@ -530,12 +560,13 @@ class Server:
                 connected, _ = listener.accept()
             except (OSError, ValueError):
                 return
-            if len(self._peers) >= MOST_CLIENTS:
+            is_full = len(self._peers) >= MOST_CLIENTS
+            if is_full and not self._turning_away.acquire(blocking=False):
                 connected.close()
                 continue
             number = next(_numbers)
             threading.Thread(
-                target=self._serve,
+                target=self._turn_away if is_full else self._serve,
                 args=(connected, context, number),
                 name=f"naoqi-server-{number}",
                 daemon=True,
@@ -543,15 +574,10 @@ class Server:
 
     def _serve(self, connected: socket.socket, context: ssl.SSLContext | None, number: int) -> None:
         """One connection, from its first word to its last."""
-        if context is not None:
-            connected.settimeout(HANDSHAKE_S)
-            try:
-                connected = context.wrap_socket(connected, server_side=True)
-            except (OSError, ValueError) as problem:
-                log.info("a client did not encrypt: %s", problem)
-                connected.close()
-                return
-        peer = Peer(Line(connected), name=f"naoqi-server-{number}", is_server=True)
+        line = _line(connected, context)
+        if line is None:
+            return
+        peer = Peer(line, name=f"naoqi-server-{number}", is_server=True)
         peer.find = self._bound
         keeper = Doorkeeper(peer, self._login, knows_authenticate=self._knows_authenticate)
         peer.gate = keeper.lets_pass
@@ -571,6 +597,24 @@ class Server:
                 visitor.leave(peer)
         for entry in self._directory.here():
             entry.leave(peer)
+
+    def _turn_away(
+        self, connected: socket.socket, context: ssl.SSLContext | None, number: int
+    ) -> None:
+        """Tell a client that is one too many why it cannot stay, when it says its first words."""
+        try:
+            line = _line(connected, context)
+            if line is None:
+                return
+            peer = Peer(line, name=f"naoqi-server-{number}", is_server=True)
+            peer.gate = functools.partial(_refuse, peer, text_of(NO_ROOM, most=MOST_CLIENTS))
+            silent = threading.Timer(HANDSHAKE_S, peer.close)
+            silent.daemon = True
+            silent.start()
+            peer.run()
+            silent.cancel()
+        finally:
+            self._turning_away.release()
 
     def _bound(self, number: int, thing: int) -> Answering | None:
         entry = self._directory.entry(number)

@@ -21,6 +21,8 @@ Reader = Callable[[], Any]
 CallModule = Callable[..., object]
 """Calls a method of a service, by their names, with its arguments; nobody waits for it."""
 REMEMBERED_EVENTS = 50
+MOST_KEYS = 20_000
+"""A NAO has about 4,000 by itself. Who asks for all names makes others wait that long."""
 
 
 class Subscriber:
@@ -44,6 +46,7 @@ class ALMemory(Module):
         self._events: set[str] = set()
         self._micro_events: set[str] = set()
         self._descriptions: dict[str, str] = {}
+        self._names: set[str] = set()
         self.call_module: CallModule = lambda module, method, *arguments: None
 
     def measure(self, readers: dict[str, Reader]) -> None:
@@ -88,7 +91,8 @@ class ALMemory(Module):
 
     @method(*(f"insertData::v(s{kind})" for kind in "ifsm"))
     def insert_data(self, key: str, value: Any) -> None:
-        """Keep a value."""
+        """Keep a value. Raises CallFailed when there are too many keys."""
+        self._make_known(key)
         self._store(key, value)
 
     @method("insertListData::v(m)")
@@ -98,14 +102,15 @@ class ALMemory(Module):
         for pair in rows(pairs, what):
             if len(rows(pair, what)) < 2:
                 raise CallFailed("{what}: one of them is no pair.", what=what)
-            self._store(str(pair[0]), pair[1])
+            self.insert_data(str(pair[0]), pair[1])
 
     @method("removeData::v(s)")
     def remove_data(self, key: str) -> None:
         """Forget a key."""
         with self._lock:
-            if self._data.pop(key, None) is None:
+            if key not in self._data:
                 raise CallFailed("ALMemory has no data “{key}”.", key=key)
+            self._forget(key)
 
     data_list = method("getDataList::[s](s)")(
         lambda self, part: [key for key in self.data_list_name() if part in key]
@@ -136,7 +141,7 @@ class ALMemory(Module):
             return list(self._history.get(event, []))
 
     declare_event = method("declareEvent::v(s)", "declareEvent::v(ss)")(
-        lambda self, event, extractor="": self.declare(event)
+        lambda self, event, extractor="": self._make_known(event) or self.declare(event)
     )
 
     @method("getEventList::[s]()")
@@ -152,11 +157,14 @@ class ALMemory(Module):
             return sorted(self._micro_events)
 
     # Give an event a new value, and tell who wants to know
-    raise_event = method("raiseEvent::v(sm)")(lambda self, event, value: self.tell(event, value))
+    raise_event = method("raiseEvent::v(sm)")(
+        lambda self, event, value: self._make_known(event) or self.tell(event, value)
+    )
 
     @method("raiseMicroEvent::v(sm)")
     def raise_micro_event(self, event: str, value: Any) -> None:
         """Give a micro event a new value, and tell who wants to know."""
+        self._make_known(event)
         self._micro_events.add(event)
         self._store(event, value)
         self._notify(event, value)
@@ -166,19 +174,19 @@ class ALMemory(Module):
         """Forget an event."""
         with self._lock:
             self._events.discard(event)
-            self._data.pop(event, None)
-            self._history.pop(event, None)
+            self._forget(event)
 
     @method("removeMicroEvent::v(s)")
     def remove_micro_event(self, event: str) -> None:
         """Forget a micro event."""
         with self._lock:
             self._micro_events.discard(event)
-            self._data.pop(event, None)
+            self._forget(event)
 
     @method("subscriber::o(s)")
     def subscriber(self, event: str) -> Subscriber:
         """Return an object whose signal tells each new value of an event."""
+        self._make_known(event)
         with self._lock:
             return self._subscribers.setdefault(event, Subscriber())
 
@@ -195,6 +203,7 @@ class ALMemory(Module):
 
         It gets the event, its value, and the ``message``.
         """
+        self._make_known(event)
         with self._lock:
             self._events.add(event)
             self._modules.setdefault(event, {})[module] = (method_name, message)
@@ -204,6 +213,7 @@ class ALMemory(Module):
         self, event: str, module: str, message: str, method_name: str
     ) -> None:
         """Call ``method_name`` of ``module`` with ``message`` at each value of a micro event."""
+        self._make_known(event)
         with self._lock:
             self._micro_events.add(event)
             self._modules.setdefault(event, {})[module] = (method_name, message)
@@ -233,12 +243,33 @@ class ALMemory(Module):
     @method("setDescription::v(ss)")
     def set_description(self, key: str, description: str) -> None:
         """Say what a key is."""
+        self._make_known(key)
         self._descriptions[key] = description
 
     @method("getDescriptionList::m([s])")
     def description_list(self, keys: list[str]) -> list[list[str]]:
         """Return what some keys are: name, kind, description."""
         return [[key, self.data_type(key), self._descriptions.get(key, "")] for key in keys]
+
+    def _make_known(self, name: str) -> None:
+        """Take a name in that a program uses. Raises CallFailed when there are too many."""
+        with self._lock:
+            if name not in self._names and len(self._names) >= MOST_KEYS:
+                raise CallFailed(
+                    "ALMemory has no room for “{name}”: programs use {most} names already. Remove "
+                    "some with removeData or removeEvent, or keep a list under one name.",
+                    name=name,
+                    most=MOST_KEYS,
+                )
+            self._names.add(name)
+
+    def _forget(self, name: str) -> None:
+        """Forget what is kept under a name; who listens to it goes on listening."""
+        for kept in (self._data, self._times, self._history):
+            kept.pop(name, None)
+        used = (self._events, self._micro_events, self._subscribers, self._descriptions)
+        if not self._modules.get(name) and not any(name in one for one in used):
+            self._names.discard(name)
 
     def _value(self, key: str) -> Any:
         try:

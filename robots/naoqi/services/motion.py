@@ -13,7 +13,7 @@ from robots.body.actions import Approach, Turn, Walk, WalkFreely
 from robots.body.gait import STEP_FORWARD_M, STEP_LEFT_M, STEP_S, STEP_TURN_RAD
 from robots.body.keyframes import SHORTEST_STEP_S
 from robots.body.kinematics import pose_of
-from robots.body.limbs import MOVING
+from robots.body.limbs import MOVING, Limb
 from robots.body.motor_tasks import stiffness
 from robots.body.schedule import Command
 from robots.naoqi.serving import ServedRobot
@@ -159,21 +159,27 @@ class ALMotion(Module):
 
     @method("killTask::b(i)")
     def kill_task(self, number: int) -> bool:
-        """End one of the tasks."""
+        """End one of the tasks; a robot whose walk it is falls."""
         known = [command.id for command in self._moving() if _number(command) == number]
-        self._robot.stop(lambda command: command.id in known)
+        self._kill(lambda command: command.id in known)
         return bool(known)
 
     @method("killTasksUsingResources::v([s])")
     def kill_tasks_using_resources(self, names: list[str]) -> None:
-        """End what uses some joints or chains."""
+        """End what uses some joints or chains; a robot that walks falls when legs are named."""
         limbs = self._limbs(names)
-        self._robot.stop(lambda command: bool(command.limbs & limbs))
+        self._kill(lambda command: bool(command.limbs & limbs), legs=Limb.LEGS in limbs)
 
     @method("killAll::v()")
     def kill_all(self) -> None:
-        """End all that moves joints."""
-        self._robot.stop(lambda command: bool(command.limbs & MOVING))
+        """End all that moves joints; a robot that walks falls."""
+        self._kill(lambda command: bool(command.limbs & MOVING), legs=True)
+
+    def _kill(self, which: Callable[[Command], bool], *, legs: bool = False) -> None:
+        """End tasks as NAOqi does, "brutally, without attempting to return to a balanced state"."""
+        if any(_is_walk(command) and which(command) for command in self._robot.commands()):
+            self._end_waiting()
+        self._robot.kill(which, legs=legs)
 
     def _moving(self) -> list[Command]:
         return [command for command in self._robot.commands() if command.limbs & MOVING]
@@ -265,20 +271,21 @@ class ALMotion(Module):
 
     @method("moveIsActive::b()", "walkIsActive::b()")
     def move_is_active(self) -> bool:
-        """Return whether it walks."""
-        return any(map(_is_walk, self._robot.commands()))
+        """Return whether it walks: until it stands on both feet."""
+        return any(map(_is_walk, self._robot.commands())) or self._robot.is_stepping
 
     @method("stopMove::b()", "stopWalk::b()")
     def stop_move(self) -> bool:
-        """Stop walking."""
-        self.kill_move()
+        """Stop walking after the step under way."""
+        self._end_waiting()
+        self._robot.stop(_is_walk)
         return True
 
     @method("killMove::v()", "killWalk::v()")
     def kill_move(self) -> None:
-        """Stop walking."""
+        """Stop walking in the middle of a step: the robot falls."""
         self._end_waiting()
-        self._robot.stop(_is_walk)
+        self._kill(_is_walk, legs=True)
 
     @method("getRobotPosition::[f](b)", "getNextRobotPosition::[f]()")
     def robot_position(self, use_sensors: bool = True) -> list[float]:

@@ -9,6 +9,7 @@ NaoqiError (a RobotError: a sentence and a checklist)
 │   ├── NoTls               this port does not speak TLS
 │   ├── StrangeCertificate  another robot than the one that was trusted
 │   ├── LoginRefused        no user and password, or wrong ones
+│   ├── NoRoom              as many programs as it serves are connected
 │   └── ConnectionLost      the connection has ended
 ├── NoSuchService           the robot does not have this service
 ├── NoSuchMethod            the service does not have this method, signal or property
@@ -71,6 +72,12 @@ class LoginRefused(NoConnection):
     """The robot wants a user and a password, or refuses these."""
 
     title = "NAO refuses the login"
+
+
+class NoRoom(NoConnection):
+    """As many programs as the robot serves are connected."""
+
+    title = "NAO serves no more programs"
 
 
 class ConnectionLost(NoConnection):

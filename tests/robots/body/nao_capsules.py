@@ -65,10 +65,10 @@ def balance_m(angles: Angles) -> float:
     soles = np.concatenate([SKELETON.sole(frames, side) for side in ("L_ankle", "R_ankle")], axis=1)
     soles = _in_frame(foot, soles)
     centre = _in_frame(foot, SKELETON.mass_centre(frames)[:, None])[:, 0]
-    return float(_inside(soles[:, :, :2], centre[:, :2]).min())
+    return float(inside(soles[:, :, :2], centre[:, :2]).min())
 
 
-def _inside(points: Points, places: Points) -> Points:
+def inside(points: Points, places: Points) -> Points:
     """How far places are inside of the convex outlines of points: by all their supporting lines."""
     ways = np.linspace(0.0, 2.0 * np.pi, 72, endpoint=False)
     normals = np.stack([np.cos(ways), np.sin(ways)])

@@ -8,6 +8,7 @@ from nao_skeleton import frames, point
 from nao_stage import BODY
 
 from robots.body.body import load_body, posture_name, posture_path
+from robots.body.keyframes import mirror_angle
 from robots.body.limbs import MOVING, Limb
 from robots.errors import ActionFailed, FilesUnusable
 
@@ -16,6 +17,20 @@ def test_it_has_the_26_joints_of_nao_with_their_limits() -> None:
     assert len(BODY.names) == 26
     assert (BODY.min < BODY.max).all() and (BODY.max_speed > 0).all()
     assert BODY.max[BODY.index["LKneePitch"]] == pytest.approx(2.1125)
+
+
+def test_the_right_side_has_the_limits_of_the_left_one_but_for_its_ankle() -> None:
+    low, high = (
+        dict(zip(BODY.names, BODY.min, strict=True)),
+        dict(zip(BODY.names, BODY.max, strict=True)),
+    )
+    for left in (name for name in BODY.names if name.startswith("L")):
+        name, right = left[1:], f"R{left[1:]}"
+        limits = [low[left], high[left]]
+        mirrored = sorted(mirror_angle(name, angle) for angle in limits)
+        if right != "RAnklePitch":
+            assert [low[right], high[right]] == pytest.approx(mirrored), right
+    assert (low["RAnklePitch"], high["RAnklePitch"]) == pytest.approx((-1.1863, 0.932))
 
 
 def test_every_joint_belongs_to_one_moving_limb() -> None:

@@ -23,6 +23,11 @@ What is true of it:
 - A call that waits on a real robot waits here, until the movement, the words or the light has
   ended; it holds no thread. Who gives up (`future.cancel()`) stops the robot; `killAll`,
   `stopMove`, `stopAll` reach it within 200 ms. Movements of one limb come one after the other.
+- `stopMove` ends a walk after the step under way, and `moveIsActive` is true until it stands. A
+  walk that is killed (`killMove`, `killAll`, `killTask`, `killTasksUsingResources` with a leg), or
+  the step that ends it, throws the robot over, as NAOqi's documentation warns: it lies,
+  `robotHasFallen` is raised, its motors let go until `wakeUp` or a posture. `moveToward` goes on
+  when the program is gone, as on a NAO.
 - Joints keep to their limits, and to their speeds: keys that are too fast are played slower, where
   NAOqi may cut them. A joint whose stiffness is 0 does not move, and nobody is told, as on a NAO.
 - What cannot be done is refused in a sentence; its words are ours, not NAOqi's.
@@ -32,6 +37,8 @@ What is true of it:
   (`resources/robots/nao/naoqi_animations.toml`).
 - Pictures and videos show what stands around it, as PNG files of this computer, and calls tell
   their real paths. It has no microphone: services that need one say so.
+- 2,000 requests may wait, programs may use 20,000 names of ALMemory, 128 programs may be connected;
+  who wants more gets an error that says so.
 - `moveToward` changes its speeds every few steps only; `moveTo` walks at the pace that it has.
 
 The signatures are those of a NAO V6 (NAOqi 2.8); for services marked * those of NAOqi 2.1. Every
