@@ -72,7 +72,7 @@ def check_release(robot: VirtualRobot, family: str) -> None:
             'do "posture_sit" first.',
             code="stands",
             checklist=(
-                'Put the block "{name} goes to rest" instead: it goes down, then releases all.',
+                'Put the block "{name} rests" instead: it goes down, then releases all.',
                 "Or let {name} sit before its legs are released.",
             ),
             name=robot.name,

@@ -70,11 +70,11 @@ def check_fit_to_walk(name: str, hottest: tuple[str, float], battery: float) -> 
 
 
 COOLING = (
-    'Let {name} rest for some minutes: the block "{name} goes to rest" does it.',
+    'Let {name} rest for some minutes: the block "{name} rests" does it.',
     "Let {name} sit between what it does standing.",
 )
 CHARGING = (
-    'Let {name} rest: the block "{name} goes to rest" does it.',
+    'Let {name} rest: the block "{name} rests" does it.',
     "Plug {name} in, and wait until it is charged.",
 )
 

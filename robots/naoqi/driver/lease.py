@@ -88,8 +88,7 @@ driven = partial(
     checklist=(
         "Wait until {owner} has ended the program: this one looks again by itself.",
         "Try the program on the robot on your screen meanwhile.",
-        "To take {robot} over now, let this program take over: on the Nodes page, or by "
-        "nep-studio run --take-over.",
+        "To take {robot} over now, put its node on the Nodes page, with take_over switched on.",
     ),
 )
 """Somebody else drives the robot."""
@@ -111,7 +110,7 @@ left_on = partial(
     code="left_on",
     checklist=(
         "Let {robot} rest before you leave it: press its chest button twice.",
-        'Or put the block "{robot} goes to rest" at the end of the program.',
+        'Or put the block "{robot} rests" at the end of the program.',
     ),
 )
 """The program has ended and leaves a robot that holds itself."""
@@ -170,7 +169,7 @@ class Lease:
         try:
             yield from self._restore()
         except ActionFailed as problem:
-            log.warning("%s could not be left as it was found: %s", self._robot.name, problem)
+            log.info("%s could not be left as it was found: %s", self._robot.name, problem)
         with contextlib.suppress(ActionFailed, NaoqiError):
             yield from self._write(FOUND_KEY, "")
             yield from self._write(DRIVER_KEY, "")
