@@ -278,7 +278,6 @@ class NaoqiDriver:
         had = self._lease.state == "held"
         self._lease.step()
         if had and self._lease.state == "taken":
-            self._fail_all()
             self._robot.calls.let_go()
         elif not had and self._lease.state == "held":
             if self._has_met_before:

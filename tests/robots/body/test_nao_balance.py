@@ -6,6 +6,8 @@ import numpy as np
 import pytest
 from nao_stage import BODY, Stage
 
+from robots.body.body import part_of
+
 
 @pytest.mark.parametrize(
     ("joint", "angle", "posture"),
