@@ -26,7 +26,7 @@ from nep_core.wire.messages import NODE_STATE, NodeState, described
 from nep_core.wire.pubsub import Publisher, Subscriber
 
 from .guard import GUARD
-from .manifest import READY_S, Manifest, NodeCatalog, Restart, Value
+from .manifest import READY_S, STOP_S, Manifest, NodeCatalog, Restart, Value
 from .node import check_node_name
 from .node_log import log_file_name
 from .process import ASKED, ChildProcess, Outcome, program_command
@@ -220,12 +220,12 @@ class Launcher(Closing):
             for launched in stopped:
                 launched.stopping = True
                 launched.ended.set()
-            processes = [launched.process for launched in stopped if launched.process is not None]
-        for process in processes:
+            running = [(one, one.process) for one in stopped if one.process is not None]
+        for _, process in running:
             if process.poll() is None:
                 process.ask_to_stop()
-        for process in processes:
-            process.stop()
+        for launched, process in running:
+            process.stop(launched.manifest.stop_s if launched.manifest else STOP_S)
 
     def close(self) -> None:
         """Stop every node, all at once."""

@@ -23,6 +23,7 @@ Restart = Literal["on-crash", "always", "on-kill", "never"]
 also when it ended by itself (always); only when it was killed (on-kill); never."""
 READY_S = 10.0
 MOST_READY_S = 3600.0
+STOP_S, MOST_STOP_S = 2.0, 60.0
 MOST_KEPT = 256
 """So many manifests are remembered, more than there are nodes to choose from."""
 
@@ -101,7 +102,8 @@ class Manifest(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
     """What a node is, hears, says and can be set to; ``command`` starts one that is not Python.
 
     ``titles`` are its title in other languages: ``{ de = "Gesten" }``. ``ready_s``: how long it may
-    take to be ready; ``restart``: when it is started again.
+    take to be ready; ``stop_s``: how long to end when it is asked, as a robot needs that goes to
+    rest; ``restart``: when it is started again.
     """
 
     type: NodeType
@@ -117,6 +119,7 @@ class Manifest(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
     parameters: dict[str, Parameter] = {}
     command: list[str] = []
     ready_s: float = READY_S
+    stop_s: float = STOP_S
     restart: Restart = "on-crash"
     path: str = ""
 
@@ -227,6 +230,12 @@ def _check(manifest: Manifest) -> None:
             "ready_s is {ready_s}, but 0 to {most_ready_s} s can be",
             ready_s=f"{manifest.ready_s:g}",
             most_ready_s=f"{MOST_READY_S:g}",
+        )
+    if not 0 < manifest.stop_s <= MOST_STOP_S:
+        raise ParameterError(
+            "stop_s is {stop_s}, but 0 to {most_stop_s} s can be",
+            stop_s=f"{manifest.stop_s:g}",
+            most_stop_s=f"{MOST_STOP_S:g}",
         )
     if any(not part or "\0" in part for part in manifest.command):
         raise ParameterError("its command has an empty word")

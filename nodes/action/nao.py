@@ -80,7 +80,7 @@ REAL_STATE_S = 0.2
 """A real robot's sensors change while it rests."""
 MOVING_STATE_S = 1.0 / 30.0
 RESTING_STATE_S = 1.0
-FIRST_TRY_S = 3.0
+FIRST_TRY_S = 6.0
 """A real robot may take so long to answer before programs begin to ask it."""
 
 
@@ -94,6 +94,7 @@ def run(
     animations: str,
     naoqi_port: int,
     model: str,
+    take_over: bool,
 ) -> None:
     """Play ``/action_request`` on one robot until the node stops.
 
@@ -102,10 +103,16 @@ def run(
     host:port; ``speed`` how many times faster than real time a virtual one lives (1: as in the
     room); ``animations`` a folder with more of them than every robot knows ("": none);
     ``naoqi_port`` the TCP port at which NAOqi programs reach a virtual one as if it were real (0:
-    none); ``model`` the robot's folder, nao or another one. Raises PortTaken.
+    none); ``model`` the robot's folder, nao or another one; ``take_over``: a real robot that
+    another program drives is taken from it. Raises PortTaken.
     """
     folder = model_folder(model)
-    link = _driver(node, robot, driver, address, animations, folder)
+    known = _known(node, robot, animations, folder)
+    link: Driver = VirtualDriver(known)
+    if driver == "naoqi":
+        from robots.naoqi.driver.driver import NaoqiDriver  # the virtual one needs none of it
+
+        link = NaoqiDriver(known, address, takes_over=take_over)
     actor = Actor(robot, link)
     results = node.publisher(ACTION_RESULT)
     requests = node.subscriber(ACTION_REQUEST, ActionRequest)
@@ -146,6 +153,8 @@ def run(
     offering.close()
     _send(results, actor.stop())
     link.disconnect()
+    if link.connection.fault.sentence:
+        report.send_news()
 
 
 def _await_first_answer(node: Node, link: Driver) -> None:
@@ -166,15 +175,14 @@ def _offering(actor: Actor, link: Driver, port: int, folder: Path) -> Offering:
     return NotOffered()
 
 
-def _driver(
-    node: Node, robot: str, driver: str, address: str, own_animations: str, folder: Path
-) -> Driver:
+def _known(node: Node, robot: str, own_animations: str, folder: Path) -> VirtualRobot:
+    """Return the robot that is played, or that becomes a picture of a real one."""
     body = load_body(folder)
     shipped = load_animations(folder / "animations", body)
     animations, left_out = with_own(shipped, own_animations, body)
     for problem in left_out:
         node.warn(problem)
-    known = VirtualRobot(
+    return VirtualRobot(
         robot,
         body,
         animations,
@@ -182,11 +190,6 @@ def _driver(
         model=model_of(folder),
         files=robot_folder(safe_name(robot, "robot")),
     )
-    if driver == "naoqi":
-        from robots.naoqi.driver.driver import NaoqiDriver  # the virtual one needs none of it
-
-        return NaoqiDriver(known, address)
-    return VirtualDriver(known)
 
 
 def _heard(requests: Subscriber[ActionRequest], timeout_s: float) -> list[ActionRequest]:

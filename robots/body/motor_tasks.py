@@ -16,18 +16,19 @@ from . import actions as m
 from .actions import MoveJoint, WalkFreely
 from .body import SINGLE_PARTS, Angles, Body, part_of, single_parts
 from .gait import STEP_FORWARD_M, STEP_LEFT_M, STEP_TURN_RAD, walk
-from .inverse import head_angles, in_torso, look_at_seen, place_of
+from .inverse import head_angles, in_torso, look_at_seen, place_of, torso_height_m
 from .keyframes import Keyframes, Track
 from .limbs import Limb
 from .motion import TICK_S, Motion, keyframe_motion, move
 from .pose import VirtualRobot
 from .schedule import Task
-from .tasks import play_motion, take_posture
+from .tasks import check_fit_to_walk, play_motion, take_posture
 
 # What a virtual robot does for requests about its joints: hands, single joints, locks, sleep.
 
 HAND_SPEED = 0.4
 STEPS_AT_ONCE = 10
+LEG_PARTS = {"left_leg", "right_leg"}
 SIDES = {"left": ("LHand",), "right": ("RHand",), "both": ("LHand", "RHand")}
 
 
@@ -56,9 +57,33 @@ def move_joint(robot: VirtualRobot, action: MoveJoint) -> Task:
     return f"moved as far as it goes: {math.degrees(allowed[columns[0]]):.0f} degrees"
 
 
+HOLDS = 0.5
+"""A joint that is held less firmly does not carry the body."""
+STANDING_M = 0.28
+"""A torso of a robot on feet that is higher than this is carried by its legs."""
+
+
+def check_release(robot: VirtualRobot, family: str) -> None:
+    """Raise ActionFailed when a robot stands; ``family`` of its posture is "" when unknown."""
+    is_high = not family and torso_height_m(robot) > STANDING_M
+    if family == "standing" or is_high:
+        raise ActionFailed(
+            "{name} stands on its legs: without their motors it would fall over. Let it rest, or "
+            'do "posture_sit" first.',
+            code="stands",
+            checklist=(
+                'Put the block "{name} rests" instead: it goes down, then releases all.',
+                "Or let {name} sit before its legs are released.",
+            ),
+            name=robot.name,
+        )
+
+
 def lock(robot: VirtualRobot, part: str, *, on: bool) -> Task:
-    """Lock or release the joints of a part."""
+    """Lock or release the joints of a part. Raises ActionFailed for legs that it stands on."""
     parts = set(single_parts(part))
+    if not on and parts & LEG_PARTS and robot.stance.skeleton.soles:
+        check_release(robot, robot.family)
     robot.released = robot.released - parts if on else robot.released | parts
     robot.stiffness = {
         n: v for n, v in robot.stiffness.items() if part_of(robot.body, n) not in parts
@@ -84,6 +109,13 @@ def rest(robot: VirtualRobot) -> Task:
     return ""
 
 
+def check_walk(robot: VirtualRobot) -> None:
+    """Raise ActionFailed when the robot is too hot to walk, or its battery too empty."""
+    told = {name: robot.felt.get(f"temperature_{name}", 0.0) for name in robot.body.names}
+    hottest = max(told.items(), key=lambda one: one[1])
+    check_fit_to_walk(robot.name, hottest, robot.felt.get("battery", robot.battery))
+
+
 def walk_freely(robot: VirtualRobot, action: WalkFreely) -> Task:
     """Walk on and on."""
     longest = np.array([STEP_FORWARD_M, STEP_LEFT_M, STEP_TURN_RAD])
@@ -103,6 +135,7 @@ def track(robot: VirtualRobot, action: m.Track) -> Task:
         return ""
     place = place_of(robot, action.thing)
     if action.using == "body":
+        check_walk(robot)
         yaw, _ = head_angles(in_torso(robot, place, "world"), robot.body)
         yield from walk(robot, 0.0, 0.0, yaw)
     return (yield from look_at_seen(robot, action.thing))

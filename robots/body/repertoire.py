@@ -106,6 +106,12 @@ def _locked(robot: VirtualRobot, parts: frozenset[str], task: Task) -> Task:
     return (yield from task)
 
 
+def _fit(robot: VirtualRobot, task: Task) -> Task:
+    """Walk, unless the robot should rest."""
+    motor_tasks.check_walk(robot)
+    return (yield from task)
+
+
 def _do(robot: VirtualRobot, action: a.Do) -> Task:
     """Take a posture with all joints locked: what is released cannot hold one."""
     robot.released = frozenset()
@@ -134,9 +140,11 @@ TASKS: dict[type[a.Action], Callable[[VirtualRobot, Any], Task]] = {
     a.Do: lambda robot, it: motor_tasks.at_pace(robot, _do(robot, it), it.pace),
     a.Imitate: lambda robot, it: tasks.play(robot, robot.animations.get(it.animal, "animal")),
     a.Play: _play,
-    a.Walk: lambda robot, it: walk(robot, it.forward_m, it.left_m, math.radians(it.turn_deg)),
-    a.Turn: lambda robot, it: walk(robot, 0.0, 0.0, math.radians(it.degrees)),
-    a.WalkFreely: motor_tasks.walk_freely,
+    a.Walk: lambda robot, it: _fit(
+        robot, walk(robot, it.forward_m, it.left_m, math.radians(it.turn_deg))
+    ),
+    a.Turn: lambda robot, it: _fit(robot, walk(robot, 0.0, 0.0, math.radians(it.degrees))),
+    a.WalkFreely: lambda robot, it: _fit(robot, motor_tasks.walk_freely(robot, it)),
     a.Look: lambda robot, it: tasks.look(
         robot, math.radians(it.yaw_deg), math.radians(it.pitch_deg)
     ),

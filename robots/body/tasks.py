@@ -11,6 +11,8 @@ from collections.abc import Collection
 
 import numpy as np
 
+from robots.errors import ActionFailed
+
 from . import body as leds
 from .actions import Play, Say
 from .animations import NO_GESTURE, Animation
@@ -30,6 +32,51 @@ MOVED_FEET_M = 0.01
 SHORTEST_GESTURE = 0.8
 """A gesture is not played in less than this part of its time, even if the words are shorter."""
 DOES_NOT_STAND = {"sitting": "sits", "lying": "lies", "crouching": "crouches", "resting": "rests"}
+
+
+HOTTEST_WALK_C = 85.0
+"""With a hotter motor a robot begins no walk: it has hardly any strength left. Source: NAOqi
+switches the motors of a NAO off at about 95."""
+LOWEST_WALK_BATTERY = 0.15
+"""With less in its battery a robot begins no walk: it may lie down where it is."""
+
+
+def check_fit_to_walk(name: str, hottest: tuple[str, float], battery: float) -> None:
+    """Raise ActionFailed when a robot should rest instead of walking.
+
+    ``name`` is the robot's, ``hottest`` the joint with the hottest motor and its °C, ``battery`` is
+    0 to 1.
+    """
+    joint, celsius = hottest
+    if celsius > HOTTEST_WALK_C:
+        raise ActionFailed(
+            "{name} does not walk now: the motor of {joint} has {celsius} °C. Let it rest until "
+            "it has cooled down.",
+            code="too_hot_to_walk",
+            checklist=COOLING,
+            name=name,
+            joint=joint,
+            celsius=f"{celsius:.0f}",
+        )
+    if battery < LOWEST_WALK_BATTERY:
+        raise ActionFailed(
+            "{name} does not walk now: its battery is nearly empty, {battery} %. Let it rest, and "
+            "plug it in.",
+            code="battery_too_low_to_walk",
+            checklist=CHARGING,
+            name=name,
+            battery=f"{battery * 100:.0f}",
+        )
+
+
+COOLING = (
+    'Let {name} rest for some minutes: the block "{name} rests" does it.',
+    "Let {name} sit between what it does standing.",
+)
+CHARGING = (
+    'Let {name} rest: the block "{name} rests" does it.',
+    "Plug {name} in, and wait until it is charged.",
+)
 
 
 def speak(robot: VirtualRobot, text: str, seconds: float) -> Task:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import logging
 import math
 import queue
-from collections.abc import Callable, Collection, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 from functools import partial
 from typing import Any
 
@@ -21,9 +21,11 @@ from robots.body.repertoire import limbs_of
 from robots.body.schedule import Running, Task, advance
 from robots.errors import ActionFailed
 from robots.naoqi.discovery import read_address
+from robots.naoqi.wire.remote import RemoteObject
 
 from . import link, moving, speech
 from .calls import Calls, waited
+from .lease import Lease, left_on, this_owner
 from .link import Heard, Link, reach
 from .real import RealRobot
 from .speech import Hearing
@@ -33,6 +35,9 @@ log = logging.getLogger(__name__)
 
 
 # The task by which a real robot does each action; it needs the limbs that the virtual one needs.
+
+STOPPING_S, LEAVING_S = 6.0, 12.0
+"""So long a robot may need to stop, and to be left as it was found, before it is given up."""
 
 ANY_MOTORS = (a.Do, a.WakeUp, a.Rest, a.Stiffness, a.SetStiffness, a.Approach)
 """What is done with motors that are off as well."""
@@ -100,19 +105,24 @@ def _moving(robot: RealRobot, limbs: frozenset[Limb], task: Task) -> Task:
 class NaoqiDriver:
     """Plays actions on a robot that speaks NAOqi. Nothing here waits; threads only bring news."""
 
-    def __init__(self, known: VirtualRobot, address: str) -> None:
-        """``known``: a body like the robot's, which becomes a picture of it."""
+    def __init__(self, known: VirtualRobot, address: str, *, takes_over: bool = False) -> None:
+        """``known``: a body like the robot's, which becomes a picture of it.
+
+        ``takes_over``: a robot that somebody else drives is taken from them, once.
+        """
         place = read_address(address)
         self._heard: Heard = queue.SimpleQueue()
         connect = partial(reach, place, self._heard)
         self._link = Link(known.name, place, connect)
-        self._robot = RealRobot(known, Calls(known.name, {}))
-        self._noticing = Noticing(self._robot)
-        self._watching = Watching(self._robot)
+        self._own = this_owner()
+        self._takes_over = takes_over
+        self._has_met_before = False
+        self._robot: RealRobot
+        self._lease: Lease
+        self._meet(known, {})
         self._hearing = Hearing(self._robot)
         self._running: dict[str, Running] = {}
         self._noticed: list[str] = []
-        self._has_met_before = False
 
     @property
     def connection(self) -> Connection:
@@ -122,21 +132,27 @@ class NaoqiDriver:
     @property
     def moving(self) -> bool:
         """Whether the robot does something."""
-        return bool(self._running)
+        return bool(self._running) or self._robot.calls.is_stopping
 
     def connect(self) -> None:
         """Begin to connect, and keep trying until ``disconnect``."""
         self._link.connect()
 
     def disconnect(self) -> None:
-        """Stop what the robot does, and give it up."""
+        """Stop what the robot does, leave it as it was found, and give it up."""
         self.stop(list(self._running))
-        self._robot.calls.wait_for_stops()
+        is_mine = self._link.state == "ready" and self._lease.state == "held"
+        self._robot.calls.wait_for_stops(STOPPING_S)
+        if is_mine:
+            self._robot.calls.wait_for(self._lease.leave(), LEAVING_S)
+        left = self._lease.leaves_on if is_mine else False
         self._link.disconnect()
+        if left:
+            self._link.connection = Connection("disconnected", left_on(robot=self._robot.name))
 
     def limbs(self, action: Action) -> frozenset[Limb]:
         """Return the limbs that an action needs. Raises ActionFailed if it cannot be done."""
-        if self._link.state != "ready" or not self._watching.has_met:
+        if not self._is_met:
             raise ActionFailed.of(self._link.connection.fault)
         return limbs_of(self._robot.known, action)
 
@@ -146,8 +162,10 @@ class NaoqiDriver:
             task = self._hearing.listen(action)
         else:
             task = task_of(self._robot, action)
-        task = self._robot.calls.after_stops(task)
-        self._running[command_id] = Running(task, limbs_of(self._robot.known, action))
+        limbs = limbs_of(self._robot.known, action)
+        moves = isinstance(action, ANY_MOTORS) or bool(limbs & MOVING)
+        task = self._robot.calls.after_stops(task, moves=moves)
+        self._running[command_id] = Running(task, limbs)
 
     def stop(self, command_ids: Collection[str]) -> None:
         """End some actions at once: each ends what it has begun on the robot."""
@@ -156,30 +174,29 @@ class NaoqiDriver:
                 stopped.task.close()
 
     def halt(self) -> None:
-        """Stop motion, posture, speech and following, whoever began them."""
-        self._robot.calls.stop_all()
-        self._robot.known.settings["tracking"] = ""
+        """Stop motion, posture, speech and following, whoever began them; not a robot of others."""
+        if self._is_mine:
+            self._robot.calls.stop_all()
+            self._robot.known.settings["tracking"] = ""
 
     def step(self, now_s: float) -> list[Ended]:
         """Take in what has come from the robot; return what has ended."""
         if reached := self._link.step():
-            # The link is there: begin with what is true of a robot that was just met
-            known = self._robot.known
-            self._robot = RealRobot(known, Calls(known.name, reached.services))
-            self._noticing = Noticing(self._robot)
-            self._watching = Watching(self._robot)
+            self._meet(self._robot.known, reached.services)
             self._hearing = Hearing(self._robot, self._hearing.expected)
-            if self._has_met_before:  # what went on while nobody could stop it ends now
-                self.halt()
-            self._has_met_before = True
-            known.saying, known.listening = "", ()
-            known.sees.clear()
         if self._link.state != "ready":
             return self._fail_all()  # also what has waited for its limbs, and begins only now
+        self._robot.calls.step()
+        self._ask_for_lease()
+        if self._lease.state != "held":
+            return self._fail_all()
         self._watching.step(is_moving=self.moving)
         if self._watching.is_frozen:
+            self.halt()  # which arrives if the network has only one way left
             self._link.freeze()
             return self._fail_all()
+        if not self._is_mine:
+            return []  # it is asked first whose the robot is: this process may have stood still
         while not self._heard.empty():
             self._noticed += self._noticing.hear(*self._heard.get())
         self._noticing.forget()
@@ -199,7 +216,7 @@ class NaoqiDriver:
 
     def state(self) -> RobotState | None:
         """Return where the robot's body is, or None when that is not known."""
-        if self._link.state != "ready" or not self._watching.has_met:
+        if not self._is_met:
             return None
         known = self._robot.known
         x, y, theta = (float(value) for value in known.base)
@@ -229,6 +246,48 @@ class NaoqiDriver:
     def surroundings(self, things: Sequence[Thing]) -> None:
         """Do nothing: a real robot sees by itself what stands around it."""
 
+    @property
+    def _is_mine(self) -> bool:
+        """Whether the robot is there, and nobody else drives it."""
+        return self._link.state == "ready" and self._lease.is_held
+
+    @property
+    def _is_met(self) -> bool:
+        """Whether the robot is there, is driven from here, and has told how it is."""
+        is_held = self._link.state == "ready" and self._lease.state == "held"
+        return is_held and self._watching.has_met
+
+    def _meet(self, known: VirtualRobot, services: Mapping[str, RemoteObject]) -> None:
+        """Begin with what is true of a robot that was just met."""
+        legs = [known.body.names[column] for column in known.body.columns({Limb.LEGS})]
+        self._was_finishing = self._has_met_before and self._robot.calls.is_finishing
+        calls = Calls(known.name, services, known.body.names, legs)
+        self._robot = RealRobot(known, calls)
+        self._noticing = Noticing(self._robot)
+        self._watching = Watching(self._robot)
+        taken = None
+        if self._has_met_before and self._lease.state == "taken":
+            taken = self._lease.other
+        takes_over = self._takes_over and not self._has_met_before
+        self._lease = Lease(self._robot, self._own, takes_over=takes_over, is_taken=taken)
+        known.saying, known.listening = "", ()
+        known.sees.clear()
+
+    def _ask_for_lease(self) -> None:
+        """Go on asking for the lease; what goes on when it is given, or taken, is ended."""
+        had = self._lease.state == "held"
+        self._lease.step()
+        if had and self._lease.state == "taken":
+            self._robot.calls.let_go()
+        elif not had and self._lease.state == "held":
+            if self._has_met_before:
+                self._robot.calls.stop_all(kills=not self._was_finishing)
+            elif self._lease.has_followed:  # who may just stand it up, or let it rest
+                self._robot.calls.stop_all(kills=False)
+            self._has_met_before = True
+        if fault := self._lease.fault():
+            self._link.connection = Connection("connection_failed", fault)
+
     def _fail_all(self) -> list[Ended]:
         """The robot is gone: what it was doing has failed, with the reason."""
         ended = [Ended(name, "failed", self._link.connection.fault) for name in self._running]
@@ -240,7 +299,7 @@ class NaoqiDriver:
     def _tell_condition(self) -> None:
         """Warn of what keeps the robot from acting soon; tell when that is over."""
         known, place = self._robot.known, self._link.place
-        joint, heat = self._watching.hottest
+        joint, heat = self._robot.hottest
         warning = None
         if self._robot.battery < link.LOWEST_BATTERY:
             warning = link.low_battery(robot=known.name, battery=f"{self._robot.battery * 100:.0f}")

@@ -13,13 +13,13 @@ from robots.body.inverse import arm_for, head_angles, in_torso, pointing
 from robots.body.keyframes import Keyframes, Track, control_points
 from robots.body.limbs import MOVING, Limb
 from robots.body.motion import playable
-from robots.body.motor_tasks import SIDES
+from robots.body.motor_tasks import HOLDS, SIDES, check_release
 from robots.body.schedule import Task, is_over
-from robots.body.tasks import DOES_NOT_STAND
+from robots.body.tasks import DOES_NOT_STAND, check_fit_to_walk
 from robots.errors import ActionFailed
 
 from .calls import Calling
-from .real import RealRobot
+from .real import LIFE_OFF, RealRobot
 
 # Keyframes as ALMotion.angleInterpolationBezier takes them, within limits and speeds.
 
@@ -131,8 +131,12 @@ def to_posture(robot: RealRobot, name: str, speed: float = POSTURE_SPEED) -> Tas
 
 
 def wake_up(robot: RealRobot) -> Task:
-    """Switch all motors on and stand up."""
+    """Switch all motors on and stand up; once begun it is finished, also when it is stopped."""
     yield from robot.take_over()
+    return (yield from robot.calls.finished(_waken(robot)))
+
+
+def _waken(robot: RealRobot) -> Task:
     yield from robot.call("ALMotion", "wakeUp", limit_s=WAKING_S)
     awake = yield from robot.call("ALMotion", "robotIsWakeUp")
     if not awake:
@@ -145,10 +149,14 @@ def wake_up(robot: RealRobot) -> Task:
 
 
 def rest(robot: RealRobot) -> Task:
-    """Go down and switch all motors off."""
+    """Go down and switch all motors off; once begun it is finished, also when it is stopped."""
+    return robot.calls.finished(_go_to_rest(robot))
+
+
+def _go_to_rest(robot: RealRobot) -> Task:
     robot.life_is_off = True  # NAOqi does not go to rest in the robot's own life
     if robot.calls.has("ALAutonomousLife", "setState"):
-        yield from robot.call("ALAutonomousLife", "setState", "disabled", limit_s=WAKING_S)
+        yield from robot.call("ALAutonomousLife", "setState", LIFE_OFF, limit_s=WAKING_S)
     yield from robot.call("ALMotion", "rest", limit_s=WAKING_S)
     awake = yield from robot.call("ALMotion", "robotIsWakeUp")
     if awake:
@@ -261,6 +269,8 @@ def lock(robot: RealRobot, part: str, *, on: bool) -> Task:
     names = [name for them in parts.values() for name in them]
     if not names:
         raise ActionFailed("{name} has no such part of the body.", name=robot.name)
+    if not on:
+        yield from _check_release(robot, names)
     yield from robot.take_over()
     value = 1.0 if on else 0.0
     yield from robot.call(
@@ -273,6 +283,7 @@ def lock(robot: RealRobot, part: str, *, on: bool) -> Task:
 def set_stiffness(robot: RealRobot, action: a.SetStiffness) -> Task:
     """Set how firmly single joints are held."""
     names, seconds = list(action.joints), max(float(action.seconds), STIFF_S)
+    yield from _check_release(robot, [n for n in names if action.joints[n] < HOLDS])
     values = [[float(value)] for value in action.joints.values()]
     yield from robot.call(
         "ALMotion",
@@ -322,6 +333,17 @@ def posture_task(robot: RealRobot, action: a.Do) -> Task:
     return take_posture(robot, action.posture, min(POSTURE_SPEED * action.pace, 1.0))
 
 
+def _check_release(robot: RealRobot, joints: Collection[str]) -> Task:
+    """Raise ActionFailed when the robot stands on joints that are to be released."""
+    body = robot.known.body
+    if not robot.known.stance.skeleton.soles or Limb.LEGS not in body.limbs_of(joints):
+        return ""
+    found = str((yield from robot.call("ALRobotPosture", "getPosture")))
+    yield from robot.measure(robot.names(MOVING))
+    check_release(robot.known, body.postures[found].family if found in body.postures else "")
+    return ""
+
+
 def _check_motors(robot: RealRobot, parts: dict[str, list[str]], *, on: bool) -> Task:
     for part, joints in parts.items():
         stiff = yield from robot.call("ALMotion", "getStiffnesses", joints)
@@ -349,6 +371,11 @@ SLOWEST_M_S = 0.03
 SLOWEST_RAD_S = 0.12
 LONGEST_TURN_RAD = 2.6
 """NAOqi takes the short way round: it must not be asked for more than half a turn."""
+STEP_LEG = (0.04, 0.03, 0.2)
+"""How far a robot on feet walks freely at once (m, m, rad): one step of each kind."""
+WHEEL_LEG = (0.12, 0.12, 0.4)
+"""The same for one on wheels."""
+LEG_S = 10.0
 OFF_M, OFF_PART = 0.08, 0.25
 LOOKING_SPEED, POINTING_SPEED = 0.3, 0.3
 NOUNS = {"face": "a face", "ball": "the red ball", "mark": "a mark", "sound": "a sound"}
@@ -365,7 +392,7 @@ def walk(robot: RealRobot, forward_m: float, left_m: float, turn: float) -> Task
 
     ``robot`` walks ``forward_m`` and ``left_m``.
     """
-    _check_standing(robot)
+    _check_walk(robot)
     if not (forward_m or left_m or turn):
         return ""
     start = yield from _place(robot)
@@ -383,17 +410,19 @@ def walk(robot: RealRobot, forward_m: float, left_m: float, turn: float) -> Task
 
 
 def walk_freely(robot: RealRobot, action: a.WalkFreely) -> Task:
-    """Walk on and on."""
-    _check_standing(robot)
-    speeds = float(action.forward), float(action.left), float(action.turn)
-    if not any(speeds):
+    """Walk on and on, in short legs: without this driver the robot stands after the last one.
+
+    NAOqi's moveToward would have no end when this process or the network is gone, and nothing that
+    a NAO has by itself would end it.
+    """
+    _check_walk(robot)
+    parts = float(action.forward), float(action.left), float(action.turn)
+    if not any(parts):
         return ""
-    try:
-        yield from robot.call("ALMotion", "moveToward", *speeds, limit_s=5.0)
-        while True:
-            yield
-    finally:
-        robot.calls.tell("ALMotion", "stopMove")
+    longest = STEP_LEG if robot.known.stance.skeleton.soles else WHEEL_LEG
+    leg = [part * most for part, most in zip(parts, longest, strict=True)]
+    while True:
+        yield from robot.call("ALMotion", "moveTo", *leg, limit_s=LEG_S, uses=robot.names(MOVING))
 
 
 def look(robot: RealRobot, yaw: float, pitch: float) -> Task:
@@ -455,6 +484,8 @@ def track(robot: RealRobot, action: a.Track) -> Task:
             known=known,
         )
     name, size = TARGETS[action.thing]
+    if action.using == "body":
+        _check_walk(robot)
     yield from robot.call("ALTracker", "registerTarget", name, size)
     mode = "Head" if action.using == "head" else "Move"
     yield from robot.call("ALTracker", "setMode", mode)
@@ -472,6 +503,11 @@ def _place(robot: RealRobot) -> Calling:
     yield from robot.measure(robot.names(MOVING))
     robot.stand_as_told()
     return place
+
+
+def _check_walk(robot: RealRobot) -> None:
+    check_fit_to_walk(robot.name, robot.hottest, robot.battery)
+    _check_standing(robot)
 
 
 def _check_standing(robot: RealRobot) -> None:

@@ -145,6 +145,8 @@ LARGEST_RAD = 10.0
 SETTLING_S = 0.6
 """So long joints may still move after NAOqi says that they are there."""
 LIFE_S = 8.0
+LIFE_OFF = "disabled"
+"""NAOqi's word for a robot that does nothing by itself."""
 UPRIGHT = (0.0, 0.0, -1.0)
 
 
@@ -153,7 +155,7 @@ class RealRobot:
     """``known`` is a picture of the robot, kept true by what it is asked again and again.
 
     ``torso``: as in RobotState. ``life_is_off``: its own life was switched off already, so that
-    only programs move it.
+    only programs move it. ``hottest``: the joint with the hottest motor, and its °C.
     """
 
     known: VirtualRobot
@@ -163,6 +165,7 @@ class RealRobot:
     torso: tuple[float, float, float, float, float, float] | None = None
     has_fallen: bool = False
     life_is_off: bool = False
+    hottest: tuple[str, float] = ("", 0.0)
 
     @property
     def name(self) -> str:
@@ -202,14 +205,17 @@ class RealRobot:
         if not self.calls.has("ALAutonomousLife", "setState"):
             return
         state = yield from self.call("ALAutonomousLife", "getState")
-        if state == "disabled":
-            return
+        if state != LIFE_OFF:
+            yield from self.calls.finished(self._end_life())
+
+    def _end_life(self) -> Calling:
         was_awake = not self.known.released
-        yield from self.call("ALAutonomousLife", "setState", "disabled", limit_s=LIFE_S)
+        yield from self.call("ALAutonomousLife", "setState", LIFE_OFF, limit_s=LIFE_S)
         if was_awake and self.calls.has("ALMotion", "wakeUp"):
             awake = yield from self.call("ALMotion", "robotIsWakeUp")
             if not awake:  # many robots sit down when their own life ends
                 yield from self.call("ALMotion", "wakeUp", limit_s=20.0)
+        return ""
 
     def measure(self, joints: Sequence[str]) -> Calling:
         """Ask where some joints are now; rad by name."""

@@ -53,8 +53,6 @@ class Watching:
         self._quick, self._slow = real.quick_keys(body), real.slow_keys(body)
         self._asked: list[tuple[Pending, float, TakeIn]] = []
         self._next_quick_s = self._next_slow_s = 0.0
-        self.hottest: tuple[str, float] = ("", 0.0)
-        """The joint with the hottest motor, and its °C."""
         self.has_met = False
         """Whether it has told once where its joints are and how it is set."""
         self._has_told_joints = False
@@ -127,7 +125,7 @@ class Watching:
         charge = real.battery(told)
         if charge is not None:
             self._robot.battery = charge
-        self.hottest = real.hottest(body, told)
+        self._robot.hottest = real.hottest(body, told)
 
     def _on_base(self, place: list[float]) -> None:
         self._robot.be_at(place)

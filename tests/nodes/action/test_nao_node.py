@@ -75,6 +75,7 @@ def test_its_manifest_is_right() -> None:
         "animations": "",
         "naoqi_port": 0,
         "model": "nao",
+        "take_over": False,
     }
 
 

@@ -6,6 +6,8 @@ import numpy as np
 import pytest
 from nao_stage import BODY, Stage
 
+from robots.body.body import part_of
+
 
 @pytest.mark.parametrize(
     ("joint", "angle", "posture"),
@@ -92,7 +94,8 @@ def test_released_legs_let_it_sink_down_and_it_can_get_up() -> None:
     stage.ask("1", "walk", forward_m=1.0)
     stage.pass_time(1.5)
 
-    stage.do("stiffness", part="legs", on=False)
+    legs = [name for name in BODY.names if part_of(BODY, name) in ("left_leg", "right_leg")]
+    stage.do("set_stiffness", joints=dict.fromkeys(legs, 0.0))
     sunk = stage.robot.posture, stage.robot.stance.place[2]
 
     walk = next(result for result in stage.results if result.id == "1" and result.description)

@@ -114,7 +114,7 @@ def test_a_sensor_measures_what_it_is_told() -> None:
         ("language", {"language": "de"}, "language", "de"),
         ("awareness", {"on": True}, "awareness", True),
         ("breathing", {"on": True}, "breathing", True),
-        ("stiffness", {"part": "legs", "on": False}, "locked_left_leg", False),
+        ("stiffness", {"part": "left_arm", "on": False}, "locked_left_arm", False),
     ],
 )
 def test_a_setting_shows_in_its_state(

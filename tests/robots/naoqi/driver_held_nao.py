@@ -60,6 +60,10 @@ class HeldNao:
     def be_silent(self) -> None:
         self.stopped.append("stopAll")
 
+    @method("moveIsActive::b()")
+    def walks(self) -> bool:
+        return False
+
     @method("killAll::v()")
     def kill_all(self) -> None:
         self.stopped.append("killAll")

@@ -67,11 +67,12 @@ class ServedNao:
 class DriverStage:
     """An actor with our driver; ``told`` are results as text such as "1 started"."""
 
-    def __init__(self, address: str, model: str = "nao") -> None:
+    def __init__(self, address: str, model: str = "nao", *, takes_over: bool = False) -> None:
         folder = model_folder(model)
         body = load_body(folder)
         animations = load_animations(folder / "animations", body)
-        self.driver = NaoqiDriver(VirtualRobot("NAO", body, animations), address)
+        known = VirtualRobot("NAO", body, animations)
+        self.driver = NaoqiDriver(known, address, takes_over=takes_over)
         self.actor = Actor("NAO", self.driver)
         self.results: list[ActionResult] = []
         self.noticed: list[str] = []

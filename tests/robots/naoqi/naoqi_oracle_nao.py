@@ -83,6 +83,10 @@ class ALMotion:
     def stop_move(self):
         STATE["stopped"].append("stopMove")
 
+    @qi.bind(qi.Bool, (), "moveIsActive")
+    def walks(self):
+        return False
+
     @qi.bind(qi.Void, (), "killAll")
     def kill_all(self):
         STATE["stopped"].append("killAll")

@@ -1,0 +1,276 @@
+"""No fault throws a real robot over: what the driver sends is read along, in order and time."""
+
+from __future__ import annotations
+
+import os
+import signal
+import time
+from collections.abc import Callable, Iterator
+from contextlib import ExitStack
+
+import pytest
+from driver_stage import DriverStage
+from recording_nao import RecordingNao
+
+from nep_core.networks.zmq_networks import PeerNetwork
+from nep_core.wire.messages import ACTION_REQUEST, ActionRequest
+from nep_core.wire.pubsub import Publisher
+from robots.naoqi.discovery import FOLDER_VARIABLE
+from tests.node_running import NodeRunner
+
+KILLS = ("ALMotion.killAll", "ALMotion.killTasksUsingResources", "ALMotion.killTask")
+AT_ONCE = (
+    "ALTextToSpeech.stopAll",
+    "ALTracker.stopTracker",
+    "ALMotion.stopMove",
+    "ALRobotPosture.stopMove",
+)
+"""What ends speech and following, and what lets the robot stand."""
+STANDS_S = 4.0
+"""A step takes less than two seconds; the rest is for a slow computer."""
+
+
+@pytest.fixture(autouse=True)
+def no_saved_login(tmp_path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv(FOLDER_VARIABLE, str(tmp_path))
+
+
+@pytest.fixture
+def nao() -> Iterator[RecordingNao]:
+    made = RecordingNao()
+    yield made
+    made.close()
+
+
+@pytest.fixture
+def quick_nao() -> Iterator[RecordingNao]:
+    made = RecordingNao(speed=10.0)
+    yield made
+    made.close()
+
+
+@pytest.fixture
+def stages() -> Iterator[Callable[..., DriverStage]]:
+    with ExitStack() as stack:
+
+        def make(nao: RecordingNao, **how: bool) -> DriverStage:
+            stage = DriverStage(nao.address, **how)
+            stack.callback(stage.close)
+            return stage
+
+        yield make
+
+
+def walking(nao: RecordingNao, stage: DriverStage, action: str, **args: float) -> None:
+    stage.ask("walk", action, **args)
+    stage.until(lambda: nao.served.state().base[0] > 0.02)
+
+
+def test_a_stop_in_a_walk_kills_nothing_before_the_robot_stands(nao, stages) -> None:
+    stage = stages(nao)
+    stage.meet()
+    walking(nao, stage, "walk", forward_m=2.0)
+    stage.ask("wave", "move_joint", joint="LShoulderPitch", degrees=-60, speed=0.05)
+    stage.until(lambda: nao.named("ALMotion.angleInterpolationWithSpeed"))
+
+    stage.ask("stop", "stop")
+    told = stage.told[-1]
+    stage.until(lambda: not stage.driver.moving)
+
+    stop = nao.named("ALMotion.stopMove")[0]
+    kill = next(call for call in nao.named(*KILLS) if call.at_s > stop.at_s)
+    asked = [call for call in nao.named("ALMotion.moveIsActive") if call.at_s > stop.at_s]
+    standing = next(call for call in asked if call.answer is False)
+    assert told == "stop done"
+    assert standing.answered_s <= kill.at_s
+    assert not nao.named("ALMotion.killAll")
+    between = [c for c in nao.calls if stop.at_s < c.at_s < kill.at_s and not c.is_query]
+    assert {call.name for call in between} <= {*AT_ONCE, "ALMemory.insertData"}
+    assert not nao.served.state().fallen
+
+
+def test_a_gesture_that_is_stopped_lets_the_walk_go_on(nao, stages) -> None:
+    stage = stages(nao)
+    stage.meet()
+    walking(nao, stage, "walk", forward_m=0.4)
+    stage.ask("wave", "move_joint", joint="LShoulderPitch", degrees=-60, speed=0.05)
+    stage.until(lambda: nao.named("ALMotion.angleInterpolationWithSpeed"))
+
+    stage.ask("stop", "stop", request="wave")
+
+    assert stage.end_of("walk").state == "done"
+    assert not nao.named("ALMotion.stopMove", "ALMotion.killTasksUsingResources")
+
+
+def test_a_free_walk_ends_by_itself_when_the_link_freezes(nao, stages) -> None:
+    stage = stages(nao)
+    stage.meet()
+    walking(nao, stage, "walk_freely", forward=1.0)
+
+    nao.is_frozen = True
+    frozen_s = time.monotonic()
+    while nao.walks:
+        assert time.monotonic() - frozen_s < STANDS_S
+        time.sleep(0.05)
+    place = nao.served.state().base
+    stage.until(lambda: "walk failed" in stage.told)
+
+    assert not nao.named("ALMotion.moveToward", "ALMotion.move")
+    assert nao.served.state().base == place
+    nao.is_frozen = False
+
+
+def test_a_hot_motor_and_a_low_battery_stop_new_walks(quick_nao, stages) -> None:
+    stage = stages(quick_nao)
+    stage.meet()
+    quick_nao.heat("RKneePitch", 92.0)
+    stage.until(lambda: stage.event == "warning")
+    hot = [stage.do("walk", forward_m=0.2), stage.do("walk_freely", forward=0.5)]
+    quick_nao.heat("RKneePitch", 40.0)
+    quick_nao.served.sense("battery", 0.08)
+    stage.until(lambda: stage.driver.connection.fault.code == "low_battery")
+    empty = stage.do("turn", degrees=20)
+
+    assert [end.fault.code for end in hot] == ["too_hot_to_walk"] * 2
+    assert hot[0].fault.values["joint"] == "RKneePitch"
+    assert hot[0].fault.values["celsius"] == "92"
+    assert empty.fault.code == "battery_too_low_to_walk" and empty.fault.checklist
+    assert not quick_nao.named("ALMotion.moveTo", "ALMotion.moveToward")
+
+
+@pytest.mark.parametrize("part", ["legs", "body", "left_leg"])
+def test_legs_that_it_stands_on_are_not_released(quick_nao, stages, part: str) -> None:
+    stage = stages(quick_nao)
+    stage.meet()
+
+    refused = stage.do("stiffness", part=part, on=False)
+    joint = stage.do("set_stiffness", joints={"LKneePitch": 0.0})
+    arm = stage.do("stiffness", part="left_arm", on=False)
+
+    assert [refused.fault.code, joint.fault.code] == ["stands", "stands"]
+    assert arm.state == "done" and refused.fault.checklist
+
+
+@pytest.mark.parametrize("action", ["rest", "wake_up"])
+def test_what_stands_up_or_goes_down_is_finished_when_it_is_stopped(
+    nao, stages, action: str
+) -> None:
+    stage = stages(nao)
+    stage.meet()
+    if action == "wake_up":
+        stage.do("rest")
+    since_s = time.monotonic()
+    method = {"rest": "ALMotion.rest", "wake_up": "ALMotion.wakeUp"}[action]
+    stage.ask("1", action)
+    stage.until(lambda: any(call.at_s > since_s for call in nao.named(method)))
+
+    stage.ask("stop", "stop")
+    stage.until(lambda: not stage.driver.moving)
+
+    assert "1 cancelled" in stage.told
+    assert nao.ask("ALMotion", "robotIsWakeUp") is (action == "wake_up")
+    assert not set(nao.orders(since_s)) & {*KILLS, "ALMotion.stopMove"}
+
+
+def test_a_robot_is_left_as_it_was_found(quick_nao, stages) -> None:
+    quick_nao.ask("ALAutonomousLife", "setState", "solitary")
+    quick_nao.ask("ALMotion", "rest")
+    stage = stages(quick_nao)
+    stage.until(lambda: stage.driver.state() is not None)
+    stage.do("wake_up")
+    meanwhile = quick_nao.ask("ALAutonomousLife", "getState")
+
+    stage.driver.disconnect()
+
+    assert meanwhile == "disabled"
+    assert quick_nao.ask("ALMotion", "robotIsWakeUp") is False
+    assert quick_nao.ask("ALAutonomousLife", "getState") == "solitary"
+
+
+def test_motors_that_are_left_on_are_said(quick_nao, stages) -> None:
+    stage = stages(quick_nao)
+    stage.meet()
+
+    stage.driver.disconnect()
+
+    assert stage.driver.connection.fault.code == "left_on"
+
+
+def test_a_second_driver_is_told_who_drives_and_waits_for_its_turn(quick_nao, stages) -> None:
+    first, second = stages(quick_nao), stages(quick_nao)
+    first.meet()
+
+    second.until(lambda: (first.step(), second.event == "connection_failed")[1])
+    fault = second.driver.connection.fault
+    second.ask("walk", "walk", forward_m=0.3)
+    second.ask("stop", "stop")
+
+    assert fault.code == "driven" and fault.checklist and " on " in str(fault)
+    assert "walk failed" in second.told
+    assert not quick_nao.named("ALMotion.stopMove", "ALMotion.moveTo")
+    first.driver.disconnect()
+    second.meet()
+
+
+def test_a_robot_is_taken_over_only_by_asking_and_the_first_is_told(nao, stages) -> None:
+    first = stages(nao)
+    first.meet()
+    walking(nao, first, "walk", forward_m=2.0)
+
+    second = stages(nao, takes_over=True)
+    second.until(lambda: (first.step(), second.event == "connected")[1])
+    first.until(lambda: (second.step(), first.driver.connection.fault.code == "taken_over")[1])
+
+    assert "walk failed" in first.told
+    assert not nao.named("ALMotion.killAll")
+    second.until(lambda: not second.driver.moving)
+    assert not nao.walks and not nao.served.state().fallen
+    first.ask("again", "walk", forward_m=1.0)
+    assert "again failed" in first.told
+
+
+def test_the_lease_of_a_dead_owner_ends_by_itself_and_what_was_found_is_known(
+    quick_nao, stages
+) -> None:
+    quick_nao.ask("ALAutonomousLife", "setState", "solitary")
+    first = stages(quick_nao)
+    first.meet()
+    first.do("walk", forward_m=0.1)  # which switches its own life off
+
+    second = stages(quick_nao)  # and the first beats no more
+    passed_s = second.until(lambda: second.event == "connected")
+    second.driver.disconnect()
+
+    assert 2.0 < passed_s < 10.0
+    assert quick_nao.ask("ALAutonomousLife", "getState") == "solitary"
+
+
+@pytest.mark.skipif(not hasattr(signal, "SIGSTOP"), reason="there are no such signals here")
+@pytest.mark.parametrize("name", ["SIGKILL", "SIGSTOP"])
+def test_a_robot_stands_soon_after_its_node_is_killed_or_stands_still(
+    nao: RecordingNao, network: PeerNetwork, name: str
+) -> None:
+    runner = NodeRunner(network)
+    requests = Publisher(ACTION_REQUEST, network=network)
+    node = runner.start_node("action/nao", "nao", driver="naoqi", address=nao.address)
+    try:
+        runner.state("connected")
+        assert requests.wait_for_subscribers(1, 10)
+        speeds = {"forward": 1.0}
+        requests.send(ActionRequest(id="1", robots=["NAO"], action="walk_freely", args=speeds))
+        until_s = time.monotonic() + 20.0
+        while nao.served.state().base[0] < 0.02:
+            assert time.monotonic() < until_s
+            time.sleep(0.05)
+
+        os.kill(node.pid, getattr(signal, name))
+        killed_s = time.monotonic()
+        while nao.walks:
+            assert time.monotonic() - killed_s < STANDS_S
+            time.sleep(0.05)
+        place = nao.served.state().base
+    finally:
+        os.kill(node.pid, signal.SIGKILL)
+        runner.close()
+
+    assert nao.served.state().base == place
