@@ -33,7 +33,7 @@ from nep_studio.project.trust import (
     shared_approvals,
 )
 
-from .plan import PROGRAM_NODE, NotForPages, PlannedNode, Setting, listed_node, robot_node
+from .plan import PlannedNode, Setting, check_for_pages, listed_node, robot_node
 
 
 class NotApproved(NepError, title="Nobody has approved this yet"):
@@ -207,10 +207,7 @@ def concerns_of(project: Project, language: Language, folder: Path) -> list[Conc
         planned = robot_node(robot, language.profile.node)
         found += [concern] if (concern := node_concern(planned, "robots")) is not None else []
     for node in node_entries(project, language):
-        try:
-            planned = listed_node(node, folder)
-        except NotForPages:
-            continue  # it never starts
+        planned = listed_node(node, folder)
         found += [concern] if (concern := node_concern(planned)) is not None else []
     return found
 
@@ -282,9 +279,8 @@ class Gate:
         raise NotApproved(())
 
     def check_node(self, planned: PlannedNode) -> None:
-        """Raise NotApproved for a node of which not all is approved."""
-        if planned.node == PROGRAM_NODE:
-            raise NotApproved(())
+        """Raise NotApproved for a node of which not all is approved; NotForPages."""
+        check_for_pages(planned.node, planned.name)
         if (concern := node_concern(planned)) is not None and (left := self.unapproved([concern])):
             raise NotApproved(left)
 

@@ -30,7 +30,7 @@ from nep_studio.blocks.own_gestures import trained_gestures
 from nep_studio.blocks.program import Project
 from nep_studio.blocks.slices import Steps, at_once
 
-from .plan import is_elsewhere, listed_node
+from .plan import check_for_pages, is_elsewhere
 
 RESERVED_NAMES = ("master", "studio", "program", "recording")
 """Names of the parts that every session has."""
@@ -115,7 +115,7 @@ def _node(
     entry: NodeEntry, catalog: NodeCatalog, gestures: Collection[str], folder: Path
 ) -> Iterator[Diagnostic]:
     try:
-        listed_node(entry, folder)
+        check_for_pages(entry.node, entry.name)
         manifest = catalog.find(entry.node)
         settings = manifest.read_parameters(dict(entry.parameters))
     except NepError as error:

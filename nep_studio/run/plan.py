@@ -86,10 +86,7 @@ NO_CHOICES = Choices()
 
 
 def plan(project: Project, language: Language, choices: Choices, folder: Path) -> list[PlannedNode]:
-    """The nodes to start; files in their settings are looked for in ``folder``, the project's.
-
-    Raises NotForPages.
-    """
+    """The nodes to start; files in their settings are looked for in ``folder``, the project's."""
     listed = node_entries(project, language)
     nodes = [_listed(entry, folder, project) for entry in listed]
     names = {node.name for node in nodes}
@@ -112,7 +109,17 @@ def plan(project: Project, language: Language, choices: Choices, folder: Path) -
 
 
 class NotForPages(NodeError, title="This node is not for the Nodes page"):
-    """A node that no project can start by itself."""
+    """A node that no project can start by itself: the program's own."""
+
+
+def check_for_pages(node: str, name: str) -> None:
+    """Raise NotForPages for a node that no page can start."""
+    if node == PROGRAM_NODE:
+        raise NotForPages(
+            "The node “{name}” would run a Python file of its own.",
+            checklist=("Put the Python into blocks of the Behaviour page.", "Delete this node."),
+            name=name,
+        )
 
 
 def robot_node(entry: RobotEntry, node: str, choices: Choices = NO_CHOICES) -> PlannedNode:
@@ -160,14 +167,8 @@ def _listed(entry: NodeEntry, folder: Path, project: Project) -> PlannedNode:
 def listed_node(entry: NodeEntry, folder: Path) -> PlannedNode:
     """A node as its block says; a file in the project's folder is given with its path.
 
-    Only what the node itself calls a file is looked for. Raises NotForPages.
+    Only what the node itself calls a file is looked for.
     """
-    if entry.node == PROGRAM_NODE:
-        raise NotForPages(
-            "The node “{name}” would run a Python file of its own.",
-            checklist=("Put the Python into blocks of the Behaviour page.", "Delete this node."),
-            name=entry.name,
-        )
     try:
         known = NodeCatalog(node_folders()).find(entry.node).parameters
     except NepError:

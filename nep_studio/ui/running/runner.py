@@ -6,7 +6,7 @@ import logging
 import queue
 import threading
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -30,7 +30,7 @@ from nep_studio.run.controller import (
     StateChanged,
     Subject,
 )
-from nep_studio.run.gate import NotApproved
+from nep_studio.run.gate import NotApproved, node_concern
 from nep_studio.run.local_network import MASTER, LocalNetwork
 from nep_studio.run.node_board import Monitor, NodeBoard
 from nep_studio.run.plan import PlannedNode
@@ -322,6 +322,13 @@ class Runner(QObject):
                 launched.wait_ready()
 
         self._aside(planned.name, start)
+
+    def strange(self, nodes: Iterable[PlannedNode]) -> frozenset[str]:
+        """The names of those that nobody has approved: even a look at them would be a start."""
+        self.keep_own()
+        gate = self.local.gate
+        found = ((node.name, node_concern(node)) for node in nodes)
+        return frozenset(name for name, one in found if one is not None and gate.unapproved([one]))
 
     def open_network(self) -> None:
         """Open the network, or start its master again when that is gone."""

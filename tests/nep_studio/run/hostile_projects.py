@@ -165,7 +165,7 @@ def robot_elsewhere(make: Maker) -> Trap:
         return bool(callers)
 
     editor = build(make.language, [STARTED, B("robot.say", {"text": "Hello"}), FOREVER])
-    fields = {"driver": "naoqi", "address": f"[::ffff:127.0.0.1]:{door.getsockname()[1]}"}
+    fields = {"driver": "naoqi", "address": f"127.1:{door.getsockname()[1]}"}
     build(make.language, [B("robots.robot", fields)], page="robots", editor=editor)
     return Trap(make.save(editor), has_sprung, fields["address"])
 

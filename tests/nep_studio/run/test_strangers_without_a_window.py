@@ -23,7 +23,7 @@ from nep_studio.project.trust import Approvals, approvals_file, plainly
 from nep_studio.run.gate import Gate, NotApproved, concerns_of
 from nep_studio.run.installation import studio_language
 from nep_studio.run.local_network import LocalNetwork
-from nep_studio.run.plan import PlannedNode, file_inside
+from nep_studio.run.plan import NotForPages, PlannedNode, file_inside
 from nep_studio.run.session import Session
 from nep_studio.support.portable import SETTINGS_VARIABLE
 from tests.blocks.block_building import B, build
@@ -186,7 +186,7 @@ def test_a_session_that_was_planted_starts_nothing(make: Maker, tmp_path: Path) 
 def test_a_node_that_was_planted_does_not_start(make: Maker, tmp_path: Path, node: str) -> None:
     network = LocalNetwork(logs=tmp_path)
 
-    with pytest.raises(NotApproved):
+    with pytest.raises((NotApproved, NotForPages)):
         network.start([PlannedNode(node, "gift", {"marker": str(make.marker)})])
     network.close()
 
