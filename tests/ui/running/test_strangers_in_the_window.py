@@ -138,8 +138,9 @@ def test_what_is_approved_runs_and_is_not_asked_about_again(
     dialog = asked(window, qtbot)
 
     qtbot.mouseClick(dialog.run_button, Qt.MouseButton.LeftButton)
+    qtbot.waitUntil(lambda: dialog_of(window) is None)
 
-    qtbot.waitUntil(trap.has_sprung)
+    qtbot.waitUntil(trap.has_sprung, timeout=60_000)
     window.running.stop()
     state_is(window, qtbot, "idle")
     press(window, qtbot, "run")
