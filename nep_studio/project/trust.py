@@ -22,7 +22,7 @@ from typing import Literal
 import msgspec
 
 from faults import Text, Words, text_of
-from nep_core.places import own_folder, whole_file
+from nep_core.places import own_folder, private_folder, whole_file
 from nep_studio.blocks.editor import Editor
 from nep_studio.blocks.edits import Edit
 from nep_studio.blocks.edits.content import SetField
@@ -200,7 +200,7 @@ class Approvals:
             self._unsaved |= dict.fromkeys(new)
             kept = [*self._keys, *(key for key in self._unsaved if key not in self._keys)]
             try:
-                self.path.parent.mkdir(parents=True, exist_ok=True, mode=0o700)
+                private_folder(self.path.parent)
                 with whole_file(self.path, is_private=True) as file:
                     file.write(msgspec.json.encode(kept[-MOST_KEPT:]))
             except OSError as error:
