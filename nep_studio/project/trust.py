@@ -10,9 +10,7 @@ from __future__ import annotations
 import hashlib
 import logging
 import os
-import re
 import threading
-import unicodedata
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 from functools import lru_cache
@@ -23,6 +21,7 @@ import msgspec
 
 from faults import Text, Words, text_of
 from nep_core.places import own_folder, private_folder, whole_file
+from nep_studio.blocks.code_text import python_slots
 from nep_studio.blocks.editor import Editor
 from nep_studio.blocks.edits import Edit
 from nep_studio.blocks.edits.content import SetField
@@ -64,39 +63,20 @@ def key_of(*parts: str) -> str:
 
 # Python that stands in fields.
 
-PYTHON_KINDS = frozenset(("lines", "line"))
-"""The kinds of fields that hold Python, in the blocks whose values are code."""
-PYTHON_CATEGORY, PYTHON_GENERATORS = "code", "code_"
-
 FOLDED = Text("inside folded blocks")
 OFF = Text("switched off")
 IN_NO_RULE = Text("in no rule: it does not run as it is")
 
 
-def python_slots(block: Block, language: Language) -> Iterator[str]:
-    """The keys of the fields of a block whose text is run as Python."""
-    definition = language.definitions.get(block.type)
-    if definition is None or PYTHON_KINDS.isdisjoint(definition.kinds):
-        return
-    is_code = definition.category.id == PYTHON_CATEGORY
-    if is_code or definition.generator.startswith(PYTHON_GENERATORS):
-        for key, slot in definition.keys(block.groups):
-            if slot.kind.name in PYTHON_KINDS:
-                yield key
-
-
 def python_texts(block: Block, language: Language) -> Iterator[tuple[str, str]]:
     """The Python in a block: each text, and its key; a new block's own is nothing to ask about."""
-    for slot in python_slots(block, language):
-        definition = language.definitions[block.type]
+    definition = language.definitions.get(block.type)
+    if definition is None or not definition.holds_python:
+        return
+    for slot in python_slots(definition, block.groups):
         text = str(definition.value(block, slot))
         if text.strip() and text != definition.defaults.get(slot):
-            yield text, key_of("python", text)
-
-
-def has_python(project: Project, language: Language, block_id: str) -> bool:
-    """Whether there is Python in a block, or in one that is inside it."""
-    return any(next(python_texts(one, language), None) for one in project.within([block_id]))
+            yield text, key_of("python", text.strip())  # as files are read
 
 
 def python_concerns(project: Project, language: Language) -> Iterator[Concern]:
@@ -128,33 +108,6 @@ def _noted(
         if block.collapsed and FOLDED not in notes:
             notes = (*notes, FOLDED)
         waiting += [(child, notes) for child in reversed(list(block.children()))]
-
-
-# Code as a person can trust their eyes with it.
-
-LONG_RUN = 12
-"""More spaces than these behind a word hide what comes after them."""
-_RUN = re.compile(rf"(?<=\S)[ \u00a0\u2000-\u200a\u3000]{{{LONG_RUN},}}")
-_DEEP = re.compile(r"(?m)^[ \t]{80,}")
-_UNSEEN = {"Cc", "Cf", "Cs", "Co", "Cn", "Zl", "Zp"}
-_PLAIN = frozenset("\n\t")
-
-
-def plainly(text: str) -> str:
-    """The text with signs for what cannot be seen: long gaps, controls, marks of direction."""
-    text = _RUN.sub(_gap, text)
-    text = _DEEP.sub(_gap, text)
-    return "".join(map(_seen, text))
-
-
-def _gap(found: re.Match[str]) -> str:
-    return f" ⟨{len(found[0])} ×\N{OPEN BOX}⟩ "  # noqa: RUF001 - read by people
-
-
-def _seen(letter: str) -> str:
-    if letter in _PLAIN or unicodedata.category(letter) not in _UNSEEN:
-        return letter
-    return f"⟨U+{ord(letter):04X}⟩"
 
 
 # What was approved on this computer.

@@ -18,6 +18,7 @@ from nep_core.errors import NepError
 from nep_core.places import node_folders
 from nep_core.processes.manifest import Manifest, NodeCatalog
 from nep_studio import paths
+from nep_studio.blocks.code_text import plainly
 from nep_studio.blocks.deployment import NODE_BLOCK, node_entries, robot_entries
 from nep_studio.blocks.errors import BlocksError
 from nep_studio.blocks.files import load
@@ -27,7 +28,6 @@ from nep_studio.project.trust import (
     Approvals,
     Concern,
     key_of,
-    plainly,
     python_concerns,
     python_texts,
     shared_approvals,

@@ -16,7 +16,8 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from nep_studio.project.trust import Concern, plainly
+from nep_studio.blocks.code_text import plainly
+from nep_studio.project.trust import Concern
 from nep_studio.ui.theme.icons import icon, icon_room
 from nep_studio.ui.theme.look import Look, code_font
 from nep_studio.ui.widgets.forms import fit_on_screen, styled

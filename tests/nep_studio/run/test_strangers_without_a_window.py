@@ -15,11 +15,12 @@ import pytest
 from nep_core.places import NODES_VARIABLE
 from nep_core.processes.process import program_command
 from nep_studio import paths
+from nep_studio.blocks.code_text import plainly
 from nep_studio.blocks.edits.content import SetComment, SetField
 from nep_studio.blocks.files import load
 from nep_studio.commands import run
 from nep_studio.commands.project import check, code
-from nep_studio.project.trust import Approvals, approvals_file, plainly
+from nep_studio.project.trust import Approvals, approvals_file
 from nep_studio.run.gate import Gate, NotApproved, concerns_of
 from nep_studio.run.installation import studio_language
 from nep_studio.run.local_network import LocalNetwork
@@ -151,7 +152,7 @@ def test_a_comment_does_not_ask_again_and_a_letter_of_python_does(make: Maker) -
 
     editor.apply(SetComment(python, "what a nice day"))
     assert asked() == 0
-    editor.apply(SetField(python, "code", make.python + " "))
+    editor.apply(SetField(python, "code", make.python + "#"))
     assert asked() == 1
 
 

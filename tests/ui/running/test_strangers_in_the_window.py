@@ -275,7 +275,7 @@ def test_a_letter_more_does_not_make_a_strangers_text_ones_own(
     editor, block = window.workbench.canvas.editor, python_block(window)
     text = editor.project.blocks[block].fields["code"]
 
-    editor.apply(SetField(block, "code", f"{text} "))
+    editor.apply(SetField(block, "code", f"{text}#"))
     press(window, qtbot, "run")
 
     asked(window, qtbot).reject()
@@ -316,7 +316,7 @@ def test_a_file_that_another_program_changed_is_asked_about(
     document = window.files.document
     document.save(own.file)
     text = own.file.read_text(encoding="utf-8")
-    own.file.write_text(text.replace("close()", "close() "), encoding="utf-8")
+    own.file.write_text(text.replace("close()", "close();"), encoding="utf-8")
     window.files.open(own.file)
     qtbot.waitUntil(lambda: window.files.document is not document)
 
