@@ -58,7 +58,10 @@ class TrustDialog(QDialog):
         self.texts: list[QPlainTextEdit] = []
         inner = QWidget()
         cards = [self._card(concern, line) for concern in concerns]
-        in_column(*cards, 1, of=inner, margins=(0, 0, line // 2, 0), spacing=line // 2)
+        again = styled(QLabel(wordWrap=True), role="hint")
+        again.setText(tr("You are asked once: again only when one of these has changed."))
+        rows = (about, *cards, again, 1)  # with large text there is no room beside the list
+        in_column(*rows, of=inner, margins=(0, 0, line // 2, 0), spacing=line // 2)
         self.list = QScrollArea(widgetResizable=True)
         self.list.setFrameShape(QFrame.Shape.NoFrame)
         self.list.setAccessibleName(
@@ -71,15 +74,13 @@ class TrustDialog(QDialog):
         self.refuse_button = QPushButton(tr("Not now"))
         self.run_button.clicked.connect(self.accept)
         self.refuse_button.clicked.connect(self.reject)
-        again = styled(QLabel(wordWrap=True), role="hint")
-        again.setText(tr("You are asked once: again only when one of these has changed."))
-        buttons = in_row((again, 1), self.run_button, self.refuse_button, spacing=line // 2)
-        in_column(
-            headline, about, (self.list, 1), buttons, of=self, margins=line, spacing=line // 2
-        )
+        buttons = in_row(1, self.run_button, self.refuse_button, spacing=line // 2)
+        in_column(headline, (self.list, 1), buttons, of=self, margins=line, spacing=line // 2)
         self.setAccessibleDescription(f"{headline.text()} {about.text()}")
         fit_on_screen(self, 44, 34 if len(concerns) > 1 else 26)
         self.refuse_button.setDefault(True)
+        wide = self.fontMetrics().horizontalAdvance(self.refuse_button.text())
+        self.refuse_button.setMinimumWidth(round(1.2 * wide) + 3 * line)  # its letters grow bold
         self.refuse_button.setFocus()
 
     def _card(self, concern: Concern, line: int) -> QWidget:
