@@ -60,8 +60,10 @@ class TrustDialog(QDialog):
         cards = [self._card(concern, line) for concern in concerns]
         again = styled(QLabel(wordWrap=True), role="hint")
         again.setText(tr("You are asked once: again only when one of these has changed."))
-        rows = (about, *cards, again, 1)  # with large text there is no room beside the list
-        in_column(*rows, of=inner, margins=(0, 0, line // 2, 0), spacing=line // 2)
+        # With large letters the words have no room beside the list: they scroll with it
+        in_column(
+            about, *cards, again, 1, of=inner, margins=(0, 0, line // 2, 0), spacing=line // 2
+        )
         self.list = QScrollArea(widgetResizable=True)
         self.list.setFrameShape(QFrame.Shape.NoFrame)
         self.list.setAccessibleName(
