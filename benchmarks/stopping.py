@@ -97,6 +97,7 @@ def _stop_s(folder: Path, action: str) -> tuple[float, int]:
     results = Results()
     network = LocalNetwork(logs=folder)
     network.listen(results)
+    network.gate.admit(file.read_text(encoding="utf-8"))  # it is our own
     with closing(network), Session([ROBOT], network, program=file, watching=Watching()) as session:
         results.first("started")
         time.sleep(0.5)  # it is in the middle of it

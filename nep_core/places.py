@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import os
 import sys
 import tempfile
@@ -73,3 +74,20 @@ def robot_folder(robot: str) -> Path:
     if told := os.environ.get(ROBOT_FILES_VARIABLE):
         return Path(told) / robot
     return own_folder("data") / "robots" / robot
+
+
+def private_folder(folder: Path) -> Path:
+    """Make a folder, unless it is there, that only this user can look into; raises OSError.
+
+    On Windows the folders of a user are theirs alone as they are, and modes say nothing.
+    """
+    folder.mkdir(parents=True, exist_ok=True, mode=0o700)
+    if os.name == "posix" and folder.stat().st_mode & 0o077:
+        with contextlib.suppress(PermissionError):  # it is somebody else's: then it stays so
+            folder.chmod(0o700)
+    return folder
+
+
+def opened_privately(name: str, flags: int) -> int:
+    """An ``opener`` for files that others have no business to read."""
+    return os.open(name, flags, 0o600)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import hashlib
 import math
 import os
@@ -13,7 +14,7 @@ from typing import Generic, Literal, TypeVar, cast
 
 from PySide6.QtCore import QByteArray, QLocale, QSettings, QStandardPaths
 
-from nep_core.places import log_folder, portable_folder
+from nep_core.places import log_folder, portable_folder, private_folder
 
 from .support.portable import kept_name, not_kept, path_of
 
@@ -93,7 +94,11 @@ class SettingsFile:
     """The file in a folder in which values are kept by name."""
 
     def __init__(self, folder: Path) -> None:
-        self.values = QSettings(str(folder / "settings.ini"), QSettings.Format.IniFormat)
+        file = folder / "settings.ini"
+        with contextlib.suppress(OSError):  # Qt keeps the mode of a file that is there
+            private_folder(folder)
+            os.close(os.open(file, os.O_WRONLY | os.O_CREAT, 0o600))
+        self.values = QSettings(str(file), QSettings.Format.IniFormat)
 
     def value(self, name: str, usual: object) -> object:
         """What the file has under a name; ``usual`` where it has nothing that Python knows."""

@@ -75,6 +75,20 @@ def robots_keep_files_elsewhere(tmp_path_factory: pytest.TempPathFactory) -> Ite
         yield
 
 
+@pytest.fixture(autouse=True)
+def projects_are_ours(request: pytest.FixtureRequest) -> Iterator[None]:
+    """The projects of tests are approved; those of a test marked ``strangers`` are not."""
+    if request.node.get_closest_marker("strangers"):
+        yield
+        return
+    from nep_studio.run.gate import Gate
+
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(Gate, "check_program", lambda *_: None)
+        patch.setattr(Gate, "_is_known", lambda *_: True)
+        yield
+
+
 @pytest.fixture
 def master(monkeypatch: pytest.MonkeyPatch) -> Iterator[Master]:
     """A running NEP Master, which this test and its child processes find."""

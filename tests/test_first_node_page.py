@@ -29,7 +29,7 @@ FENCE = re.compile(
     r"(?:^`(?P<file>[\w/.]+)`:\n\n)?^```(?P<language>\w+)\n(?P<text>.*?)^```$", re.M | re.S
 )
 RECORD, ECHO = "nep record letters.mcap /letterbox", "nep echo /human_behavior --count 1"
-PROGRAM = "nep-studio run letters.nep"
+PROGRAM = "nep-studio run letters.nep --trust"
 GOES_ON = {
     "nep master": "The NEP master serves",
     "nep launch sensory letterbox": "letterbox is ready",

@@ -23,7 +23,7 @@ from nep_core.errors import NepError
 from nep_core.places import log_folder
 from nep_core.processes.handover import hand_over
 
-from .console import near
+from .console import near, only_visible
 
 COMMANDS = {
     "master": ("services", "run the NEP Master, the name server of the network"),
@@ -84,7 +84,8 @@ def main(arguments: list[str] | None = None) -> int:
             stream.reconfigure(encoding="utf-8", errors=errors)
     try:
         try:
-            return _main(arguments)
+            with only_visible():
+                return _main(arguments)
         finally:
             sys.stdout.flush()
     except BrokenPipeError:  # the reader has seen enough, as in `nep echo /imu | head -1`

@@ -5,14 +5,16 @@ from __future__ import annotations
 import _thread
 import argparse
 import difflib
+import io
 import math
 import os
 import signal
 import sys
 import threading
+import unicodedata
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import contextmanager
-from typing import Any
+from typing import Any, TextIO
 
 import msgspec
 
@@ -125,6 +127,71 @@ def add_times(parser: argparse.ArgumentParser, verb: str) -> None:
 
 SHOWN_BYTES = 32
 
+_STEERS = frozenset(("Cc", "Cf", "Cs", "Zl", "Zp"))
+"""Categories of Unicode that a terminal obeys, or that turn what stands behind them around."""
+_JOINS = frozenset("\u200c\u200d\u00ad")
+_OF_OURS = frozenset("\n\t")
+
+
+def visible(text: str, *, but: frozenset[str] = frozenset()) -> str:
+    """A text of others with its control characters written out, as in JSON: \\u001b."""
+    if text.isascii() and text.isprintable():
+        return text
+    return "".join(
+        f"\\u{ord(letter):04x}" if letter not in but and _steers(letter) else letter
+        for letter in text
+    )
+
+
+def _steers(letter: str) -> bool:
+    return unicodedata.category(letter) in _STEERS and letter not in _JOINS
+
+
+class Visible(io.TextIOBase):
+    """A stream to a terminal on which nothing that others sent steers it, whoever prints it.
+
+    Only our own ends of lines and tabs pass; what stands in a line of ours goes through ``visible``
+    before, so that nobody forges lines.
+    """
+
+    def __init__(self, stream: TextIO) -> None:
+        self.stream = stream
+
+    def write(self, text: str) -> int:
+        """Write a text without what steers."""
+        self.stream.write(visible(text, but=_OF_OURS))
+        return len(text)
+
+    def __getattr__(self, name: str) -> Any:
+        return getattr(self.stream, name)
+
+    def flush(self) -> None:
+        """Write what waits."""
+        self.stream.flush()
+
+    def fileno(self) -> int:
+        """The number of the file."""
+        return self.stream.fileno()
+
+    def isatty(self) -> bool:
+        """Whether somebody reads along."""
+        return self.stream.isatty()
+
+    def writable(self) -> bool:
+        """It is there to be written to."""
+        return True
+
+
+@contextmanager
+def only_visible() -> Iterator[None]:
+    """Whatever is printed meanwhile cannot steer the terminal."""
+    before = sys.stdout, sys.stderr
+    sys.stdout, sys.stderr = Visible(sys.stdout), Visible(sys.stderr)
+    try:
+        yield
+    finally:
+        sys.stdout, sys.stderr = before
+
 
 def say(text: str) -> None:
     """One line for the reader, at once, also into a pipe; raises NepError."""
@@ -153,6 +220,7 @@ def say_json(value: object) -> None:
 
 def table(head: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
     """Columns side by side under their names."""
+    rows = [[visible(cell) for cell in row] for row in rows]
     widths = [max(map(len, column)) for column in zip(head, *rows, strict=True)]
     lines = [
         "   ".join(cell.ljust(width) for cell, width in zip(row, widths, strict=True)).rstrip()
@@ -175,7 +243,7 @@ def value_of(message: RawMessage) -> Any:
 def value_text(value: Any, *, pretty: bool = False) -> str:
     """A value as a person reads it: text as it is, bytes as numbers, all else as JSON."""
     if isinstance(value, str):
-        return value
+        return visible(value)
     if isinstance(value, bytes):
         start = value[:SHOWN_BYTES].hex(" ")
         return f"{len(value)} bytes: {start}{' ...' if len(value) > SHOWN_BYTES else ''}"

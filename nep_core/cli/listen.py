@@ -31,6 +31,7 @@ from .console import (
     say_json,
     value_of,
     value_text,
+    visible,
 )
 
 WINDOW_S = 10.0
@@ -122,7 +123,7 @@ def _line(message: RawMessage, options: argparse.Namespace) -> str:
     head = ""
     if options.times:
         sent = datetime.fromtimestamp(message.sent_ns / 1e9)
-        head = f"{sent:%H:%M:%S.%f}"[:-3] + f" {message.node}  "
+        head = f"{sent:%H:%M:%S.%f}"[:-3] + f" {visible(message.node)}  "
     return head + value_text(value, pretty=options.pretty)
 
 

@@ -96,7 +96,8 @@ def main(arguments: list[str]) -> int:
         else:
             manifest = NodeCatalog(node_folders()).find(options.node)
         name = check_node_name(options.name or manifest.name)
-        return run_node(manifest, name, settings(options.settings))
+        given = settings(options.settings) | handover.take_secrets()
+        return run_node(manifest, name, given)
     except NepError as error:
         handover.hand_over(error.fault)
         print(explain(error), file=sys.stderr)

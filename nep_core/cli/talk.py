@@ -24,7 +24,7 @@ from nep_core.processes.process import Outcome
 from nep_core.wire.messages import BY_TOPIC, NODE_STATE, NodeState
 from nep_core.wire.pubsub import Publisher, Subscriber
 
-from .console import count, end_undisturbed, join, many, number, remark, say, seconds
+from .console import count, end_undisturbed, join, many, number, remark, say, seconds, visible
 
 FIRST_SUBSCRIBER_S = 0.5
 FROM_INPUT = "-"
@@ -195,6 +195,6 @@ def _found(launcher: Launcher, options: argparse.Namespace) -> Manifest:
 def _tell_state(name: str, state: NodeState) -> None:
     """Show a state of the node ``name``."""
     if state.node == name and state.event not in TOLD_OTHERWISE:
-        told = str(state.fault)
+        told = visible(str(state.fault))
         about = f": {told}" if told else ""
-        say(f"{state.node} is {state.event.replace('_', ' ')}{about}")
+        say(f"{visible(state.node)} is {state.event.replace('_', ' ')}{about}")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import unicodedata
 from dataclasses import dataclass
 from typing import Annotated, TypeVar
 
@@ -53,10 +54,20 @@ def check_registration(told: Registration) -> None:
     """Raise NetworkError when others could not use what a program tells of itself."""
     if not told.instance or not told.node:
         raise NetworkError("A registration names its instance and its node.")
+    if any(map(has_controls, (told.node, told.host, *told.publishes, *told.subscribes.values()))):
+        raise NetworkError("Names are written without control characters.")
     if told.endpoint or told.publishes:
         fixed_endpoint(told.endpoint)
     for topic in (*told.publishes, *told.subscribes.values()):
         check_topic(topic)
+
+
+def has_controls(name: str) -> bool:
+    """Whether there is something in a name that a terminal obeys, or that forges a line."""
+    return any(unicodedata.category(letter) in _CONTROLS for letter in name)
+
+
+_CONTROLS = frozenset(("Cc", "Cs", "Zl", "Zp"))
 
 
 @dataclass

@@ -10,6 +10,7 @@ from __future__ import annotations
 import contextlib
 import logging
 import os
+from collections.abc import Mapping
 from pathlib import Path
 
 import msgspec
@@ -19,10 +20,31 @@ from nep_core.wire.frames import CANNOT_DECODE
 
 log = logging.getLogger(__name__)
 
+SECRETS_VARIABLE = "NEP_SECRET_SETTINGS"
+"""In the environment of a launched node: its settings that are ``secret``, as a JSON object.
+
+Everybody on a computer sees the words of a command; its environment only who started it.
+"""
+
 VARIABLE = "NEP_FAULT_FILE"
 """In the environment of a launched process: where it may write why it would not go on."""
 
 MOST_BYTES = 100_000
+
+
+def secrets_in(settings: Mapping[str, str]) -> dict[str, str]:
+    """The environment that hands these settings to a node; nothing for none."""
+    if not settings:
+        return {}
+    return {SECRETS_VARIABLE: msgspec.json.encode(dict(settings)).decode()}
+
+
+def take_secrets() -> dict[str, str]:
+    """The settings that were handed over so; what this process starts does not get them."""
+    try:
+        return msgspec.json.decode(os.environ.pop(SECRETS_VARIABLE, "{}"), type=dict[str, str])
+    except msgspec.MsgspecError:
+        return {}
 
 
 def hand_over(fault: Fault) -> None:

@@ -25,6 +25,7 @@ from nep_core.places import log_folder, node_folders
 from nep_core.wire.messages import NODE_STATE, NodeState, described
 from nep_core.wire.pubsub import Publisher, Subscriber
 
+from . import handover
 from .guard import GUARD
 from .manifest import READY_S, STOP_S, Manifest, NodeCatalog, Restart, Value
 from .node import check_node_name
@@ -59,6 +60,8 @@ class LaunchedNode:
     said_end: threading.Event = field(default_factory=threading.Event)
     end_reported: threading.Event = field(default_factory=threading.Event)
     """Set when whoever wants to know has been told of its end."""
+    environment: dict[str, str] = field(default_factory=dict, repr=False)
+    """What it is told beside what all are: its secrets."""
 
     @property
     def pid(self) -> int:
@@ -194,10 +197,12 @@ class Launcher(Closing):
         manifest = self.catalog.find(node)
         name = name or manifest.name
         words = {True: "true", False: "false"}  # that every language reads, as Python's are not
-        settings = [
-            f"{key}={words[value] if isinstance(value, bool) else value}"
+        read = {
+            key: words[value] if isinstance(value, bool) else f"{value}"
             for key, value in manifest.read_parameters(dict(parameters or {})).items()
-        ]
+        }
+        secret = {key: read.pop(key) for key in [*read] if manifest.parameters[key].secret}
+        settings = [f"{key}={value}" for key, value in read.items()]
         if manifest.command:
             folder = Path(manifest.path).parent
             command = [part.replace("{folder}", str(folder)) for part in manifest.command]
@@ -207,7 +212,9 @@ class Launcher(Closing):
                 command = program_command(GUARD, *command)
         else:
             command = program_command("node", manifest.path, f"--name={name}", *settings)
-        return self._launch(LaunchedNode(name, manifest, command, restart or manifest.restart))
+        launched = LaunchedNode(name, manifest, command, restart=restart or manifest.restart)
+        launched.environment = handover.secrets_in({key: one for key, one in secret.items() if one})
+        return self._launch(launched)
 
     def start_command(self, name: str, command: list[str]) -> LaunchedNode:
         """Start and supervise a program that has no manifest, such as the master."""
@@ -267,7 +274,12 @@ class Launcher(Closing):
         launched.process = ChildProcess(
             launched.name,
             launched.command,
-            environment={**os.environ, **SETTINGS, MASTER_VARIABLE: self.master},
+            environment={
+                **os.environ,
+                **SETTINGS,
+                MASTER_VARIABLE: self.master,
+                **launched.environment,
+            },
             log_file=self.logs / log_file_name(launched.name),
             goes_on=launched.restarts > 0,
             on_end=partial(self._ended, launched),

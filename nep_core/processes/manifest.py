@@ -40,7 +40,11 @@ _EXAMPLES: dict[str, str] = {
 
 
 class Parameter(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
-    """One setting of a node."""
+    """One setting of a node.
+
+    ``reach``: what it lets the node reach that is not this program: other computers, or files. A
+    setting that is ``secret`` is handed to the node where nobody else reads it.
+    """
 
     type: ParameterType
     default: Value | None = None
@@ -49,6 +53,8 @@ class Parameter(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
     choices: list[str] = []
     minimum: float | None = None
     maximum: float | None = None
+    reach: Literal["", "network", "file"] = ""
+    secret: bool = False
 
     def read(self, name: str, value: object) -> Value:
         """``value`` (perhaps text, from a command line) as this type; raises ParameterError."""

@@ -14,6 +14,7 @@ from io import FileIO
 from pathlib import Path
 
 from nep_core.closing import Closing
+from nep_core.places import opened_privately
 
 log = logging.getLogger(__name__)
 
@@ -42,7 +43,7 @@ class NodeLog(Closing):
         self._left_bytes = 0
         self._file: FileIO | None = None
         try:
-            path.parent.mkdir(parents=True, exist_ok=True)
+            path.parent.mkdir(parents=True, exist_ok=True, mode=0o700)
             self._begin(goes_on=goes_on)
         except OSError as error:
             self._give_up(error)
@@ -78,7 +79,8 @@ class NodeLog(Closing):
                 with suppress(OSError):
                     younger.replace(self._path.with_suffix(f".{number}.log"))
         # without a buffer, which would fail again in close()
-        self._file = self._path.open("ab" if goes_on else "wb", buffering=0)
+        mode = "a" if goes_on else "w"
+        self._file = FileIO(self._path, mode, opener=opened_privately)
         self._left_bytes = LOG_BYTES - (size if goes_on else 0)
 
     def _give_up(self, error: OSError) -> None:

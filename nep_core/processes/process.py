@@ -341,7 +341,8 @@ def program_command(*words: str) -> list[str]:
     """The command that starts this program for another job, from source or frozen."""
     if getattr(sys, "frozen", False):
         return [sys.executable, *words]
-    return [sys.executable, "-m", "nep_studio", *words]
+    # -P: the folder that we are started in may be a stranger's, with a file called like a library
+    return [sys.executable, "-P", "-m", "nep_studio", *words]
 
 
 # A Windows job: a process and all that it starts, which end when the launcher's handle closes.

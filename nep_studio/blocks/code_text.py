@@ -3,15 +3,19 @@
 from __future__ import annotations
 
 import ast
+import re
+import unicodedata
 import warnings
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from functools import lru_cache
 from types import CodeType
 
 from faults import Text, Words, text_of
 
+from .definitions import PYTHON_KINDS, Definition
 from .errors import BlocksError
+from .program import Block, Project
 
 _GENERATOR_FLAGS = 0x20 | 0x80 | 0x200
 """Of a code object: it is a generator, a coroutine, or both."""
@@ -182,3 +186,62 @@ def _in_line(sentence: Text, line: int) -> Text:
     if line == 1:
         return sentence
     return text_of("Line {line}: {sentence}", line=line, sentence=sentence)
+
+
+# Where Python stands in blocks.
+
+
+def python_slots(definition: Definition, groups: Mapping[str, int]) -> Iterator[str]:
+    """The keys of the fields of a block whose text is run as Python; none of most blocks."""
+    if definition.holds_python:
+        for key, slot in definition.keys(groups):
+            if slot.kind.name in PYTHON_KINDS:
+                yield key
+
+
+def hides_python(project: Project, definitions: Mapping[str, Definition], block: Block) -> bool:
+    """Whether there is Python in the blocks inside a folded one, or in itself."""
+    found = (definitions.get(one.type) for one in project.within([block.id]))
+    return any(definition is not None and definition.holds_python for definition in found)
+
+
+def trim_python(block: Block, definition: Definition) -> None:
+    """Take away what is around the Python in a block that was read from a file: it does nothing."""
+    for key in python_slots(definition, block.groups):
+        if isinstance(text := block.fields.get(key), str):
+            block.fields[key] = _BLANK_LINES.sub("", text.rstrip())
+            if "\n" not in text.strip():
+                block.fields[key] = text.strip()
+
+
+_BLANK_LINES = re.compile(r"\A(?:[ \t]*\n)+")
+
+
+# Code as a person can trust their eyes with it.
+
+LONG_RUN = 12
+"""More spaces than these behind a word hide what comes after them."""
+_RUN = re.compile(rf"(?<=\S)[ \u00a0\u2000-\u200a\u3000]{{{LONG_RUN},}}")
+_DEEP = re.compile(r"(?m)^[ \t]{80,}")
+_UNSEEN = frozenset(("Cc", "Cf", "Cs", "Co", "Cn", "Zl", "Zp"))
+_PLAIN = frozenset("\n\t\u200c\u200d")
+"""Ends of lines, tabs, and what Persian words and many emoji need."""
+
+
+def plainly(text: str) -> str:
+    """The text with signs for what cannot be seen: long gaps, controls, marks of direction."""
+    if "   " not in text and text.isprintable():
+        return text  # as nearly all are
+    text = _RUN.sub(_gap, text)
+    text = _DEEP.sub(_gap, text)
+    return "".join(map(_seen, text))
+
+
+def _gap(found: re.Match[str]) -> str:
+    return f" ⟨{len(found[0])} \N{OPEN BOX}⟩ "
+
+
+def _seen(letter: str) -> str:
+    if letter in _PLAIN or unicodedata.category(letter) not in _UNSEEN:
+        return letter
+    return f"⟨U+{ord(letter):04X}⟩"

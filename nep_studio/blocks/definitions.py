@@ -22,6 +22,9 @@ from faults import Text, text_of
 from .program import Block, split_slot
 from .slots import KINDS, FieldValue, Kind, why_not_between
 
+PYTHON_KINDS = frozenset(("lines", "line"))
+"""The kinds of fields that hold Python, in the blocks whose values are code."""
+
 MOST_REPEATS = 20
 
 _TOKEN = re.compile(
@@ -334,6 +337,8 @@ class Definition:
     """Whether the block is plugged into inputs rather than put in chains."""
     is_last: bool = field(init=False)
     """Whether nothing may follow the block in its chain."""
+    holds_python: bool = field(init=False)
+    """Whether what stands in its fields of several letters is run as Python."""
 
     def __post_init__(self) -> None:
         # asked for at every edit, and the same for ever
@@ -341,6 +346,8 @@ class Definition:
         object.__setattr__(self, "kinds", kinds)
         object.__setattr__(self, "page", self.category.page)
         object.__setattr__(self, "is_value", self.shape in ("reporter", "boolean"))
+        is_code = self.category.id == "code" or self.generator.startswith("code_")
+        object.__setattr__(self, "holds_python", is_code and not PYTHON_KINDS.isdisjoint(kinds))
         object.__setattr__(self, "is_last", self.shape == "cap" or "last" in self.flags)
 
     @property

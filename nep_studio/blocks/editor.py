@@ -60,6 +60,8 @@ class History:
         """Each with whether it only wants to hear of the whole."""
         self._applied: list[Edit] = []
         self._recorders: list[Recorder] = []
+        self.is_own = False
+        """Whether what is made now is the person's own, or ours: see ``as_own``."""
         self.position = 0
         """The number of the step that undo would take back: tells whether a program is saved."""
         self.undo_label: Words = ""
@@ -85,6 +87,18 @@ class History:
     def unrecord(self, recorder: Recorder) -> None:
         """Call ``recorder`` no more."""
         self._recorders.remove(recorder)
+
+    @contextmanager
+    def as_own(self) -> Iterator[None]:
+        """All blocks that are made meanwhile are written by the person, or by us; nothing came in.
+
+        Whole blocks count otherwise as somebody else's, with all that is in their fields.
+        """
+        before, self.is_own = self.is_own, True
+        try:
+            yield
+        finally:
+            self.is_own = before
 
     @contextmanager
     def transaction(self, label: Words) -> Iterator[Step]:

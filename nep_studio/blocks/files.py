@@ -15,6 +15,7 @@ import msgspec
 from faults import Text, reason_of
 from faults.files import put_in_place
 
+from .code_text import trim_python
 from .edit_rules import (
     MOST_NOTES,
     MOST_PAGES,
@@ -277,6 +278,8 @@ def _read_block(project: Project, entry: dict[str, Any], language: Language) -> 
         block.bodies = {slot: chain for slot, chain in block.bodies.items() if chain}
     if definition is not None and definition.minimum:
         block.groups = {**definition.minimum, **block.groups}
+    if definition is not None and definition.holds_python:
+        trim_python(block, definition)
     project.blocks[block_id] = block
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from .code_text import plainly
 from .definitions import Definition, Group, Part, Slot
 from .language import Language
 from .program import ALL_ROBOTS, Block, Project
@@ -16,7 +17,7 @@ _EMPTY = "…"
 
 def sentence(project: Project, language: Language, block_id: str) -> str:
     """What a block says, as "NAO says Impressive! with no gesture"; what is too long is cut."""
-    text = _sentence(project, language.of(project), project.blocks[block_id], 0)
+    text = plainly(_sentence(project, language.of(project), project.blocks[block_id], 0))
     return text if len(text) <= LONGEST else text[: LONGEST - 1] + "…"
 
 

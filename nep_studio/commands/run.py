@@ -27,17 +27,20 @@ from nep_studio.blocks.errors import BlocksError
 from nep_studio.blocks.language import Language
 from nep_studio.blocks.program import Project
 from nep_studio.problems import Problem, on_one_line
+from nep_studio.project.trust import Concern
 from nep_studio.run.controller import (
     PREPARING,
     Begun,
     Checked,
     Ended,
     Event,
+    NeedsApproval,
     Refused,
     RunController,
     StateChanged,
     Subject,
 )
+from nep_studio.run.gate import NotApproved, concerns_of, listing
 from nep_studio.run.local_network import LocalNetwork
 from nep_studio.run.plan import Choices, PlannedNode
 from nep_studio.run.session import Ending
@@ -95,12 +98,17 @@ class Printer:
 
 
 FAILED = 1
+NOT_APPROVED = 3
+"""The exit code where a project brings what nobody has approved."""
 LOOK_S = 0.2
 """How long Python may wait at once: a signal can miss a wait that is just beginning."""
 
 
 def main(arguments: list[str]) -> int:
-    """Play a project; 0 when it ended well, 1 when it failed, 2 when it cannot be used."""
+    """Play a project; 0 when it ended well, 1 when it failed, 2 when it cannot be used.
+
+    3 when it brings what is not blocks, and nobody has approved that.
+    """
     options = _parser().parse_args(arguments)
     logging.basicConfig(level=logging.ERROR, format="%(message)s")
     try:
@@ -111,7 +119,10 @@ def main(arguments: list[str]) -> int:
         explain(error)
         return UNUSABLE
     subject = Subject(project, language, Path(options.file).resolve().parent, choices)
-    return _Play(subject, Printer(language, as_json=options.json), options.seconds).play()
+    play = _Play(subject, Printer(language, as_json=options.json), options.seconds)
+    if options.trust:
+        play.trust()
+    return play.play()
 
 
 class _Play:
@@ -128,6 +139,12 @@ class _Play:
         self._exit_code = 0
         self._problem: Problem | None = None
 
+    def trust(self) -> None:
+        """Let all run that the project brings now, this once."""
+        project, language = self._subject.project, self._subject.language
+        found = concerns_of(project, language, self._subject.folder)
+        self._network.gate.vouch(concern.key for concern in found)
+
     def play(self) -> int:
         """Play until the end or Ctrl-C; the exit code. Raises OSError when nobody reads."""
         for number in STOP_SIGNALS:
@@ -142,7 +159,7 @@ class _Play:
         finally:
             self._controller.close()
             self._network.close()
-        if self._exit_code != UNUSABLE:
+        if self._exit_code not in (UNUSABLE, NOT_APPROVED):
             self._printer.end()
         if self._problem is not None:
             print(self._problem, file=sys.stderr)
@@ -155,6 +172,8 @@ class _Play:
             case Refused(error):
                 explain(error)
                 self._exit_code = UNUSABLE
+            case NeedsApproval(concerns=concerns):
+                self._ask_for(concerns)
             case Begun(request):
                 self._printer.title(self._subject.project, request.nodes)
             case StateChanged("running"):
@@ -169,6 +188,14 @@ class _Play:
             if problem.severity == "error":
                 print(describe(problem, project, language), file=sys.stderr)
         self._exit_code = UNUSABLE
+
+    def _ask_for(self, concerns: list[Concern]) -> None:
+        """List what nobody has approved: all of it, for it is to be read before --trust."""
+        print(f"Not started. {NotApproved(concerns)}", file=sys.stderr)
+        for line in listing(concerns):
+            print(on_one_line(line).rstrip(), file=sys.stderr)
+        print("If you trust who made it, start it with --trust.", file=sys.stderr)
+        self._exit_code = NOT_APPROVED
 
     def _on_running(self) -> None:
         if self._network.shared_master:
@@ -242,6 +269,12 @@ def _parser() -> argparse.ArgumentParser:
         "--json",
         action="store_true",
         help="print each message as one JSON object a line: its topic, then its own keys",
+    )
+    parser.add_argument(
+        "--trust",
+        action="store_true",
+        help="run its Python, its own nodes, and what uses the network, though nobody has "
+        "approved them in the window; without it they are listed, and the exit code is 3",
     )
     parser.add_argument(
         "--robot",

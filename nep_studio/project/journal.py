@@ -23,6 +23,7 @@ from pathlib import Path
 import msgspec
 
 from faults.files import whole_file
+from nep_core.places import opened_privately, private_folder
 from nep_studio.blocks.editor import Editor
 from nep_studio.blocks.edits import ANY_EDIT, Edit
 from nep_studio.blocks.errors import BlocksError
@@ -83,7 +84,8 @@ class Journal:
         """Whether something is missing on the disk, so that only a new beginning helps."""
         self.error = ""
         self.folder = folder / f"{time.time_ns()}-{os.getpid()}"
-        self.folder.mkdir(parents=True)
+        private_folder(folder)
+        self.folder.mkdir(mode=0o700)
         self._lock = FileLock(self.folder / "lock")
         self._lock.take()
         self._snapshot()
@@ -137,13 +139,12 @@ class Journal:
         """Begin a new file of edits from the project as it is; only then the old ones go."""
         number = self._number + 1
         try:
-            with whole_file(self.folder / f"{number}.nep") as whole:
+            with whole_file(self.folder / f"{number}.nep", is_private=True) as whole:
                 whole.write(to_bytes(self._editor.project))
             edits = self.folder / f"{number}.edits"
-            file = os.open(
-                edits, os.O_WRONLY | os.O_CREAT | os.O_APPEND | getattr(os, "O_BINARY", 0)
-            )
-            with whole_file(self.folder / "about.json") as whole:
+            flags = os.O_WRONLY | os.O_CREAT | os.O_APPEND | getattr(os, "O_BINARY", 0)
+            file = opened_privately(str(edits), flags)
+            with whole_file(self.folder / "about.json", is_private=True) as whole:
                 whole.write(msgspec.json.encode(self._about))
         except OSError as error:
             self._fail(error)

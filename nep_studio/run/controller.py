@@ -31,7 +31,9 @@ from nep_studio.blocks.program import Changes, Project
 from nep_studio.blocks.slices import Sliced
 from nep_studio.problems import Problem, problem_of
 from nep_studio.project import surroundings, triggers
+from nep_studio.project.trust import Concern
 
+from .gate import concerns_of
 from .installation import problem_steps
 from .local_network import LocalNetwork
 from .plan import Choices, PlannedNode, plan
@@ -111,6 +113,18 @@ class Refused:
 
 
 @dataclass(frozen=True)
+class NeedsApproval:
+    """The program brings what is not blocks, of which nobody has approved these parts yet.
+
+    Once somebody has, ``begin`` takes the subject and the request as they are.
+    """
+
+    concerns: list[Concern]
+    subject: Subject
+    request: Request
+
+
+@dataclass(frozen=True)
 class Begun:
     """A program is about to start."""
 
@@ -136,7 +150,7 @@ class Ended:
     runs_again: bool
 
 
-Event = StateChanged | Checked | Refused | Begun | BecameStale | Ended
+Event = StateChanged | Checked | Refused | NeedsApproval | Begun | BecameStale | Ended
 
 
 class RunController:
@@ -191,7 +205,7 @@ class RunController:
                 self._generate(subject, is_shown=True)
             else:
                 try:
-                    self.start(Request(subject.code, tuple(subject.nodes())))
+                    self.begin(subject, Request(subject.code, tuple(subject.nodes())))
                 except (BlocksError, NepError) as error:
                     self._tell(Refused(error, is_shown=True))
 
@@ -226,8 +240,9 @@ class RunController:
                 assert self._prepared is not None
                 nodes = tuple(self._prepared.nodes())
                 request = Request(self._code.result, nodes, self._is_shown)
-                self._prepared = self._code = None
-                self.start(request)
+                subject, self._prepared, self._code = self._prepared, None, None
+                if not self.begin(subject, request):
+                    self._set_state("idle")
         except (BlocksError, NepError) as error:
             self._give_up()
             self._tell(Refused(error, self._is_shown))
@@ -271,8 +286,23 @@ class RunController:
 
     # From the start to the end
 
+    def begin(self, subject: Subject, request: Request) -> bool:
+        """Start what was made of a project, if a person knows all that it brings.
+
+        What the choices add to the project, such as the address of a robot, a person has said.
+        """
+        gate = self._network.gate
+        left = gate.unapproved(concerns_of(subject.project, subject.language, subject.folder))
+        if left:
+            self._tell(NeedsApproval(left, subject, request))
+            return False
+        gate.vouch_for(*request.nodes)
+        gate.admit(request.code.text)
+        self.start(request)
+        return True
+
     def start(self, request: Request) -> None:
-        """Start a program that is ready; Ended tells how it went."""
+        """Start a program that is ready, and has passed the gate; Ended tells how it went."""
         if self._session is not None or self._is_closed:
             return
         self.request = request

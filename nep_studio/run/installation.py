@@ -31,6 +31,8 @@ from nep_studio.blocks.own_gestures import trained_gestures
 from nep_studio.blocks.program import Project
 from nep_studio.blocks.slices import Steps, at_once
 
+from .plan import check_for_pages, is_elsewhere
+
 log = logging.getLogger(__name__)
 
 RESERVED_NAMES = ("master", "studio", "program", "recording")
@@ -99,13 +101,24 @@ class KnownProblems:
 def _names_file(entry: NodeEntry, folder: Path) -> bool:
     """Whether a setting is a file: that may be gone the next time."""
     texts = (value for value in entry.parameters.values() if isinstance(value, str) and value)
-    return any((folder / text).exists() or Path(text).exists() for text in texts)
+    return any(_is_there(folder, text) for text in texts)
+
+
+def _is_there(folder: Path, text: str) -> bool:
+    """Whether there is such a file; nobody looks for one on another computer."""
+    if is_elsewhere(text):
+        return False
+    try:
+        return (folder / text).exists() or Path(text).exists()
+    except (OSError, ValueError):
+        return False
 
 
 def _node(
     entry: NodeEntry, catalog: NodeCatalog, gestures: Collection[str], folder: Path
 ) -> Iterator[Diagnostic]:
     try:
+        check_for_pages(entry.node, entry.name)
         manifest = catalog.find(entry.node)
         settings = manifest.read_parameters(dict(entry.parameters))
     except NepError as error:
@@ -114,7 +127,7 @@ def _node(
     for name, value in settings.items():
         if manifest.parameters[name].type != "file" or not isinstance(value, str) or not value:
             continue
-        if not (folder / value).exists() and not Path(value).exists():
+        if not _is_there(folder, value):
             yield _wrong(
                 entry,
                 text_of("There is no file {value} ({name}).", value=value, name=name),

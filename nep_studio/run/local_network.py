@@ -36,6 +36,7 @@ from nep_core.processes.process import ON_WINDOWS, Outcome, program_command
 from nep_core.wire import messages as m
 from nep_core.wire.pubsub import Publisher, Subscriber
 
+from .gate import Gate
 from .plan import PlannedNode
 
 # The master of a session: one that is there for all programs, or one that it starts for itself.
@@ -159,11 +160,14 @@ class LocalNetwork:
     """A master, this program's place in its network, and the nodes it started; any thread.
 
     ``open`` raises NepError when the master cannot start; ``close`` stops all nodes, then the
-    master. Closed, it can be opened again.
+    master. Closed, it can be opened again. What it starts has passed its ``gate``.
     """
 
-    def __init__(self, *, logs: Path | None = None, master: str | None = None) -> None:
+    def __init__(
+        self, *, logs: Path | None = None, master: str | None = None, gate: Gate | None = None
+    ) -> None:
         self.logs = logs or log_folder()
+        self.gate = gate or Gate()
         self.network: Network | None = None
         self.voice: Voice | None = None
         self.planned: dict[str, PlannedNode] = {}
@@ -305,8 +309,11 @@ class LocalNetwork:
     def start(self, nodes: Iterable[PlannedNode]) -> list[LaunchedNode]:
         """Start those of the nodes that do not run yet as they are wanted; all of them, launched.
 
-        Does not wait until they are ready; raises NepError.
+        Does not wait until they are ready; raises NepError, and NotApproved before any starts.
         """
+        nodes = list(nodes)
+        for one in nodes:
+            self.gate.check_node(one)
         with self._opening:
             if self.network is None:
                 raise NodeStartError("The network is closed.", checklist=("Start it again.",))

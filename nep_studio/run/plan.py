@@ -4,8 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
-from pathlib import Path
+from pathlib import Path, PureWindowsPath
 
+from nep_core.errors import NepError, NodeError
+from nep_core.places import node_folders
+from nep_core.processes.manifest import NodeCatalog
 from nep_studio.blocks.deployment import (
     NodeEntry,
     RobotEntry,
@@ -29,6 +32,8 @@ from nep_studio.project.kept_files import (
 
 VIRTUAL_WATCH = "sensory/virtual_watch"
 REPLAY = "sensory/replay"
+PROGRAM_NODE = "cognitive/program"
+"""The node that runs a Python file; every session has one, and no page can have another."""
 GESTURE = "perceptual/gesture"
 FASTEST = 50.0
 """The highest ``speed`` that nodes take."""
@@ -44,7 +49,8 @@ KeptFiles = AnimationFiles | RecogniserFile | TakeFiles
 class PlannedNode:
     """A node to start, and why, in words; ``block_id`` is its block, if it has one.
 
-    ``files`` are written before it starts.
+    ``files`` are written before it starts; ``inside`` are the settings that name a file beside the
+    project.
     """
 
     node: str
@@ -53,6 +59,7 @@ class PlannedNode:
     reason: str = ""
     block_id: str = ""
     files: KeptFiles | None = None
+    inside: frozenset[str] = frozenset()
 
     @property
     def is_sensory(self) -> bool:
@@ -75,13 +82,16 @@ class Choices:
     virtual: frozenset[str] = frozenset()
 
 
+NO_CHOICES = Choices()
+
+
 def plan(project: Project, language: Language, choices: Choices, folder: Path) -> list[PlannedNode]:
     """The nodes to start; files in their settings are looked for in ``folder``, the project's."""
     listed = node_entries(project, language)
     nodes = [_listed(entry, folder, project) for entry in listed]
     names = {node.name for node in nodes}
     nodes += [
-        _robot(entry, choices, language.profile.node)
+        robot_node(entry, language.profile.node, choices)
         for entry in robot_entries(project, language)
         if entry.name not in names
     ]
@@ -98,7 +108,22 @@ def plan(project: Project, language: Language, choices: Choices, folder: Path) -
     return [_hurried(node, choices.speed, language.profile.node) for node in nodes]
 
 
-def _robot(entry: RobotEntry, choices: Choices, node: str) -> PlannedNode:
+class NotForPages(NodeError, title="This node is not for the Nodes page"):
+    """A node that no project can start by itself: the program's own."""
+
+
+def check_for_pages(node: str, name: str) -> None:
+    """Raise NotForPages for a node that no page can start."""
+    if node == PROGRAM_NODE:
+        raise NotForPages(
+            "The node “{name}” would run a Python file of its own.",
+            checklist=("Put the Python into blocks of the Behaviour page.", "Delete this node."),
+            name=name,
+        )
+
+
+def robot_node(entry: RobotEntry, node: str, choices: Choices = NO_CHOICES) -> PlannedNode:
+    """A robot of the Robots page; ``node`` plays robots."""
     address = choices.addresses.get(entry.name, entry.address)
     driver = "naoqi" if entry.name in choices.addresses else entry.driver
     if entry.name in choices.virtual:
@@ -130,21 +155,68 @@ def _hurried(planned: PlannedNode, speed: float, robot: str) -> PlannedNode:
 
 
 def _listed(entry: NodeEntry, folder: Path, project: Project) -> PlannedNode:
-    """A node of the page; a file in the project's folder is given with its path.
-
-    One that is to recognise what the project has learned is given that.
-    """
-    settings: dict[str, Setting] = {}
-    for key, value in entry.parameters.items():
-        may_be_file = isinstance(value, str) and 0 < len(value) <= 255 and "\0" not in value
-        is_file = may_be_file and (folder / str(value)).is_file()
-        settings[key] = str(folder / str(value)) if is_file else value
-    node = PlannedNode(entry.node, entry.name, settings, "", entry.block_id)
-    if node.node != GESTURE or settings.get("model"):
+    """A node of the page; one that is to recognise what the project has learned is given that."""
+    node = listed_node(entry, folder)
+    if node.node != GESTURE or node.parameters.get("model"):
         return node
     own, named = trained_gestures(project), named_gestures(entry.parameters)
     is_own = all(gesture in own for gesture in named) if named else bool(own)
     return _of_project(node, project) if is_own else node
+
+
+def listed_node(entry: NodeEntry, folder: Path) -> PlannedNode:
+    """A node as its block says; a file in the project's folder is given with its path.
+
+    Only what the node itself calls a file is looked for.
+    """
+    try:
+        known = NodeCatalog(node_folders()).find(entry.node).parameters
+    except NepError:
+        known = {}  # it cannot start: the checks say so
+    files = {
+        name: file
+        for name, value in entry.parameters.items()
+        if name in known and known[name].type == "file"
+        if (file := file_inside(folder, value)) is not None
+    }
+    settings = {
+        name: str(files.get(name, value)) if name in files else value
+        for name, value in entry.parameters.items()
+    }
+    return PlannedNode(
+        entry.node, entry.name, settings, "", entry.block_id, inside=frozenset(files)
+    )
+
+
+LONGEST_PATH = 255
+
+
+def file_inside(folder: Path, named: Setting) -> Path | None:
+    """A file, or a folder, that is inside the project's folder; None for any other.
+
+    Nothing leads out of the folder: no other drive or computer, no ``..``, no link, and no name
+    that Windows reads as another one.
+    """
+    if not isinstance(named, str) or not 0 < len(named) <= LONGEST_PATH or not named.isprintable():
+        return None
+    path = PureWindowsPath(named)  # which knows both kinds of slashes
+    if path.anchor or path.is_reserved() or any(_is_odd(part) for part in path.parts):
+        return None
+    file = folder / Path(named)
+    try:
+        is_inside = file.resolve(strict=True).is_relative_to(folder.resolve(strict=True))
+    except (OSError, RuntimeError):  # it is not there, or links lead in a circle
+        return None
+    return file if is_inside else None
+
+
+def _is_odd(part: str) -> bool:
+    return part == ".." or ":" in part or part != part.rstrip(" .") or part != part.lstrip()
+
+
+def is_elsewhere(named: str) -> bool:
+    """Whether a path is on another computer, which even a look would tell of us."""
+    return named.strip()[:2] in ("\\\\", "//", "\\/", "/\\")
 
 
 def _missing_gestures(

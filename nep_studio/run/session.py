@@ -122,6 +122,9 @@ class Session:
             voice.say(order)
 
     def __enter__(self) -> Session:
+        for planned in self._nodes:
+            self.network.gate.check_node(planned)
+        self.network.gate.check_program(self.program)
         self.network.listen(self._on_message, self._on_end)
         try:
             self.network.open()

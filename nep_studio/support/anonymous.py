@@ -86,16 +86,33 @@ _ADDRESSES = (
     re.compile(r"(?<![\w.])\d{1,3}(?:\.\d{1,3}){3}(?![\w]|\.\d)"),
     re.compile(r"(?<![\w.:])[0-9a-fA-F]{0,4}(?::[0-9a-fA-F]{0,4}){2,7}(?![\w:])"),
 )
+_CODE = r"(?<![\d.])\d{3}[ \u00a0-]?\d{3}(?![\d.]\d|\d)"
+"""A pairing code, as people type it."""
+_IN_KEY = r"[0-9A-Za-z.:+=^!/*?&<>()\[\]{}@%$#-]"
+"""The letters of Z85, in which CURVE keys are written: forty of them, whichever half it is."""
 _PATTERNS: tuple[tuple[re.Pattern[str], str], ...] = (
     (re.compile(r"-----BEGIN [\w ]+-----.*?(-----END [\w ]+-----|\Z)", re.DOTALL), HIDDEN),
     (re.compile(r"(?<=://)[^/\s:@]+:[^/\s@]+@"), f"{HIDDEN}@"),
     (re.compile(r"(?<=://)([^/\s]+/)[\w-]{12,}(?![\w.-])"), rf"\g<1>{HIDDEN}"),
     (re.compile(r"(?i)([?&#](?:key|token|code|secret|t|k)=)[^&\s]+"), rf"\g<1>{HIDDEN}"),
     (re.compile(r"(?i)(\bcode\b[^\d\n]{0,12})\d{3}[ -]?\d{3}(?!\d)"), rf"\g<1>{HIDDEN}"),
+    (re.compile(rf"(?i)(\bpair\w*\b[^\n]{{0,80}}?){_CODE}"), rf"\g<1>{HIDDEN}"),
+    (
+        re.compile(rf"(?i)((?:\bcode|código|codice|コード)[^\d\n]{{0,40}}){_CODE}"),
+        rf"\g<1>{HIDDEN}",
+    ),
+    (re.compile(rf"(?m)^(\s*){_CODE}(?=\s*$)"), rf"\g<1>{HIDDEN}"),
+    (
+        re.compile(
+            rf"(?:(?<!{_IN_KEY})|(?<=[=:(\[<{{]))(?={_IN_KEY}{{0,39}}[+=^!*?&<>()\[\]{{}}@%$#])"
+            rf"{_IN_KEY}{{40}}(?=[).:\]}}>!?]?(?!{_IN_KEY}))"
+        ),
+        HIDDEN,
+    ),
     (re.compile(r"(?i)(\bbearer\s+)\S+"), rf"\g<1>{HIDDEN}"),
     (
         re.compile(
-            r"(?i)\b((?:\w*password|passwd|passphrase|pass|pin|token|login|ssid|"
+            r"(?i)(?<![^\W_])((?:\w*password|passwd|passphrase|pass|pin|token|login|ssid|"
             r"(?:secret|private|api)[ _-]?key|secret)[\"']?\s*(?:=|:|\bis\b)\s*)"
             r"(?:\"[^\"\n]*\"|'[^'\n]*'|[^\s\"',;]+)"
         ),

@@ -126,7 +126,7 @@ class FileLock:
     def take(self) -> bool:
         """Take the lock; False when another process has it, or the file cannot be made."""
         try:
-            file = os.open(self._path, os.O_RDWR | os.O_CREAT)
+            file = os.open(self._path, os.O_RDWR | os.O_CREAT, 0o600)
         except OSError:
             return False
         try:

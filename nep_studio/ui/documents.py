@@ -15,9 +15,11 @@ from nep_studio.blocks.edits.project import RenameProject
 from nep_studio.blocks.errors import BlocksError, ProjectFileError
 from nep_studio.blocks.files import from_bytes, load
 from nep_studio.blocks.language import Language
-from nep_studio.blocks.program import Project
+from nep_studio.blocks.program import Block, Project
 from nep_studio.project.journal import Journal
 from nep_studio.project.picture_files import project_bytes_from
+from nep_studio.project.trust import Authorship, shared_approvals
+from nep_studio.run.gate import keys_of
 
 from .background import Background
 from .document_files import PICTURES
@@ -54,18 +56,20 @@ class Document(QObject):
         super().__init__(parent)
         self.editor, self.project = editor, editor.project
         self.path = path
+        self.folder = path.parent if path is not None else Path.cwd()
+        """Where the project's own files are."""
         self._is_open = True
         self._saved_position = -1 if is_unsaved else editor.history.position
         self._stamp = _stamp(path)
         self._journal = _journal(editor, path, is_unsaved)
         self._flush = QTimer(self, interval=FLUSH_MS)
         self._flush.timeout.connect(self.flush)
+        self.authorship = Authorship(editor, shared_approvals(), self._keys_of)
+        """What of it the person has written, which needs nobody's approval."""
         self._edits = edits_of(editor)
         self._edits.edited.connect(self._on_edited)
         self._edits.settled.connect(self._look_at_journal)
         self._flush.start()  # until all is on the disk
-        self.folder = Path.cwd()
-        """Where the project's own files are."""
         self.title = ""
         """The name of its file, or of the project when it has none yet."""
         self.is_modified = False
@@ -86,6 +90,7 @@ class Document(QObject):
         rename = RenameProject(path.stem)
         if self.project.name == new_name() and self.editor.why_not(rename) is None:
             self.editor.apply(rename)
+        self.authorship.keep()
         files.save(self.project, path)
         self.editor.history.seal()
         self.path, self._stamp = path, _stamp(path)
@@ -108,12 +113,16 @@ class Document(QObject):
         if not self._is_open:
             return
         self._is_open = False
+        self.authorship.close()
         self._flush.stop()
         self._edits.edited.disconnect(self._on_edited)
         self._edits.settled.disconnect(self._look_at_journal)
         if self._journal is not None:
             self._journal.close(keep=keep)
             self._journal, self.is_kept = None, False
+
+    def _keys_of(self, block: Block) -> list[str]:
+        return keys_of(block, self.project, self.editor.language, self.folder)
 
     def _on_edited(self) -> None:
         if not self._flush.isActive():

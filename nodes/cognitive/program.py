@@ -7,6 +7,7 @@ import runpy
 import signal
 import threading
 import traceback
+import zipfile
 from collections.abc import Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -42,6 +43,13 @@ def run(node: Node, *, file: str, hold: bool, trace: bool) -> None:
     if not Path(file).is_file():
         raise ProgramFailed(
             "There is no program {file}.", checklist=("Check the name of the file.",), file=file
+        )
+    if not file.endswith(".py") or zipfile.is_zipfile(file):
+        # runpy runs what is packed inside, also of a picture that looks like one
+        raise ProgramFailed(
+            "{file} is no text in Python.",
+            checklist=("Choose a file whose name ends in .py.",),
+            file=file,
         )
     states = node.publisher(PROGRAM_STATE)
     tracer = _tracer(states, node, file) if trace else None

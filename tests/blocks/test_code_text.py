@@ -2,7 +2,14 @@
 
 from __future__ import annotations
 
-from nep_studio.blocks.code_text import read_lines
+import json
+
+import pytest
+from block_building import B, build
+
+from nep_studio.blocks.arithmetic import ArithmeticRefused, calculate
+from nep_studio.blocks.code_text import plainly, read_lines
+from nep_studio.blocks.files import from_bytes, to_bytes
 
 
 def test_names_made_inside_a_function_are_not_made_here() -> None:
@@ -10,3 +17,65 @@ def test_names_made_inside_a_function_are_not_made_here() -> None:
 
     assert read.made == {"part", "x", "y"}
     assert read.set_here == {"part", "y"}
+
+
+HIDDEN = f"1{' ' * 3000}or __import__('os').getpid()"
+
+
+@pytest.mark.parametrize(
+    ("text", "told"),
+    [
+        (HIDDEN, "1 ⟨3000 ␣⟩ or __import__('os').getpid()"),
+        ("a\u202eb", "a⟨U+202E⟩b"),
+        ("a\x1b[2Jb", "a⟨U+001B⟩[2Jb"),
+        ("a\u200bb\ufeff", "a⟨U+200B⟩b⟨U+FEFF⟩"),
+        ("x\u3000" + "\u3000" * 20, "x ⟨21 ␣⟩ "),
+        ("if a:\n        b = 1", "if a:\n        b = 1"),
+        ("Grüße, 日本, نیم‌فاصله, 👩‍👧", "Grüße, 日本, نیم‌فاصله, 👩‍👧"),
+    ],
+)
+def test_what_cannot_be_seen_has_signs(text: str, told: str) -> None:
+    assert plainly(text) == told
+
+
+@pytest.mark.parametrize(
+    ("block", "written", "kept"),
+    [
+        ("code.value", "  1 ", "1"),
+        ("code.value", HIDDEN + "   ", HIDDEN),
+        ("code.lines", "\n\n  \nx = 1  \n\n", "x = 1"),
+        ("code.lines", "if x:\n    y = 2\n\n", "if x:\n    y = 2"),
+    ],
+)
+def test_python_is_trimmed_when_a_file_is_read(language, block: str, written: str, kept: str):
+    editor = build(language, [B("event.started"), B("control.wait"), B("code.lines")])
+    data = json.loads(to_bytes(editor.project))
+    found = next(one for one in data["blocks"] if one["type"] == "code.lines")
+    found["fields"] = {"code": written}
+    if block == "code.value":
+        wait = next(one for one in data["blocks"] if one["type"] == "control.wait")
+        stack = data["pages"]["behaviour"][0]["body"]
+        stack.remove(found["id"])
+        wait["inputs"], found["type"] = {"seconds": found["id"]}, block
+
+    project = from_bytes(json.dumps(data).encode(), "a.nep", language)
+
+    assert project.blocks[found["id"]].fields["code"] == kept
+    assert (
+        from_bytes(to_bytes(project), "a.nep", language).blocks[found["id"]]
+        == (project.blocks[found["id"]])
+    )
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        *(HIDDEN, "__import__('os')", "().__class__", "1 if 1 else 2", "[1][0]", "lambda: 1"),
+        *("1;2", "1#", "open('x')", "pi.real", "e()", "True", "'a'*3", "1 or 2", "x:=1", "f'{1}'"),
+        *("9**9**9", "round(1, ndigits=2)", "max(*[1,2])", "1_000", "0x10", "1j", "abs(-1).real"),
+        *("1\u202e2", "1\x002", "1\n+2", "1\u3000or 2"),
+    ],
+)
+def test_a_number_field_takes_arithmetic_only(text: str) -> None:
+    with pytest.raises(ArithmeticRefused):
+        calculate(text)

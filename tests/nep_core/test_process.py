@@ -142,7 +142,7 @@ def test_a_frozen_program_starts_itself_for_another_job(monkeypatch: pytest.Monk
     from_source = program_command("guard", "true")
     monkeypatch.setattr(sys, "frozen", True, raising=False)
 
-    assert from_source == [sys.executable, "-m", "nep_studio", "guard", "true"]
+    assert from_source == [sys.executable, "-P", "-m", "nep_studio", "guard", "true"]
     assert program_command("guard", "true") == [sys.executable, "guard", "true"]
 
 

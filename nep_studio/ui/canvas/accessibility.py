@@ -15,6 +15,7 @@ from PySide6.QtGui import (
 )
 from PySide6.QtWidgets import QWidget
 
+from nep_studio.blocks.code_text import hides_python
 from nep_studio.blocks.editor import Editor
 from nep_studio.blocks.program import Project
 from nep_studio.blocks.text import sentence
@@ -36,6 +37,8 @@ def described(editor: Editor, block_id: str, problem: str = "") -> str:
         parts.append(count_words(inside, "contains 1 block", "contains {n} blocks"))
     if block.collapsed:
         parts.append(tr("folded"))
+        if hides_python(project, editor.language.definitions, block):
+            parts.append(tr("Python inside"))
     if block.disabled:
         parts.append(tr("switched off"))
     if block.comment:

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QObject, Signal
+from PySide6.QtWidgets import QWidget
 
 from nep_studio.blocks.checks.diagnostic import Diagnostic
 from nep_studio.blocks.deployment import names_used, node_entries, robot_entries
@@ -14,24 +16,29 @@ from nep_studio.blocks.errors import CodeRefused
 from nep_studio.blocks.generate.source_map import Code
 from nep_studio.blocks.program import Changes, Project
 from nep_studio.problems import Problem
+from nep_studio.project.trust import Concern
 from nep_studio.run.controller import (
     BecameStale,
     Begun,
     Checked,
     Ended,
     Event,
+    NeedsApproval,
     Refused,
     StateChanged,
     Subject,
 )
+from nep_studio.run.gate import concerns_of
 from nep_studio.run.plan import Choices, PlannedNode
 from nep_studio.ui.edits import edits_of
 from nep_studio.ui.messages import Answer, Message
 from nep_studio.ui.words import tr
+from nep_studio.ui.workbench.pages_bar import page_title
 
 from .needs import NeedsDialog, is_real
 from .runner import Runner
 from .stage import Breakpoints, Stage, statement_at
+from .trust import TrustDialog
 
 if TYPE_CHECKING:
     from nep_studio.ui.documents import Document
@@ -68,6 +75,10 @@ class RunControl(QObject):
         self._told_of_end: Message | None = None
         """What went wrong with the last run; it is over when the next one begins."""
         self.runner.told.connect(self._on_told)
+        self.runner.approval_needed.connect(self._on_approval_needed)
+        self.runner.keep_own = self._keep_own
+        self.asks_over: QWidget | None = None
+        """Where it asks, instead of over the window: a show covers that."""
         self.breakpoints.changed.connect(self._on_watching_changed)
 
     @property
@@ -114,6 +125,8 @@ class RunControl(QObject):
             )
             return
         subject = Subject(project, self._host.services.language, Path.cwd())
+        found = concerns_of(project, subject.language, subject.folder)
+        self.runner.local.gate.vouch(concern.key for concern in found)  # the help is ours
         self.runner.controller.try_out(subject)
 
     def planned(self) -> list[PlannedNode]:
@@ -165,6 +178,7 @@ class RunControl(QObject):
                 "There is no project to run.", ("Open or make one first.",)
             )
             return None
+        self._keep_own()
         workbench, language = self._host.workbench, self._host.services.language
         choices = Choices(virtual=self._virtual)
         subject = Subject(document.project, language, document.folder, choices)
@@ -172,6 +186,10 @@ class RunControl(QObject):
         is_planned = self._plan is not None and self._plan[0] == subject and self._is_settled
         known = self._plan[1] if self._plan is not None and is_planned and is_in_order else None
         return replace(subject, is_in_order=is_in_order, code=code, known=known)
+
+    def _keep_own(self) -> None:
+        if self._document is not None:
+            self._document.authorship.keep()
 
     def _on_edited(self, changes: Changes) -> None:
         self._is_settled = False
@@ -214,6 +232,8 @@ class RunControl(QObject):
                         Answer(tr("Show the block"), lambda: workbench.show_block(block))
                     )
                 self._host.services.messages.tell_error(error, *answers)
+            case NeedsApproval(concerns, subject, request):
+                self._ask(concerns, lambda: self.runner.begin(subject, request))
             case Begun(request):
                 # Nothing is known of the program yet, and nothing of the last one counts any more
                 messages = self._host.services.messages
@@ -230,6 +250,32 @@ class RunControl(QObject):
                 self.became_stale.emit()
             case Ended(runs_again=False):
                 self._tell_end(event)
+
+    def _on_approval_needed(self, concerns: Sequence[Concern], start: Callable[[], object]) -> None:
+        self._ask(concerns, start)
+
+    def _ask(self, concerns: Sequence[Concern], start: Callable[[], object]) -> None:
+        """Ask whether all this may run, and let it start then."""
+
+        def approve() -> None:
+            self.runner.local.gate.approve(concerns)
+            if self._document is not None:
+                self._document.authorship.look_again()
+            start()
+
+        document = self._document
+        name = document.title if document is not None else ""
+        over = self.asks_over or self._host.widget
+        dialog = TrustDialog(over, self._host.services.look, name, concerns, self._titles())
+        dialog.accepted.connect(approve)
+        dialog.open()
+
+    def _titles(self) -> Mapping[str, str]:
+        """What the pages of the project are called."""
+        if self._document is None:
+            return {}
+        project = self._document.project
+        return {page: page_title(project, page) for page in project.pages}
 
     def _show_robots(self) -> None:
         """Let a person who has never shown nor hidden the robots see them at the first run."""

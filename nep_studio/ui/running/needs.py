@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import socket
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
 from typing import TYPE_CHECKING, Literal
@@ -77,11 +77,12 @@ def needs_of(
     *,
     has_rules: bool,
     is_connected: bool,
+    strange: Collection[str] = (),
 ) -> list[Need]:
     """All needs, those that are missing first.
 
     ``answers`` tells whether a real robot answered at its address; a robot that is not in there
-    is still looked for.
+    is still looked for. Nobody has approved the nodes called ``strange`` yet.
     """
     errors = [problem for problem in problems if problem.severity == "error"]
     needs = [_problem(problem) for problem in errors if problem.kind != "no_rule"]
@@ -93,6 +94,10 @@ def needs_of(
     needs.append(_master(is_connected))
     for node in nodes:
         status = board.get(node.name)
+        if node.name in strange:
+            title, told = tr("The node {name}", name=node.name), tr("Run asks you about it first.")
+            needs.append(Need("automatic", title, told, block=node.block_id, node=node))
+            continue
         needs.append(_robot(node, answers) if is_real(node) else _node(node, status))
     order: dict[State, int] = {"missing": 0, "looking": 1, "automatic": 2, "met": 3}
     return sorted(needs, key=lambda need: order[need.state])
@@ -210,7 +215,8 @@ class NeedsDialog(QDialog):
             self.reject()
             return
         nodes = self._control.planned()
-        self._ask(nodes)
+        strange = self._control.runner.strange(nodes)
+        self._ask([node for node in nodes if node.name not in strange])
         language, runner = self._host.services.language, self._control.runner
         needs = needs_of(
             self._host.workbench.checks.problems,
@@ -219,6 +225,7 @@ class NeedsDialog(QDialog):
             self._answers,
             has_rules=next(rules(document.project, language), None) is not None,
             is_connected=runner.is_connected,
+            strange=strange,
         )
         if needs != self.needs:
             self.needs = needs

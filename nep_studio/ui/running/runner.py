@@ -6,7 +6,7 @@ import logging
 import queue
 import threading
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -30,6 +30,7 @@ from nep_studio.run.controller import (
     StateChanged,
     Subject,
 )
+from nep_studio.run.gate import NotApproved, node_concern
 from nep_studio.run.local_network import MASTER, LocalNetwork
 from nep_studio.run.node_board import Monitor, NodeBoard
 from nep_studio.run.plan import PlannedNode
@@ -220,6 +221,7 @@ class Runner(QObject):
     they ended. ``connected`` comes when the network is up; ``disconnected`` only when it is
     about to be started anew, to be shared or joined: not at the end of a run.
     ``node_failed`` gives the NepError of a node that could not be started by hand;
+    ``approval_needed`` the Concerns of one that nobody has approved, and what starts it then;
     ``master_changed`` what became of a master that ended unexpectedly (a MasterEvent), and how it
     ended; ``closing`` that all is about to end.
     """
@@ -233,6 +235,7 @@ class Runner(QObject):
     nodes_changed = Signal(list)
     ended = Signal(object)
     node_failed = Signal(str, object)
+    approval_needed = Signal(object, object)
     master_changed = Signal(str, object)
     closing = Signal()
     _came_up = Signal()
@@ -253,6 +256,8 @@ class Runner(QObject):
         self.local.listen(self._on_message)
         self.local.on_open = self._came_up.emit
         self.local.on_master = self.master_changed.emit
+        self.keep_own: Callable[[], None] = lambda: None
+        """Approves what the person has written in the open project, before any of it starts."""
         self.told_elsewhere: set[str] = set()
         """Nodes of which a dialog tells what becomes of them: no message is needed."""
         self.controller = RunController(self.local, subject, self._background.post, self._on_told)
@@ -283,9 +288,10 @@ class Runner(QObject):
             self.run_asked.emit()
         self.controller.run()
 
-    def start(self, request: Request) -> None:
-        """Run this, which has been checked; ``ended`` tells how it went."""
-        self.controller.start(request)
+    def begin(self, subject: Subject, request: Request) -> bool:
+        """Run this, which was made of a project; False while a person has to approve it first."""
+        self.keep_own()
+        return self.controller.begin(subject, request)
 
     def stop(self) -> None:
         """Stop the robots at once, then the program, then what was started for it."""
@@ -301,8 +307,14 @@ class Runner(QObject):
 
     # The nodes
 
-    def start_node(self, planned: PlannedNode) -> None:
-        """Start a node; the network first, if it is not up."""
+    def start_node(self, planned: PlannedNode, *, is_wanted: bool = False) -> None:
+        """Start a node; the network first, if it is not up.
+
+        One that ``is_wanted`` has its settings from the person, just now, and not from a project.
+        """
+        self.keep_own()
+        if is_wanted:
+            self.local.gate.vouch_for(planned)
 
         def start() -> None:
             self.local.open()
@@ -310,6 +322,13 @@ class Runner(QObject):
                 launched.wait_ready()
 
         self._aside(planned.name, start)
+
+    def strange(self, nodes: Iterable[PlannedNode]) -> frozenset[str]:
+        """The names of those that nobody has approved: even a look at them would be a start."""
+        self.keep_own()
+        gate = self.local.gate
+        found = ((node.name, node_concern(node)) for node in nodes)
+        return frozenset(name for name, one in found if one is not None and gate.unapproved([one]))
 
     def open_network(self) -> None:
         """Open the network, or start its master again when that is gone."""
@@ -380,7 +399,11 @@ class Runner(QObject):
             return None
 
         def tell(error: NepError | None) -> None:
-            if error is not None and not self._is_closed:  # else nobody is there to be told
+            if error is None or self._is_closed:  # nobody is there to be told
+                return
+            if isinstance(error, NotApproved) and error.concerns:
+                self.approval_needed.emit(error.concerns, lambda: self._aside(name, do))
+            else:
                 self.node_failed.emit(name, error)
 
         self._background.start(work, tell, name=name)

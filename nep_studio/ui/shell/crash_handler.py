@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QMessageLogContext, QObject, QtMsgType, Signal, qInstallMessageHandler
 
+from nep_core.places import private_folder
 from nep_studio.ui.messages import Answer, Message
 from nep_studio.ui.words import tr
 
@@ -52,7 +53,7 @@ class LastResort(QObject):
     def __enter__(self) -> LastResort:
         # Write to the user's folder; where that cannot be, the program works without
         with suppress(OSError):
-            self._log_file.parent.mkdir(parents=True, exist_ok=True)
+            private_folder(self._log_file.parent)
             file = RotatingFileHandler(
                 self._log_file, maxBytes=LARGEST_LOG, backupCount=1, encoding="utf-8", delay=True
             )

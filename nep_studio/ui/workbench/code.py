@@ -321,7 +321,8 @@ class CodePane(QWidget):
         """Make the blocks what the text says; when it cannot be, nothing has changed."""
         self.text.mark_wrong(())
         try:
-            update_from_python(self._editor, self.text.toPlainText() + "\n")
+            with self._editor.history.as_own():
+                update_from_python(self._editor, self.text.toPlainText() + "\n")
         except CodeUnread as error:
             self.text.mark_wrong([error.line])
             self._tell(error)

@@ -234,8 +234,9 @@ class InsertBar(QFrame):
         if not 0 <= number < len(self.list.rows):
             return False
         clip = self.list.rows[number].clip
-        if not insert_clip(self.canvas, clip, at=self._at, place=self._place):
-            return False
+        with self.canvas.editor.history.as_own():  # what it says was typed
+            if not insert_clip(self.canvas, clip, at=self._at, place=self._place):
+                return False
         self._at = self._place = None
         if stays:
             self.line.clear()

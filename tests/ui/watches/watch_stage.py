@@ -28,7 +28,7 @@ class RecordingRunner(Runner):
         super().__init__(list, owner, logs=logs)
         self.asked: list[tuple[str, object]] = []
 
-    def start_node(self, planned: PlannedNode) -> None:
+    def start_node(self, planned: PlannedNode, *, is_wanted: bool = False) -> None:
         self.asked.append(("start", planned))
         self.local.planned[planned.name] = planned
 

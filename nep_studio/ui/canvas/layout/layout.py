@@ -5,11 +5,12 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
+from nep_studio.blocks.code_text import hides_python
 from nep_studio.blocks.definitions import Definition, Group, Slot
 from nep_studio.blocks.language import Language
 from nep_studio.blocks.program import Block, Project
 from nep_studio.blocks.text import sentence
-from nep_studio.ui.words import count_words
+from nep_studio.ui.words import count_words, tr
 
 from .boxes import Box, Chain, Measures, Outline, Piece, Plug
 from .pieces import Item, Pieces, Row, flow, place
@@ -56,6 +57,8 @@ class SectionWriter:
             items: list[Item] = [self._button("expand", "", inside), *comment, words]
             if inside:
                 items += self._said("· " + count_words(inside, "1 block", "{n} blocks"))
+            if hides_python(self._project, self._language.definitions, block):
+                items += self._said("· " + tr("Python inside"))
             return [Section(items)]
         sections = [Section(comment)]
         for part in definition.parts:

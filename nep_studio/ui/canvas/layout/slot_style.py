@@ -7,6 +7,7 @@ from itertools import pairwise
 from typing import cast
 
 from nep_studio.blocks.arithmetic import ArithmeticRefused, number_of
+from nep_studio.blocks.code_text import plainly
 from nep_studio.blocks.definitions import Definition, Group, Part, Slot
 from nep_studio.blocks.language import Language
 from nep_studio.blocks.program import ALL_ROBOTS, Block, Project
@@ -82,7 +83,14 @@ def amount_of(slot: Slot, value: FieldValue | None) -> float:
 
 
 def shown_text(project: Project, language: Language, block: Block, key: str, slot: Slot) -> str:
-    """What a field shows, nothing when it is empty; a text of several lines keeps them."""
+    """What a field shows, nothing when it is empty; a text of several lines keeps them.
+
+    What could not be seen has signs: long gaps, controls, marks of direction.
+    """
+    return plainly(_shown_text(project, language, block, key, slot))
+
+
+def _shown_text(project: Project, language: Language, block: Block, key: str, slot: Slot) -> str:
     kind, value = slot.kind.name, language.definitions[block.type].value(block, key)
     if slot.kind.mark in ("tick", "swatch") or value is None or value == "":
         return ""

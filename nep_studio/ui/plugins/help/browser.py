@@ -330,7 +330,8 @@ class ExampleBar(QWidget):
     def _put_all(self, clips: Mapping[str, Clip]) -> list[str]:
         """Put the blocks of each page on it, in one step; gives those of the last page."""
         made: list[str] = []
-        with self._canvas.editor.transaction("add blocks"):
+        history = self._canvas.editor.history
+        with history.as_own(), history.transaction("add blocks"):
             for page, clip in clips.items():
                 if clip.stacks:
                     made = list(self._put(clip, page))

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -220,7 +221,7 @@ class Workspace(QWidget):
         actions["replay"].triggered.connect(lambda: self.choose_recording())
         actions["csv"].triggered.connect(lambda: self._export("csv"))
         actions["png"].triggered.connect(lambda: self._export("png"))
-        self.replay_bar.start_asked.connect(self._runner.start_node)
+        self.replay_bar.start_asked.connect(partial(self._runner.start_node, is_wanted=True))
         self.replay_bar.stop_asked.connect(lambda: self._runner.stop_node(RECORDING))
         self._runner.nodes_changed.connect(self._on_nodes_changed)
         self._runner.node_failed.connect(self._on_node_failed)
@@ -232,7 +233,8 @@ class Workspace(QWidget):
     def start_watch(self) -> None:
         """Let a simulated person wear a watch."""
         self.empty.show_starting(True)
-        self._runner.start_node(PlannedNode(VIRTUAL_WATCH, WATCH, {}, tr("it was asked for")))
+        planned = PlannedNode(VIRTUAL_WATCH, WATCH, {}, tr("it was asked for"))
+        self._runner.start_node(planned, is_wanted=True)
 
     def show_field(self, topic: str, path: str) -> None:
         """Plot a number of a topic; without a path, let a person choose one."""

@@ -52,6 +52,7 @@ class ShowMode(QObject):
         performance = Performance(host, chosen, path)
         show = self.show = ShowWindow(host, performance, chosen)
         show.left.connect(self._on_left)
+        host.services.running.asks_over = show
         self._place = host.services.messages.show_in(_Silence())
         show.open()
         host.widget.hide()
@@ -64,6 +65,7 @@ class ShowMode(QObject):
         if show is None:
             return
         self.show = None
+        host.services.running.asks_over = None
         show.performance.retire()
         show.deleteLater()
         if self._place is not None:

@@ -17,7 +17,7 @@ from nep_core.wire import messages as m
 from nep_studio.blocks.errors import BlocksError
 from nep_studio.blocks.generate.program import generate_program
 from nep_studio.problems import Problem, problem_of
-from nep_studio.run.controller import Request
+from nep_studio.run.controller import Request, Subject
 from nep_studio.run.session import Ending
 from nep_studio.run.timeline import Line, Timeline
 from nep_studio.settings import ShowOptions
@@ -189,7 +189,11 @@ class Performance(QObject):
         except (BlocksError, NepError) as error:
             self._fail(problem_of(error))
             return
-        self._runner.start(Request(code, tuple(nodes), is_watched=False))
+        subject = Subject(document.project, document.editor.language, document.folder)
+        if not self._runner.begin(subject, Request(code, tuple(nodes), is_watched=False)):
+            steps = (tr("Press Run, and look at what it brings."),)
+            self.problem = Problem(tr("Nobody has approved this project yet"), "", steps)
+            self._set_state("attention")
 
     def _fail(self, problem: Problem) -> None:
         self.problem = problem

@@ -128,7 +128,7 @@ class WatchTrial(QObject):
         self._started = wanted
         self.problem = None
         self._set_state("starting")
-        self._runner.start_node(wanted)
+        self._runner.start_node(wanted, is_wanted=True)
 
     @property
     def _is_needed(self) -> bool:

@@ -1,0 +1,314 @@
+"""The one gate that all passes which a project starts: its program, and each of its nodes.
+
+``LocalNetwork.start`` and ``Session`` ask it, whoever called them, and it is closed: what nobody
+has looked at does not start. So a new way to start something cannot forget it.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import ipaddress
+import threading
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from functools import lru_cache
+from pathlib import Path
+
+from faults import Text, Words, text_of
+from nep_core.errors import NepError
+from nep_core.places import node_folders
+from nep_core.processes.manifest import Manifest, NodeCatalog
+from nep_studio import paths
+from nep_studio.blocks.code_text import plainly
+from nep_studio.blocks.deployment import NODE_BLOCK, node_entries, robot_entries
+from nep_studio.blocks.errors import BlocksError
+from nep_studio.blocks.files import load
+from nep_studio.blocks.language import Language
+from nep_studio.blocks.program import ROBOT_BLOCK, Block, Project, Stack
+from nep_studio.project.trust import (
+    Approvals,
+    Concern,
+    key_of,
+    python_concerns,
+    python_texts,
+    shared_approvals,
+)
+
+from .plan import PlannedNode, Setting, check_for_pages, listed_node, robot_node
+
+
+class NotApproved(NepError, title="Nobody has approved this yet"):
+    """Something that is not blocks was to run, and no person has said yes; see ``concerns``."""
+
+    def __init__(self, concerns: Sequence[Concern]) -> None:
+        told = ", ".join(dict.fromkeys(str(concern.title) for concern in concerns))
+        super().__init__(
+            "This project brings what is not blocks: {told}.",
+            checklist=(
+                "Look at it, and decide whether you trust who made it.",
+                "Press Run, or start it with --trust.",
+            ),
+            told=told or Text("a program that nobody has looked at"),
+        )
+        self.concerns = tuple(concerns)
+
+
+# What nodes can reach.
+
+
+def node_concern(planned: PlannedNode, page: str = "nodes") -> Concern | None:
+    """What there is to know of a node before it starts; None where it stays among ourselves.
+
+    A node of somebody's own is asked about with all its settings and with the bytes of its files;
+    one that we ship with those settings that reach files or other computers.
+    """
+    try:
+        manifest = NodeCatalog(node_folders()).find(planned.node)
+    except NepError:
+        return None  # it cannot start: the checks say so
+    is_own = not _is_shipped(manifest)
+    reaching = {
+        name: value
+        for name, value in planned.parameters.items()
+        if is_own or _reaches(planned, manifest, name, value)
+    }
+    if not reaching and not is_own:
+        return None
+    content = [_content(planned, manifest, name, reaching[name]) for name in sorted(reaching)]
+    own = _own_parts(manifest) if is_own else ()
+    lines = [*own_lines(manifest)] if is_own else []
+    lines += [f"{name} = {value}" for name, value in reaching.items()]
+    is_robot = "driver" in planned.parameters
+    title = text_of("The node {name}", name=planned.name)
+    if is_robot:
+        title = text_of("The robot {name}", name=planned.name)
+    return Concern(
+        "robot" if is_robot else "node",
+        title,
+        "\n".join([planned.node, *lines]),
+        page,
+        planned.block_id,
+        key_of("node", planned.node, *own, *content),
+        tuple(_notes(reaching, manifest, is_own=is_own)),
+    )
+
+
+def own_lines(manifest: Manifest) -> Iterator[str]:
+    """How a node is started that we do not ship: its command, or its file."""
+    yield " ".join(manifest.command) if manifest.command else manifest.module
+
+
+def _is_shipped(manifest: Manifest) -> bool:
+    """Whether it lies in the folder of our own nodes, which is the last of all."""
+    return Path(manifest.path).parent.parent == node_folders()[-1]
+
+
+def _reaches(planned: PlannedNode, manifest: Manifest, name: str, value: Setting) -> bool:
+    """Whether a setting of one of our nodes lets it reach something."""
+    parameter = manifest.parameters.get(name)
+    if parameter is None or value in ("", None) or value == parameter.default:
+        return False
+    if parameter.type == "file" or parameter.reach == "file":
+        return not _is_kept(planned, value) and (parameter.type == "file" or _is_path(str(value)))
+    if parameter.reach != "network":
+        return False
+    if name == "address":
+        is_virtual = planned.parameters.get("driver", "naoqi") != "naoqi"
+        return not is_virtual and not is_here(str(value))
+    return True
+
+
+def _is_kept(planned: PlannedNode, value: Setting) -> bool:
+    """Whether it is what we write ourselves of what the project keeps: data that is checked."""
+    return planned.files is not None and Path(str(value)).is_relative_to(planned.files.folder)
+
+
+def _is_path(text: str) -> bool:
+    return any(mark in text for mark in "/\\:.~")
+
+
+def is_here(address: str) -> bool:
+    """Whether an address, perhaps with a port, is this computer's own."""
+    host = address.strip().removeprefix("tcp://")
+    host = host[1:].partition("]")[0] if host.startswith("[") else host
+    host = host if host.count(":") > 1 else host.partition(":")[0]
+    if host.casefold() in ("", "localhost"):
+        return True
+    try:
+        return ipaddress.ip_address(host).is_loopback
+    except ValueError:
+        return False
+
+
+def _notes(reaching: Mapping[str, Setting], manifest: Manifest, *, is_own: bool) -> Iterator[Words]:
+    if is_own:
+        yield Text("a node that does not come with NEP Studio")
+    kinds = {name: manifest.parameters[name] for name in reaching if name in manifest.parameters}
+    if any(one.type == "file" or one.reach == "file" for one in kinds.values()):
+        yield Text("reads a file")
+    if any(one.reach == "network" for one in kinds.values()):
+        yield Text("uses the network")
+
+
+def _own_parts(manifest: Manifest) -> tuple[str, ...]:
+    """The bytes of a node that we do not ship: its description and its files."""
+    folder = Path(manifest.path).parent
+    files = [Path(manifest.path), Path(manifest.module)]
+    files += [Path(part.replace("{folder}", str(folder))) for part in manifest.command]
+    return tuple(_digest(file) for file in files)
+
+
+def _content(planned: PlannedNode, manifest: Manifest, name: str, value: Setting) -> str:
+    """A setting as it counts: a file beside the project by its bytes, wherever that is now."""
+    parameter = manifest.parameters.get(name)
+    is_file = parameter is not None and "file" in (parameter.type, parameter.reach)
+    inside = is_file and isinstance(value, str) and name in planned.inside
+    return key_of(name, type(value).__name__, _digest(Path(str(value))) if inside else str(value))
+
+
+MOST_FILES = 2000
+"""A folder with more of them counts by its name."""
+PIECE_BYTES = 1 << 20
+
+
+def _digest(path: Path) -> str:
+    """The bytes of a file, or of all files of a folder; "" where there is none."""
+    files = sorted(path.rglob("*"))[:MOST_FILES] if path.is_dir() else [path]
+    digest = hashlib.sha256()
+    for file in files:
+        try:
+            found = file.stat()
+            if file.is_file():
+                digest.update(f"{file.name}:{found.st_size}:".encode())
+                digest.update(_bytes_of(file, found.st_mtime_ns, found.st_size))
+        except OSError:
+            digest.update(b"?")
+    return digest.hexdigest()
+
+
+@lru_cache(maxsize=4096)
+def _bytes_of(path: Path, _changed_ns: int, _size: int) -> bytes:
+    digest = hashlib.sha256()
+    with path.open("rb") as file:
+        while piece := file.read(PIECE_BYTES):
+            digest.update(piece)
+    return digest.digest()
+
+
+# All that a project brings.
+
+
+def concerns_of(project: Project, language: Language, folder: Path) -> list[Concern]:
+    """What a person is asked about: Python first, then robots and nodes as on their pages.
+
+    ``folder`` is the project's. Nothing runs, and only files inside the folder are looked at.
+    """
+    found = list(python_concerns(project, language))
+    for robot in robot_entries(project, language):
+        planned = robot_node(robot, language.profile.node)
+        found += [concern] if (concern := node_concern(planned, "robots")) is not None else []
+    for node in node_entries(project, language):
+        planned = listed_node(node, folder)
+        found += [concern] if (concern := node_concern(planned)) is not None else []
+    return found
+
+
+def keys_of(block: Block, project: Project, language: Language, folder: Path) -> list[str]:
+    """The keys of what is not blocks in one block."""
+    keys = [key for _, key in python_texts(block, language)]
+    if block.type not in (NODE_BLOCK, ROBOT_BLOCK):
+        return keys
+    alone = _only(block)
+    found = concerns_of(alone, language, folder)
+    return [*keys, *(concern.key for concern in found if concern.kind != "python")]
+
+
+def _only(block: Block) -> Project:
+    """A project with one block of the pages Robots and Nodes, as if it were switched on."""
+    project = Project()
+    page = "nodes" if block.type == NODE_BLOCK else "robots"
+    copy = block.copy()
+    copy.disabled, copy.inputs, copy.bodies = False, {}, {}
+    project.blocks[block.id] = copy
+    stack = Stack("s0", 0, 0, [block.id])
+    project.pages[page].append(stack)
+    project.stacks[stack.id] = stack
+    return project
+
+
+class Gate:
+    """Lets through what a person has approved, what is their own, and what we ship; any thread."""
+
+    def __init__(self, approvals: Approvals | None = None) -> None:
+        self.approvals = approvals or shared_approvals()
+        self._lock = threading.Lock()
+        self._vouched: set[str] = set()
+        self._programs: set[str] = set()
+
+    def unapproved(self, concerns: Iterable[Concern]) -> list[Concern]:
+        """Those that a person must be asked about, each content once."""
+        left = {one.key: one for one in concerns if not self._is_known(one.key)}
+        if left:
+            shipped = shipped_keys()
+            left = {key: one for key, one in left.items() if key not in shipped}
+        return list(left.values())
+
+    def vouch(self, keys: Iterable[str]) -> None:
+        """Let this content through until the program ends: a person has just asked for it."""
+        with self._lock:
+            self._vouched |= set(keys)
+
+    def vouch_for(self, *nodes: PlannedNode) -> None:
+        """Let these nodes through, with their settings: a person has just made them so."""
+        self.vouch(one.key for one in map(node_concern, nodes) if one is not None)
+
+    def approve(self, concerns: Iterable[Concern]) -> None:
+        """A person has looked at it all, and said yes: for good, by its content."""
+        self.approvals.add(one.key for one in concerns)
+
+    def admit(self, program: str) -> None:
+        """Let the Python through that was made of a project of which all is approved."""
+        with self._lock:
+            self._programs.add(key_of("program", program))
+
+    def check_program(self, file: Path) -> None:
+        """Raise NotApproved for a program that was not admitted."""
+        text = file.read_bytes().decode("utf-8", "replace")
+        with self._lock:
+            if key_of("program", text) in self._programs:
+                return
+        raise NotApproved(())
+
+    def check_node(self, planned: PlannedNode) -> None:
+        """Raise NotApproved for a node of which not all is approved; NotForPages."""
+        check_for_pages(planned.node, planned.name)
+        if (concern := node_concern(planned)) is not None and (left := self.unapproved([concern])):
+            raise NotApproved(left)
+
+    def _is_known(self, key: str) -> bool:
+        with self._lock:
+            if key in self._vouched:
+                return True
+        return self.approvals.has(key)
+
+
+@lru_cache(maxsize=1)
+def shipped_keys() -> frozenset[str]:
+    """The content of our examples, which is ours wherever it has been copied to."""
+    from .installation import studio_language
+
+    language, keys = studio_language(), set[str]()
+    for path in sorted(paths.examples().glob("*.nep")):
+        try:
+            project = load(path, language)
+        except BlocksError:
+            continue
+        keys |= {one.key for one in concerns_of(project, language, path.parent)}
+    return frozenset(keys)
+
+
+def listing(concerns: Iterable[Concern]) -> Iterator[str]:
+    """What a project brings, for a terminal: all of it, line by line."""
+    for concern in concerns:
+        notes = "".join(f", {note}" for note in concern.notes)
+        yield f"{concern.title} (page {concern.page.capitalize()}{notes}):"
+        yield from (f"    {line}" for line in plainly(concern.text).split("\n"))

@@ -1,0 +1,121 @@
+"""Asks, before it runs, about what a project brings that is not blocks; shows all of it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+from PySide6.QtCore import QSize, Qt
+from PySide6.QtGui import QTextOption
+from PySide6.QtWidgets import (
+    QDialog,
+    QFrame,
+    QLabel,
+    QPlainTextEdit,
+    QPushButton,
+    QScrollArea,
+    QWidget,
+)
+
+from nep_studio.blocks.code_text import plainly
+from nep_studio.project.trust import Concern
+from nep_studio.ui.theme.icons import icon, icon_room
+from nep_studio.ui.theme.look import Look, code_font
+from nep_studio.ui.widgets.forms import fit_on_screen, styled
+from nep_studio.ui.widgets.layouts import in_column, in_row
+from nep_studio.ui.words import count_words, tr
+
+SIGNS = {"python": "code", "node": "box", "robot": "bot"}
+MOST_LINES = 14
+"""A longer text scrolls in its card, whose title says how long it is."""
+
+
+class TrustDialog(QDialog):
+    """Accepted means: run it. Escape, Enter and closing mean: not now."""
+
+    def __init__(
+        self,
+        over: QWidget,
+        look: Look,
+        name: str,
+        concerns: Sequence[Concern],
+        titles: Mapping[str, str],
+    ) -> None:
+        """``titles`` are what the pages of the project called ``name`` are called."""
+        super().__init__(over)
+        self.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
+        self.setWindowTitle(tr("Run what is not blocks?"))
+        self._look, self._titles = look, titles
+        line = self.fontMetrics().height()
+        headline = styled(QLabel(wordWrap=True, textFormat=Qt.TextFormat.PlainText), role="title")
+        headline.setText(tr("“{name}” brings more than blocks", name=plainly(name)))
+        about = QLabel(wordWrap=True, textFormat=Qt.TextFormat.PlainText)
+        about.setText(
+            tr(
+                "Blocks do what their words say. What is listed here can do more: read and change "
+                "your files, or reach the network. Run it only if you trust who made it."
+            )
+        )
+        self.texts: list[QPlainTextEdit] = []
+        inner = QWidget()
+        cards = [self._card(concern, line) for concern in concerns]
+        again = styled(QLabel(wordWrap=True), role="hint")
+        again.setText(tr("You are asked once: again only when one of these has changed."))
+        # With large letters the words have no room beside the list: they scroll with it
+        in_column(
+            about, *cards, again, 1, of=inner, margins=(0, 0, line // 2, 0), spacing=line // 2
+        )
+        self.list = QScrollArea(widgetResizable=True)
+        self.list.setFrameShape(QFrame.Shape.NoFrame)
+        self.list.setAccessibleName(
+            count_words(len(concerns), "1 thing to look at", "{n} things to look at")
+        )
+        self.list.setWidget(inner)
+        self.run_button = styled(QPushButton(tr("Run"), autoDefault=False), kind="run")
+        self.run_button.setIcon(icon("play", look.theme, "run_text"))
+        self.run_button.setIconSize(icon_room(line))
+        self.refuse_button = QPushButton(tr("Not now"))
+        self.run_button.clicked.connect(self.accept)
+        self.refuse_button.clicked.connect(self.reject)
+        buttons = in_row(1, self.run_button, self.refuse_button, spacing=line // 2)
+        in_column(headline, (self.list, 1), buttons, of=self, margins=line, spacing=line // 2)
+        self.setAccessibleDescription(f"{headline.text()} {about.text()}")
+        fit_on_screen(self, 44, 34 if len(concerns) > 1 else 26)
+        self.refuse_button.setDefault(True)
+        wide = self.fontMetrics().horizontalAdvance(self.refuse_button.text())
+        self.refuse_button.setMinimumWidth(round(1.2 * wide) + 3 * line)  # its letters grow bold
+        self.refuse_button.setFocus()
+
+    def _card(self, concern: Concern, line: int) -> QWidget:
+        """What it is, where it is, and all of it."""
+        card = styled(QFrame(), kind="card")
+        sign = QLabel()
+        side = round(line * 1.2)
+        picture = icon(SIGNS[concern.kind], self._look.theme.colour("warning"))
+        sign.setPixmap(picture.pixmap(QSize(side, side), self.devicePixelRatioF()))
+        plain = Qt.TextFormat.PlainText
+        title = styled(QLabel(wordWrap=True, textFormat=plain), role="heading")
+        title.setText(plainly(tr(concern.title)))
+        page = self._titles.get(concern.page, concern.page)
+        where = [tr("page {title}", title=page), *map(tr, concern.notes)]
+        place = styled(QLabel(" · ".join(where), wordWrap=True, textFormat=plain), role="hint")
+        text = self._text(concern, f"{title.text()}, {place.text()}")
+        head = in_row((sign, 0, Qt.AlignmentFlag.AlignTop), (title, 1), spacing=line // 2)
+        in_column(head, place, text, of=card, margins=line // 2, spacing=line // 3)
+        return card
+
+    def _text(self, concern: Concern, name: str) -> QPlainTextEdit:
+        text = QPlainTextEdit(readOnly=True)
+        text.setAccessibleName(name)
+        text.setTabChangesFocus(True)
+        text.setFont(code_font(self.font().pointSizeF() * 0.95))
+        text.setLayoutDirection(Qt.LayoutDirection.LeftToRight)
+        # No line goes on beside the edge, where nobody would look for it
+        text.setWordWrapMode(QTextOption.WrapMode.WrapAnywhere)
+        text.setPlainText(plainly(concern.text))
+        rows = min(max(text.document().blockCount() + 1, 2), MOST_LINES)
+        letters = max(map(len, text.toPlainText().split("\n")), default=0)
+        if letters > 60:
+            rows = min(rows + letters // 60, MOST_LINES)
+        text.setFixedHeight(rows * text.fontMetrics().lineSpacing() + text.fontMetrics().height())
+        self.texts.append(text)
+        return text

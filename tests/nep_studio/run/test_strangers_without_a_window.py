@@ -1,0 +1,245 @@
+"""A stranger's project without a window: it is listed, and runs only with --trust."""
+
+from __future__ import annotations
+
+import os
+import signal
+import subprocess
+import time
+from collections.abc import Callable, Iterator
+from contextlib import ExitStack, contextmanager
+from pathlib import Path
+
+import pytest
+
+from nep_core.places import NODES_VARIABLE
+from nep_core.processes.process import program_command
+from nep_studio import paths
+from nep_studio.blocks.code_text import plainly
+from nep_studio.blocks.edits.content import SetComment, SetField
+from nep_studio.blocks.files import load
+from nep_studio.commands import run
+from nep_studio.commands.project import check, code
+from nep_studio.project.trust import Approvals, approvals_file
+from nep_studio.run.gate import Gate, NotApproved, concerns_of
+from nep_studio.run.installation import studio_language
+from nep_studio.run.local_network import LocalNetwork
+from nep_studio.run.plan import NotForPages, PlannedNode, file_inside
+from nep_studio.run.session import Session
+from nep_studio.support.portable import SETTINGS_VARIABLE
+from tests.blocks.block_building import B, build
+from tests.nep_studio.run.hostile_projects import (
+    STARTED,
+    TRAPS,
+    Maker,
+    Trap,
+    far_to_the_right,
+    lines,
+    open_door,
+    own_command,
+    own_node,
+    own_nodes,
+)
+
+pytestmark = pytest.mark.strangers
+
+
+@pytest.fixture
+def make(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Maker]:
+    monkeypatch.setenv(SETTINGS_VARIABLE, str(tmp_path / "home"))
+    monkeypatch.setenv(NODES_VARIABLE, str(own_nodes(tmp_path)))
+    folder = tmp_path / "from a stranger"
+    folder.mkdir()
+    with ExitStack() as ending:
+        yield Maker(folder, studio_language(), ending)
+
+
+def file_of(trap: Trap, make: Maker) -> str:
+    """What a command takes: pictures are opened by the window alone."""
+    return str(trap.file if trap.file.suffix == ".nep" else make.folder / "gift.nep")
+
+
+@contextmanager
+def played(file: str, *words: str) -> Iterator[None]:
+    """``nep-studio run`` beside the test, until this is left."""
+    command = program_command("run", file, *words)
+    with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT) as running:
+        try:
+            yield
+        finally:
+            running.send_signal(signal.SIGINT)
+            running.communicate(timeout=30)
+
+
+def soon(is_so: Callable[[], bool]) -> bool:
+    until_s = time.monotonic() + 30
+    while not is_so() and time.monotonic() < until_s:
+        time.sleep(0.05)
+    return is_so()
+
+
+@pytest.mark.parametrize("trap_of", TRAPS)
+def test_nothing_runs_that_nobody_has_approved(
+    make: Maker, trap_of: Callable[[Maker], Trap], capsys: pytest.CaptureFixture[str]
+) -> None:
+    trap = trap_of(make)
+
+    code_ = run.main([file_of(trap, make), "--seconds", "1"])
+
+    told = capsys.readouterr().err
+    assert code_ == (run.UNUSABLE if trap.is_never else run.NOT_APPROVED)
+    assert trap.tells in told
+    assert trap.is_never or "--trust" in told
+    assert not trap.has_sprung()
+
+
+@pytest.mark.parametrize("trap_of", [far_to_the_right, own_node, own_command, open_door])
+def test_what_is_trusted_runs(make: Maker, trap_of: Callable[[Maker], Trap]) -> None:
+    """So the test above could have seen it."""
+    trap = trap_of(make)
+
+    with played(str(trap.file), "--trust"):
+        assert soon(trap.has_sprung)
+    assert not approvals_file().exists()  # it was trusted this once
+
+
+def test_what_was_approved_in_the_window_runs_without_a_question(make: Maker) -> None:
+    trap = lines(make)
+    project = load(trap.file, make.language)
+    Gate(Approvals()).approve(concerns_of(project, make.language, make.folder))
+    if os.name == "posix":
+        assert approvals_file().stat().st_mode & 0o077 == 0
+
+    with played(str(trap.file)):
+        assert soon(trap.has_sprung)
+
+
+def test_blocks_alone_ask_nothing(make: Maker) -> None:
+    editor = build(make.language, [STARTED, B("robot.say", {"text": "Hello"})])
+    build(make.language, [B("robots.robot")], page="robots", editor=editor)
+
+    assert not concerns_of(editor.project, make.language, make.folder)
+
+
+def test_what_we_ship_is_known_by_its_content_wherever_it_is(make: Maker) -> None:
+    for path in sorted(paths.examples().glob("*.nep")):
+        project = load(path, make.language)
+
+        found = concerns_of(project, make.language, make.folder)
+
+        assert not Gate(Approvals()).unapproved(found), path.name
+
+
+@pytest.mark.parametrize("trap_of", TRAPS)
+def test_looking_at_a_project_runs_nothing(make: Maker, trap_of: Callable[[Maker], Trap]) -> None:
+    trap = trap_of(make)
+
+    check([file_of(trap, make)])
+    code([file_of(trap, make)])
+    code(["--nodes", file_of(trap, make)])
+
+    assert not trap.has_sprung()
+
+
+def test_a_comment_does_not_ask_again_and_a_letter_of_python_does(make: Maker) -> None:
+    editor = build(make.language, [STARTED, B("code.lines", {"code": make.python})])
+    gate = Gate(Approvals())
+    gate.approve(concerns_of(editor.project, make.language, make.folder))
+    python = next(b.id for b in editor.project.blocks.values() if b.type == "code.lines")
+
+    def asked() -> int:
+        return len(gate.unapproved(concerns_of(editor.project, make.language, make.folder)))
+
+    editor.apply(SetComment(python, "what a nice day"))
+    assert asked() == 0
+    editor.apply(SetField(python, "code", make.python + "#"))
+    assert asked() == 1
+
+
+def test_a_file_beside_the_project_counts_by_its_bytes(make: Maker) -> None:
+    (make.folder / "wave.csv").write_text("1", encoding="utf-8")
+    project = load(make.with_node("sensory/replay", recording="wave.csv").file, make.language)
+    gate = Gate(Approvals())
+    gate.approve(concerns_of(project, make.language, make.folder))
+    assert not gate.unapproved(concerns_of(project, make.language, make.folder))
+
+    (make.folder / "wave.csv").write_text("2", encoding="utf-8")
+
+    assert gate.unapproved(concerns_of(project, make.language, make.folder))
+
+
+# A way to start something that was made later, and knows nothing of the question.
+
+
+def test_a_session_that_was_planted_starts_nothing(make: Maker, tmp_path: Path) -> None:
+    program = tmp_path / "program.py"
+    program.write_text(make.python, encoding="utf-8")
+    network = LocalNetwork(logs=tmp_path)
+
+    with pytest.raises(NotApproved), Session([], network, program=program):
+        pass  # it does not come to this
+    network.close()
+
+    assert not make.marker.exists()
+
+
+@pytest.mark.parametrize("node", ["sensory/gift", "sensory/gift_command", "cognitive/program"])
+def test_a_node_that_was_planted_does_not_start(make: Maker, tmp_path: Path, node: str) -> None:
+    network = LocalNetwork(logs=tmp_path)
+
+    with pytest.raises((NotApproved, NotForPages)):
+        network.start([PlannedNode(node, "gift", {"marker": str(make.marker)})])
+    network.close()
+
+    assert not make.marker.exists()
+
+
+# Which files of a project a node may be given.
+
+
+@pytest.mark.parametrize(
+    "named",
+    [
+        *("../secret.csv", "..\\secret.csv", "inside/../../secret.csv", "link.csv", "links/a.csv"),
+        *("/etc/hostname", "C:\\a.csv", "C:a.csv", "\\\\server\\share\\a.csv", "//server/a.csv"),
+        *("wave.csv ", "wave.csv.", " wave.csv", "NUL", "wave.csv:stream", "wave\0.csv", "x" * 300),
+        *("", 3, True, "none.csv", "wave\u202e.csv"),
+    ],
+)
+def test_a_file_that_is_not_inside_the_folder_is_no_file_of_the_project(
+    tmp_path: Path, named: object
+) -> None:
+    folder = tmp_path / "project"
+    (folder / "inside").mkdir(parents=True)
+    (folder / "wave.csv").write_text("")
+    (tmp_path / "secret.csv").write_text("")
+    (tmp_path / "a.csv").write_text("")
+    if os.name == "posix":
+        (folder / "link.csv").symlink_to(tmp_path / "secret.csv")
+        (folder / "links").symlink_to(tmp_path)
+        (folder / "wave.csv ").write_text("")
+
+    assert file_inside(folder, named) is None
+    assert file_inside(folder, "wave.csv") == folder / "wave.csv"
+
+
+def test_nobody_looks_for_a_file_on_another_computer(make: Maker, monkeypatch) -> None:
+    """Windows would tell that computer the person's name and the hash of their password."""
+    trap = make.with_node("sensory/replay", recording="\\\\stranger\\share\\a.csv")
+    looked = []
+    exists = Path.exists
+    monkeypatch.setattr(Path, "exists", lambda path: looked.append(str(path)) or exists(path))
+
+    assert check([str(trap.file)]) == 1
+    assert not [path for path in looked if "stranger\\" in path]
+
+
+def test_what_stands_far_to_the_right_or_cannot_be_seen_has_signs() -> None:
+    hidden = f"1{' ' * 3000}or evil()\u202e # \x1b[2J\n    pass"
+
+    told = plainly(hidden)
+
+    assert len(told) < 100
+    assert "3000" in told and "evil()" in told
+    assert "U+202E" in told and "U+001B" in told
+    assert told.endswith("\n    pass")

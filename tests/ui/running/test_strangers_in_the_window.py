@@ -1,0 +1,398 @@
+"""A stranger's project in the window: asked about before anything of it runs, whoever starts it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from contextlib import ExitStack
+from pathlib import Path
+
+import pytest
+from PySide6.QtCore import Qt
+from PySide6.QtGui import QGuiApplication
+from PySide6.QtWidgets import QWidget
+from pytestqt.qtbot import QtBot
+
+from nep_core.places import NODES_VARIABLE
+from nep_studio.blocks.edits.content import SetField
+from nep_studio.blocks.operations.copying import copy, paste
+from nep_studio.project.trust import Approvals
+from nep_studio.run.installation import studio_language
+from nep_studio.settings import ShowOptions
+from nep_studio.ui.plugins.show import ShowMode
+from nep_studio.ui.running.trust import TrustDialog
+from nep_studio.ui.services import Studio
+from nep_studio.ui.shell.main_window import MainWindow
+from tests.nep_studio.run.hostile_projects import (
+    TRAPS,
+    Maker,
+    Trap,
+    after_many_lines,
+    far_to_the_right,
+    folded,
+    in_a_picture,
+    in_an_own_block,
+    lines,
+    on_another_page,
+    own_node,
+    robot_elsewhere,
+    value,
+)
+from tests.ui.running.window_use import press, state_is
+from tests.ui.window.conftest import answer, chooser, home, studio, window
+
+__all__ = ["answer", "chooser", "home", "studio", "window"]
+
+pytestmark = pytest.mark.strangers
+ASKED = tuple(trap for trap in TRAPS if "program" not in trap.__name__)
+A_WHILE_MS = 300
+LONG_MS = 60_000
+"""A program may take so long to begin on a computer that is busy."""
+
+
+@pytest.fixture
+def make(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Maker]:
+    """Made before the window, which then knows the strangers' nodes."""
+    from tests.nep_studio.run.hostile_projects import own_nodes
+
+    monkeypatch.setenv(NODES_VARIABLE, str(own_nodes(tmp_path)))
+    folder = tmp_path / "from a stranger"
+    folder.mkdir()
+    with ExitStack() as ending:
+        yield Maker(folder, studio_language(), ending)
+
+
+@pytest.fixture
+def stranger(make: Maker, studio: Studio, window: MainWindow, qtbot: QtBot) -> Callable[..., Trap]:
+    """Opens a stranger's project in the window."""
+    studio.language = make.language
+
+    def open_(trap_of: Callable[[Maker], Trap]) -> Trap:
+        trap = trap_of(make)
+        window.files.open(trap.file)
+        qtbot.waitUntil(lambda: window.files.document is not None)
+        qtbot.waitUntil(lambda: window.workbench.canvas.isVisible())
+        return trap
+
+    return open_
+
+
+def dialog_of(window: QWidget) -> TrustDialog | None:
+    shown = [one for one in window.findChildren(TrustDialog) if one.isVisible()]
+    return shown[0] if shown else None
+
+
+def asked(window: QWidget, qtbot: QtBot) -> TrustDialog:
+    qtbot.waitUntil(lambda: dialog_of(window) is not None)
+    dialog = dialog_of(window)
+    assert dialog is not None
+    return dialog
+
+
+@pytest.mark.parametrize("trap_of", ASKED)
+def test_it_asks_before_it_runs_and_shows_all(
+    stranger: Callable[..., Trap], window: MainWindow, qtbot: QtBot, trap_of
+) -> None:
+    trap = stranger(trap_of)
+
+    press(window, qtbot, "run")
+    dialog = asked(window, qtbot)
+
+    shown = "\n".join(text.toPlainText() for text in dialog.texts)
+    assert trap.tells in shown
+    assert not trap.has_sprung()
+    assert dialog.refuse_button.isDefault() and not dialog.run_button.isDefault()
+    qtbot.keyClick(dialog, Qt.Key.Key_Escape)
+    qtbot.waitUntil(lambda: dialog_of(window) is None)
+    assert window.running.runner.state == "idle"
+    qtbot.wait(A_WHILE_MS)
+    assert not trap.has_sprung()
+
+
+@pytest.mark.parametrize("trap_of", [t for t in TRAPS if t not in ASKED])
+def test_a_node_that_is_a_program_never_runs(
+    stranger: Callable[..., Trap], window: MainWindow, qtbot: QtBot, trap_of
+) -> None:
+    trap = stranger(trap_of)
+
+    press(window, qtbot, "run")
+
+    qtbot.waitUntil(lambda: any("Python file" in str(p.sentence) for p in problems(window)))
+    qtbot.wait(A_WHILE_MS)
+    assert not trap.has_sprung()
+
+
+def problems(window: MainWindow) -> list:
+    return window.workbench.checks.problems
+
+
+@pytest.mark.parametrize(
+    "trap_of",
+    [
+        *(value, folded, in_an_own_block, on_another_page, after_many_lines, in_a_picture),
+        *(own_node, robot_elsewhere),
+    ],
+)
+def test_what_is_approved_runs_and_is_not_asked_about_again(
+    stranger: Callable[..., Trap], window: MainWindow, qtbot: QtBot, trap_of
+) -> None:
+    trap = stranger(trap_of)
+    press(window, qtbot, "run")
+    dialog = asked(window, qtbot)
+
+    qtbot.mouseClick(dialog.run_button, Qt.MouseButton.LeftButton)
+    qtbot.waitUntil(lambda: dialog_of(window) is None)
+
+    qtbot.waitUntil(trap.has_sprung, timeout=LONG_MS)
+    window.running.stop()
+    state_is(window, qtbot, "idle")
+    press(window, qtbot, "run")
+    qtbot.waitUntil(lambda: window.running.runner.state != "idle")
+    assert dialog_of(window) is None
+
+
+@pytest.mark.parametrize("trap_of", ASKED)
+def test_a_show_asks_too(
+    stranger: Callable[..., Trap], window: MainWindow, qtbot: QtBot, trap_of
+) -> None:
+    trap = stranger(trap_of)
+    mode = ShowMode(window.host)
+    show = mode.begin(ShowOptions(runs_at_once=True))
+
+    dialog = asked(show, qtbot)
+    qtbot.wait(A_WHILE_MS)
+
+    assert not trap.has_sprung()
+    if trap_of is lines:
+        qtbot.mouseClick(dialog.run_button, Qt.MouseButton.LeftButton)
+        qtbot.waitUntil(trap.has_sprung, timeout=LONG_MS)
+    else:
+        qtbot.keyClick(dialog, Qt.Key.Key_Escape)
+        assert show.performance.state == "attention"
+    window.running.close()
+    show.leave()
+    assert trap_of is lines or not trap.has_sprung()
+
+
+# Ways to start a part of it.
+
+
+def test_a_node_is_asked_about_however_it_is_started(
+    stranger: Callable[..., Trap], window: MainWindow, qtbot: QtBot
+) -> None:
+    trap = stranger(own_node)
+    runner = window.running.runner
+
+    runner.start_node(runner.planned()[0])
+
+    dialog = asked(window, qtbot)
+    assert not trap.has_sprung()
+    qtbot.mouseClick(dialog.run_button, Qt.MouseButton.LeftButton)
+    qtbot.waitUntil(trap.has_sprung, timeout=LONG_MS)
+
+
+def test_nobody_knocks_at_a_strangers_robot_to_see_whether_it_is_there(
+    stranger: Callable[..., Trap], window: MainWindow, qtbot: QtBot
+) -> None:
+    trap = stranger(robot_elsewhere)
+
+    window.running.show_needs()
+    qtbot.wait(A_WHILE_MS)
+
+    assert not trap.has_sprung()
+
+
+# What the person writes is their own; what comes in otherwise is not.
+
+
+def python_block(window: MainWindow) -> str:
+    blocks = window.workbench.canvas.editor.project.blocks.values()
+    return next(block.id for block in blocks if block.type == "code.lines")
+
+
+def runs_unasked(window: MainWindow, qtbot: QtBot, trap: Trap) -> None:
+    press(window, qtbot, "run")
+    qtbot.waitUntil(lambda: dialog_of(window) is not None or trap.has_sprung(), timeout=LONG_MS)
+    assert dialog_of(window) is None
+
+
+@pytest.fixture
+def own(make: Maker, studio: Studio, window: MainWindow, qtbot: QtBot) -> Trap:
+    """A new project, in which the person types what leaves a mark."""
+    studio.language = make.language
+    window.files.new()
+    qtbot.waitUntil(lambda: window.workbench.canvas.isVisible())
+    editor = window.workbench.canvas.editor
+    place = editor.new_stack("behaviour", 40, 40)
+    editor.create("event.started", place)
+    from nep_studio.blocks.places import InStack
+
+    block = editor.create("code.lines", InStack(place.stack, 1))
+    for end in range(1, len(make.python) + 1):  # letter by letter, as a field is typed
+        editor.apply(SetField(block, "code", make.python[:end]))
+    return Trap(make.folder / "gift.nep", make.marker.exists)
+
+
+def test_what_the_person_typed_is_never_asked_about(
+    own: Trap, window: MainWindow, qtbot: QtBot
+) -> None:
+    runs_unasked(window, qtbot, own)
+
+
+def test_what_the_person_wrote_as_python_is_never_asked_about(
+    make: Maker, own: Trap, window: MainWindow, qtbot: QtBot
+) -> None:
+    code = window.workbench.code
+    code.begin_editing()
+    text = code.text.toPlainText().replace(make.python, f"{make.python}; import os; os.getpid()")
+    code.text.setPlainText(text)
+    code.apply()
+
+    runs_unasked(window, qtbot, own)
+
+
+def test_what_is_pasted_is_asked_about_also_after_undo_and_redo(
+    make: Maker, own: Trap, window: MainWindow, qtbot: QtBot
+) -> None:
+    editor = window.workbench.canvas.editor
+    runs_unasked(window, qtbot, own)
+    window.running.stop()
+    state_is(window, qtbot, "idle")
+    project = lines(Maker(make.folder / "..", make.language, make.ending)).file
+    from nep_studio.blocks.files import load
+
+    strange = load(project, make.language)
+    clip = copy(strange, make.language, next(iter(strange.pages["behaviour"])).body)
+    paste(editor, clip, "behaviour", 400, 40)
+    for step in (lambda: None, editor.history.undo, editor.history.redo):
+        step()
+    press(window, qtbot, "run")
+
+    asked(window, qtbot).reject()
+
+
+def test_a_letter_more_does_not_make_a_strangers_text_ones_own(
+    stranger: Callable[..., Trap], window: MainWindow, qtbot: QtBot
+) -> None:
+    trap = stranger(lines)
+    editor, block = window.workbench.canvas.editor, python_block(window)
+    text = editor.project.blocks[block].fields["code"]
+
+    editor.apply(SetField(block, "code", f"{text}#"))
+    press(window, qtbot, "run")
+
+    asked(window, qtbot).reject()
+    assert not trap.has_sprung()
+
+
+def test_what_was_approved_and_then_changed_is_ones_own(
+    stranger: Callable[..., Trap], window: MainWindow, qtbot: QtBot
+) -> None:
+    trap = stranger(lines)
+    press(window, qtbot, "run")
+    asked(window, qtbot).accept()
+    qtbot.waitUntil(trap.has_sprung, timeout=LONG_MS)
+    window.running.stop()
+    state_is(window, qtbot, "idle")
+
+    editor, block = window.workbench.canvas.editor, python_block(window)
+    text = editor.project.blocks[block].fields["code"]
+    editor.apply(SetField(block, "code", f"{text}  # mine"))
+
+    runs_unasked(window, qtbot, trap)
+
+
+def test_ones_own_that_is_saved_and_opened_again_is_not_asked_about(
+    own: Trap, window: MainWindow, qtbot: QtBot
+) -> None:
+    document = window.files.document
+    document.save(own.file)
+    window.files.open(own.file)
+    qtbot.waitUntil(lambda: window.files.document is not document)
+
+    runs_unasked(window, qtbot, own)
+
+
+def test_a_file_that_another_program_changed_is_asked_about(
+    make: Maker, own: Trap, window: MainWindow, qtbot: QtBot
+) -> None:
+    document = window.files.document
+    document.save(own.file)
+    text = own.file.read_text(encoding="utf-8")
+    own.file.write_text(text.replace("close()", "close();"), encoding="utf-8")
+    window.files.open(own.file)
+    qtbot.waitUntil(lambda: window.files.document is not document)
+
+    press(window, qtbot, "run")
+
+    asked(window, qtbot).reject()
+
+
+def test_work_that_is_recovered_is_known_by_its_content(
+    make: Maker, window: MainWindow, studio: Studio, qtbot: QtBot
+) -> None:
+    from nep_studio.blocks.files import load
+    from nep_studio.project.journal import Recoverable
+
+    studio.language = make.language
+    trap = lines(make)
+    project = load(trap.file, make.language)
+    window.files.restore(Recoverable("gift", None, 0.0, project, make.folder / "none"))
+    qtbot.waitUntil(lambda: window.workbench.canvas.isVisible())
+
+    press(window, qtbot, "run")
+
+    asked(window, qtbot).reject()
+    assert not trap.has_sprung()
+
+
+def test_an_example_of_ours_asks_nothing(window: MainWindow, qtbot: QtBot) -> None:
+    from nep_studio import paths
+
+    window.files.open_example(paths.examples() / "morning_greeter.nep")
+    qtbot.waitUntil(lambda: window.workbench.canvas.isVisible())
+
+    press(window, qtbot, "run")
+    qtbot.waitUntil(lambda: window.running.runner.state != "idle")
+
+    assert dialog_of(window) is None
+
+
+@pytest.mark.parametrize("trap_of", [far_to_the_right, after_many_lines])
+def test_all_of_a_long_text_can_be_reached(
+    stranger: Callable[..., Trap], window: MainWindow, qtbot: QtBot, trap_of
+) -> None:
+    stranger(trap_of)
+    press(window, qtbot, "run")
+    dialog = asked(window, qtbot)
+
+    text = dialog.texts[0]
+
+    assert text.horizontalScrollBar().maximum() == 0
+    lines_shown = text.verticalScrollBar().maximum() + text.viewport().height()
+    assert lines_shown >= 0 and text.verticalScrollBar().maximum() >= 0
+    dialog.reject()
+
+
+def test_screen_readers_hear_what_each_text_is(
+    stranger: Callable[..., Trap], window: MainWindow, qtbot: QtBot
+) -> None:
+    stranger(folded)
+    press(window, qtbot, "run")
+    dialog = asked(window, qtbot)
+
+    names = [text.accessibleName() for text in dialog.texts]
+
+    assert names == ["Python, one line, page Behaviour · inside folded blocks"]
+    dialog.reject()
+
+
+def test_approvals_are_kept_in_a_file_of_the_users_own(
+    stranger: Callable[..., Trap], window: MainWindow, home: Path, qtbot: QtBot
+) -> None:
+    stranger(lines)
+    press(window, qtbot, "run")
+    asked(window, qtbot).accept()
+    state_is(window, qtbot, "running")
+
+    assert Approvals(home / "approved.json").path.stat().st_mode & 0o077 == 0
+    assert QGuiApplication.instance() is not None
