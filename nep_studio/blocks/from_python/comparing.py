@@ -16,7 +16,7 @@ from nep_studio.blocks.generate.source_map import Code
 from .learning import CodeUnread
 from .outside import HEADERS, Part, is_frame
 from .source import Source, begin_of, read_source
-from .values import locals_of
+from .values import locals_of, names_made
 
 
 def lost_lines(
@@ -70,9 +70,8 @@ def _require_own_names(source: Source, parts: Sequence[Part]) -> None:
 
 def _bound(node: ast.stmt) -> set[str]:
     """The names to which a statement outside of functions gives a meaning."""
-    function = ast.FunctionDef("_", ast.arguments([], [], None, [], [], None, []), [node], [])
     is_import = isinstance(node, ast.ImportFrom) and node.module == "nep_core"
-    return set() if is_import else set(locals_of(function))
+    return set() if is_import else set(names_made([node]))
 
 
 def _lost_functions(

@@ -248,9 +248,8 @@ def _update(
     for gone in left.values():
         stack = editor.project.stacks[gone.stack]
         editor.apply(DeleteBlocks(stack.body[0], len(stack.body)))
+    _put_in_order(editor, _update_outside(editor, parts, firsts))
     stacks = [editor.project.stack_of(first).id for first in firsts]
-    ordered = _update_outside(editor, parts, firsts)
-    _put_in_order(editor, ordered)
     return parts, dict(zip(stacks, (rule.function for rule in rules), strict=True))
 
 
@@ -275,15 +274,15 @@ def _update_outside(editor: Editor, parts: Sequence[Part], firsts: Sequence[str]
             fitting = [b for b in left if definition and definition.value(b, "place") == part.place]
             same = next((b for b in fitting if _own_text(b) == text), None)
             free = [b for b in fitting if _own_text(b) not in part.text]
-            block = same or next(iter(free), None)
-            if block is None:
+            found = same or next(iter(free), None)
+            if found is None:
                 ordered.append(create_outside(editor, text, part.place, part.line, page))
                 continue
-            left.remove(block)
+            left.remove(found)
             if same is None:
-                editor.apply(SetComment(block.id, ""))
-                editor.apply(SetField(block.id, "code", text))
-            ordered.append(block.id)
+                editor.apply(SetComment(found.id, ""))
+                editor.apply(SetField(found.id, "code", text))
+            ordered.append(found.id)
     for gone in left:
         editor.apply(DeleteBlocks(gone.id, len(editor.project.stack_of(gone.id).body)))
     return ordered

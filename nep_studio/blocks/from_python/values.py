@@ -110,7 +110,12 @@ def locals_of(function: ast.FunctionDef | ast.AsyncFunctionDef) -> dict[str, int
 
     What it is given is not one of them.
     """
-    nodes = [node for part in function.body for node in outside_functions(part)]
+    return names_made(function.body)
+
+
+def names_made(body: Sequence[ast.stmt]) -> dict[str, int]:
+    """The names to which statements give a meaning where they are, each with the first line."""
+    nodes = [node for part in body for node in outside_functions(part)]
     shared = {
         n for node in nodes if isinstance(node, ast.Global | ast.Nonlocal) for n in node.names
     }
@@ -118,7 +123,7 @@ def locals_of(function: ast.FunctionDef | ast.AsyncFunctionDef) -> dict[str, int
     for node in sorted(nodes, key=lambda n: getattr(n, "lineno", 0)):
         for name in made_by(node):
             if name not in shared:
-                made.setdefault(name, getattr(node, "lineno", function.lineno))
+                made.setdefault(name, getattr(node, "lineno", body[0].lineno))
     return made
 
 
