@@ -127,8 +127,8 @@ def _require_same_scope(there: ast.FunctionDef, again: ast.FunctionDef) -> None:
                 "“{name}” is a variable of the whole program, and this rule has one of its own.",
                 line,
                 checklist=(
-                    "Write “global {name}” as the first line of the function, to mean that one.",
-                    "Or give the one in this function another name.",
+                    "Write a “global” line with this name first in the function, to mean that one.",
+                    "Give the variable another name.",
                 ),
                 name=name,
             )
@@ -172,11 +172,7 @@ def _require_unused(node: ast.Assign, used: set[str]) -> None:
         raise CodeUnread(
             "The program does not say this by the name “{name}”.",
             node.lineno,
-            checklist=(
-                "Write it as in the Python of the blocks: a robot is called as on the page "
-                "Robots, in small letters.",
-                "All robots are those on the page Robots.",
-            ),
+            checklist=("Call a robot as on the page Robots, in small letters.",),
             name=target.id,
         )
 

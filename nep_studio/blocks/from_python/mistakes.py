@@ -17,14 +17,11 @@ _USUAL = (
 )
 _BRACKET = ("Count the brackets in this line: each one that opens needs one that closes.",)
 _QUOTE = ("Begin and end the text with the same quote, on one line.",)
-_INDENT = (
-    "Move the lines that belong together in by the same number of spaces.",
-    "Below a line that ends with a colon, move the next line in by four spaces.",
-)
+_INDENT = ("Are the lines inside a block moved in by the same number of spaces?",)
 _TABS = ("Use spaces alone at the beginning of lines, four for each step, and no tabs.",)
-_OTHER_LANGUAGE = (
-    "This looks like another language: write it in Python.",
-    "In Python a line ends without “;”, and what is inside is moved in, without “{” and “}”.",
+_OTHER_LANGUAGE = ("This looks like another language: write it in Python.",)
+_SIGNS = (
+    "Type the spaces and signs in this line again: some are characters that Python does not know.",
 )
 _KEYWORD = ("Give it another name: this word has a meaning in Python already.",)
 
@@ -35,15 +32,15 @@ _BY_LINE: tuple[tuple[str, Sequence[Words]], ...] = (
     ),
     (
         "[\u00a0\u1680\u2000-\u200f\u2028-\u202f\u205f\u2060\u3000\ufeff]",
-        ("Delete the spaces in this line and type them again: some are other characters.",),
+        _SIGNS,
     ),
     (
         "[\u00d7\u00f7\u2212\u2013\u2014\u2264\u2265\u2260]",
-        ("Write the sign as Python does: * / - <= >= !=",),
+        _SIGNS,
     ),
     (
         "[\uff0c\u3002\uff1b\uff1a\uff08\uff09\uff3b\uff3d\uff5b\uff5d\uff01\uff1f\uff1d\uff0b]",
-        ("Type the signs in this line again, in half width.",),
+        _SIGNS,
     ),
     (
         r"^\s*(else\s+if|elseif|elsif|elif)\b(?!.*:\s*(#.*)?$)|^\s*(else\s+if|elseif|elsif)\b",
@@ -51,7 +48,7 @@ _BY_LINE: tuple[tuple[str, Sequence[Words]], ...] = (
     ),
     (
         r"^\s*print\s+[^=(\s]",
-        ("Write what is printed in brackets: print(...)",),
+        ("Write what is printed in brackets behind “print”.",),
     ),
     (
         r"^\s*(var|let|const)\s+\w+|^\s*function\b|\bfunction\s*\(|^\s*#include\b|;\s*$"
@@ -75,22 +72,19 @@ _BY_MESSAGE: tuple[tuple[str, Sequence[Words]], ...] = (
     ("inconsistent use of tabs", _TABS),
     ("indent", _INDENT),
     ("expected ':'", ("Write a colon at the end of this line.",)),
-    ("f-string", ("Look at the “{” and “}” in this text: between them is a value.",)),
     ("unterminated", _QUOTE),
     ("was never closed", _BRACKET),
     ("unmatched", _BRACKET),
     ("does not match opening", _BRACKET),
-    ("too many nested parentheses", ("Divide this into several lines with a variable each.",)),
-    ("Maybe you meant '=='", ("Compare with two signs: == asks whether both are the same.",)),
-    ("cannot assign to", ("On the left of “=” stands the name of a variable alone.",)),
+    (
+        "Maybe you meant '=='",
+        ("Compare with two signs: == asks whether both are the same, = puts a value in.",),
+    ),
     ("perhaps you forgot a comma", ("Is a comma or a sign missing between two values?",)),
-    ("leading zeros", ("Write the number without zeros before it.",)),
-    ("invalid decimal literal", ("A name begins with a letter, not with a digit.",)),
-    ("invalid non-printable", ("Delete the spaces in this line and type them again.",)),
+    ("invalid non-printable", _SIGNS),
     ("outside function", ("Put it into a function below a “when” line.",)),
-    ("outside loop", ("Put it into a loop.",)),
-    ("not properly in loop", ("Put it into a loop.",)),
-    ("global declaration", ("Write the “global” line first in the function.",)),
+    ("outside loop", ("Put it into a “repeat”, “while” or “for each” block.",)),
+    ("not properly in loop", ("Put it into a “repeat”, “while” or “for each” block.",)),
 )
 """What the message of Python says, wherever it finds it."""
 
@@ -119,10 +113,7 @@ def too_deep(tree: ast.AST | None, lines: Sequence[str]) -> CodeUnread:
     return CodeUnread(
         "This goes too deep into itself to be read.",
         line,
-        checklist=(
-            "Divide it into several lines: put a part of it into a variable first.",
-            "Instead of many “elif”, look into a list or a dictionary.",
-        ),
+        checklist=("Divide it into several lines: put a part of it into a variable first.",),
     )
 
 

@@ -170,18 +170,12 @@ def _without_global(body: Sequence[ast.stmt]) -> list[ast.stmt]:
 def _require_no_values(node: ast.FunctionDef) -> None:
     """A rule begins by itself: it is given nothing, and gives nothing back."""
     given = node.args
-    if any((given.args, given.posonlyargs, given.kwonlyargs, given.vararg, given.kwarg)):
+    values = (given.args, given.posonlyargs, given.kwonlyargs, given.vararg, given.kwarg)
+    if any(values) or node.returns is not None:
         raise CodeUnread(
-            "The function of a rule is given no values.",
+            "The function of a rule is given nothing, and gives nothing back.",
             node.lineno,
-            checklist=("Take out what stands between the brackets of “{name}()”.",),
-            name=node.name,
-        )
-    if node.returns is not None:
-        raise CodeUnread(
-            "The function of a rule gives nothing back.",
-            node.lineno,
-            checklist=("Take out what stands behind “->”, with the arrow.",),
+            checklist=("Write its line with “():” at the end.",),
         )
 
 

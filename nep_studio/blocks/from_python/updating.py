@@ -174,10 +174,7 @@ def update_from_python(editor: Editor, text: str) -> None:
         raise CodeUnread(
             "This program could not be read: nothing has changed, and your text is still here.",
             1,
-            checklist=(
-                "Undo the last change of the code, and apply smaller changes one by one.",
-                "Please report what happened: the report says more.",
-            ),
+            checklist=("Undo the last change of the code.",),
         ) from error
 
 

@@ -187,10 +187,7 @@ def _note(editor: Editor, names: SourceNames, name: str, made: str, node: ast.As
     raise CodeUnread(
         "{made} needs a name in quotes here.",
         node.lineno,
-        checklist=(
-            'Write the name in quotes, such as "NAO".',
-            "Take out all else in these brackets: the page Robots says where a robot is.",
-        ),
+        checklist=('Write the name in quotes, such as "NAO".',),
         made=made,
     )
 
