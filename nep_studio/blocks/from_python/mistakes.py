@@ -98,7 +98,7 @@ def checklist_of(error: SyntaxError, lines: Sequence[str]) -> Sequence[Words]:
         is_foreign = _fitting(_BY_LINE[6:7], above)
         return (*(is_foreign or ()), *(_TABS if "tabs" in message else _INDENT))
     plain = _without_texts(line)
-    found = _fitting(_BY_LINE, plain) or _keyword_as_name(plain)
+    found = _keyword_as_name(plain) or _fitting(_BY_LINE, plain)
     if found is None:
         found = next((told for part, told in _BY_MESSAGE if part in message), None)
     return (*found, _USUAL[-1]) if found is not None else _USUAL

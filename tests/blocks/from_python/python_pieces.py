@@ -1,4 +1,6 @@
-"""Pieces of Python as pupils and teachers write them: outside of functions, in a rule, at the top."""
+"""Pieces of Python as pupils and teachers write them: in a rule, outside of it, at the top."""
+
+# ruff: noqa: E501 - a table of pieces is read more easily with several in a line
 
 from __future__ import annotations
 
@@ -17,7 +19,7 @@ OUTSIDE = [
     *["n = 1\n\n\ndef f():\n    global n\n    n += 1", "@staticmethod\ndef f():\n    pass", "def f():\n    pass\n\n\ndef f():\n    return 2"],
     *["class Dog:\n    pass", "class Dog:\n    def __init__(self, age):\n        self.age = age", "class A(Exception):\n    x = 1\n\n\nclass B(A):\n    pass"],
     *["squares = [i * i for i in range(5)]", "größe = 3", "名前 = 'Aya'", 'poem = """\n  roses\nviolets\n"""', "text = f'{1 + 2}'", "x = 0xff", "x = 1_000"],
-    *["sum = 0", "list = [1]", "input = 3", "wait = 5", "behavior = 3", "nao = 5", "def wait(s):\n    pass", "robot = Robot('Pepper')"],
+    *["sum = 0", "list = [1]", "input = 3", "wait = 5", "behavior = 3", "nao = 5", "def wait(s):\n    pass", "robot = Robot('Pepper')\nrobot.say('x')"],
     *['def ask():\n    return input("name? ")', "assert MAX", "pass", "with open('x') as f:\n    pass", "match 1:\n    case _:\n        pass"],
 ]  # fmt: skip
 

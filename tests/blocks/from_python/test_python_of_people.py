@@ -25,7 +25,8 @@ def program(*, top: str = "", outside: str = "", rule: str = "nao.say('hi')") ->
     """A program with a piece in one of its places."""
     body = textwrap.indent(rule, "    ")
     begin = "\n\n@behavior.when_started\ndef when_started():\n"
-    return f"{top}\n{HEAD}{MADE}{outside}\n{begin}{body}\n\n\nbehavior.run()\n"
+    more = "\n\n@behavior.when('touched_head')\ndef more():\n    nao.say('More')\n"
+    return f"{top}\n{HEAD}{MADE}{outside}\n{begin}{body}\n{more}\n\nbehavior.run()\n"
 
 
 PROGRAMS = (
@@ -38,6 +39,9 @@ PROGRAMS = (
 def said(text: str) -> tuple[Counter[str], Counter[str]]:
     """The statements of a program and its comments, without what depends on the blocks alone."""
     source = read_source(text)
+    for node in ast.walk(source.tree):
+        if isinstance(body := getattr(node, "body", None), list):
+            node.body = [one for one in body if not isinstance(one, ast.Global)]
     statements = Counter(
         ast.dump(node)
         for node in ast.walk(source.tree)
