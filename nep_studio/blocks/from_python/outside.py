@@ -26,6 +26,7 @@ class Part:
     """A function that becomes blocks, or own Python outside of these.
 
     ``line`` is the line after which the comments of a function begin, or the first one of ``text``.
+    Of a function, ``text`` are comments that stand further above it, and belong to nothing else.
     """
 
     line: int
@@ -106,8 +107,9 @@ class _Splitter:
                     raise _below_the_end(node)
                 self._wait_for(after, self.source.first_line(node, after))
                 self._add_waiting(HERE)
+                above = self._take_comments()
                 self._flush()
-                self.parts.append(Part(after, node))
+                self.parts.append(Part(after, node, above))
                 after = self.source.last_line(node.body)
                 continue
             self._wait_for(after, begin)
@@ -200,6 +202,14 @@ class _Splitter:
             self.first, self.place = line, place
         self.lines += lines
         self.end = max(self.end, line + len(lines) - 1)
+
+    def _take_comments(self) -> str:
+        """What was read last when it is nothing but comments, which the next function gets."""
+        said = [line for line in self.lines if line]
+        if self.place != HERE or not all(line.startswith("#") for line in said):
+            return ""
+        self.lines = []
+        return "\n".join(said)
 
     def _flush(self) -> None:
         if self.lines:

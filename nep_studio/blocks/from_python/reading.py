@@ -205,16 +205,21 @@ def read_rules(
     blocks say but nobody can read.
     """
     left = Counter(known)
-    functions = [(part.function, part.line) for part in parts if part.function is not None]
-    names = names_in(editor, source.tree, [function for function, _ in functions])
+    functions = [(p.function, p.line, p.text) for p in parts if p.function is not None]
+    names = names_in(editor, source.tree, [function for function, _, _ in functions])
     reader = StatementReader(editor.language, names, source, kept)
     rules = []
-    for node, after in functions:
+    for node, after, above in functions:
         last = source.last_line(node.body)
         text = source.text(source.first_line(node, after), last)
+        text = f"{above}\n{text}" if above else text
         left.subtract([text])
         is_known = left[text] >= 0 and not any(node.lineno <= n <= last for n in kept)
         chain = [] if is_known else reader.rule(node, after)
+        if chain and above:
+            said = [line.lstrip("#").strip() for line in above.split("\n")]
+            chain[0].comment = "\n".join([*said, *filter(None, [chain[0].comment])])
+            chain[0].text = f"{above}\n{chain[0].text}"
         rules.append(ReadRule(node, chain, text))
     return rules
 
