@@ -34,7 +34,8 @@ class CodeText:
     """Python that can be in a block: its lines, and which names it reads and makes.
 
     ``inside_texts`` are the lines that begin inside a text of several lines; ``set_here`` are
-    the names that it makes itself, and not a function inside it.
+    the names that it makes itself, and not a function inside it. Outside of all functions these
+    are the ones that it makes in any case, ``defined`` those of them that are no plain values.
     """
 
     lines: tuple[str, ...]
@@ -42,6 +43,7 @@ class CodeText:
     read: frozenset[str]
     made: frozenset[str]
     set_here: frozenset[str] = frozenset()
+    defined: frozenset[str] = frozenset()
     is_empty: bool = False
     is_closed: bool = False
 
@@ -63,14 +65,40 @@ def read_lines(text: str, *, in_loop: bool = True) -> CodeText:
         raise CodeTextRefused(_in_line(refused.sentence, line), line) from refused
     if any(getattr(c, "co_flags", 0) & _GENERATOR_FLAGS for c in code.co_consts):
         raise CodeTextRefused("“yield” and “await” cannot be in a block of a program.")
-    for node in _outside_functions(tree):
+    for node in outside_functions(tree):
         if isinstance(node, ast.Global | ast.Nonlocal):
             raise CodeTextRefused(
                 _in_line(Text("The program writes “global” by itself."), node.lineno), node.lineno
             )
     read, made = _names(tree)
-    here = frozenset(name for node in _outside_functions(tree) for name in _made_by(node))
+    here = frozenset(name for node in outside_functions(tree) for name in made_by(node))
     return CodeText(tuple(lines), inside, read, made, here, is_empty=not tree.body)
+
+
+@lru_cache(maxsize=256)
+def read_outside(text: str) -> CodeText:
+    """Check lines that stand outside of all functions, or raise CodeTextRefused."""
+    lines = _visible_lines(text)
+    tree = _parse("\n".join(lines), "exec")
+    compile_quietly("\n".join(lines))
+    read, made = _names(tree)
+    body = tree.body if isinstance(tree, ast.Module) else []
+    defined = frozenset(name for node in body for name in made_by(node))
+    targets = [target for node in body for target in _targets(node)]
+    values = frozenset(t.id for t in targets if isinstance(t, ast.Name))
+    inside = frozenset(lines_inside_texts(tree))
+    return CodeText(tuple(lines), inside, read, made, values | defined, defined, not body)
+
+
+def _targets(node: ast.stmt) -> list[ast.expr]:
+    """What a plain statement puts values into."""
+    match node:
+        case ast.Assign(targets=targets):
+            parts = [t.elts if isinstance(t, ast.Tuple | ast.List) else [t] for t in targets]
+            return [target for part in parts for target in part]
+        case ast.AnnAssign(target=target, value=ast.expr()):
+            return [target]
+    return []
 
 
 @lru_cache(maxsize=1024)
@@ -147,10 +175,10 @@ def _names(tree: ast.AST) -> tuple[frozenset[str], frozenset[str]]:
     changed = [node.target for node in nodes if isinstance(node, ast.AugAssign)]
     names = [node for node in nodes if isinstance(node, ast.Name)]
     read = [name.id for name in names if isinstance(name.ctx, ast.Load) or name in changed]
-    return frozenset(read), frozenset(name for node in nodes for name in _made_by(node))
+    return frozenset(read), frozenset(name for node in nodes for name in made_by(node))
 
 
-def _outside_functions(tree: ast.AST) -> Iterator[ast.AST]:
+def outside_functions(tree: ast.AST) -> Iterator[ast.AST]:
     """The parts of Python that are in no function or class of its own."""
     waiting: list[ast.AST] = [tree]
     while waiting:
@@ -160,7 +188,7 @@ def _outside_functions(tree: ast.AST) -> Iterator[ast.AST]:
             waiting += ast.iter_child_nodes(node)
 
 
-def _made_by(node: ast.AST) -> Iterator[str]:
+def made_by(node: ast.AST) -> Iterator[str]:
     """The names that a part of Python makes itself."""
     match node:
         case ast.Name(id=name, ctx=ast.Store() | ast.Del()):

@@ -12,6 +12,8 @@ from .program import ROBOT_BLOCK, Block, Project
 from .slots import GESTURE_STATE, Setting
 
 NODE_BLOCK = "nodes.launch"
+OUTSIDE_BLOCK = "code.program"
+"""The block of Python that stands outside of all functions: no rule, but it becomes code."""
 GESTURE_NODE = "perceptual/gesture"
 """The node that recognises gestures."""
 
@@ -124,12 +126,13 @@ def named_gestures(parameters: Mapping[str, Setting]) -> list[str]:
 def rules(project: Project, language: Language) -> Iterator[list[str]]:
     """The chains of the behaviour pages that begin with an enabled “when”: those that run."""
     for chain in chains(project, language):
-        if not project.blocks[chain[0]].type.startswith(DEFINE):
+        hat = project.blocks[chain[0]].type
+        if not hat.startswith(DEFINE) and hat != OUTSIDE_BLOCK:
             yield chain
 
 
 def chains(project: Project, language: Language) -> Iterator[list[str]]:
-    """The rules, and the chains that define own blocks: all that becomes code."""
+    """The rules, the chains that define own blocks, and own Python: all that becomes code."""
     definitions = language.of(project).definitions
     for page, stacks in project.pages.items():
         for stack in stacks if project.kind_of_page(page) == "behaviour" else ():

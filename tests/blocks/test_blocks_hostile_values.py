@@ -32,7 +32,7 @@ from nep_studio.run.installation import load_language
 RESOURCES = Path(__file__).resolve().parents[2] / "resources"
 LANGUAGE = load_language(RESOURCES / "blocks", RESOURCES / "robots/nao/robot.toml")
 WORST = [*TEXTS, *NUMBERS]
-WRITTEN = {"code.lines", "code.value", "control.note"}
+WRITTEN = {"code.lines", "code.program", "code.value", "control.note"}
 """Blocks whose text is written as it is; test_written_python.py and test_notes say how."""
 
 COUNTED = {"list", "text.letter", "control.count"}

@@ -7,8 +7,9 @@ from typing import NamedTuple
 
 from faults import Text, text_of
 from nep_studio.blocks.arithmetic import number_of
-from nep_studio.blocks.code_text import CodeTextRefused, read_lines, read_value
+from nep_studio.blocks.code_text import CodeTextRefused, read_lines, read_outside, read_value
 from nep_studio.blocks.definitions import Definition, Slot
+from nep_studio.blocks.deployment import OUTSIDE_BLOCK
 from nep_studio.blocks.language import Language
 from nep_studio.blocks.procedures import CALL, DEFINE, PARAMETER, RETURN, procedure_of, title
 from nep_studio.blocks.program import Block, Project
@@ -145,11 +146,13 @@ def _why_not_there(block: Block, definition: Definition, place: _Place) -> _Misp
         reason = Text("this value is known only inside the definition of its own block.")
         remedy = "Move it under the “define” block that it comes from."
         return ("error", "parameter_outside", reason, remedy)
-    if block.type in (CODE_LINES, CODE_VALUE):
+    if block.type in (CODE_LINES, CODE_VALUE, OUTSIDE_BLOCK):
         text = str(definition.value(block, "code"))
         try:
             if block.type == CODE_VALUE:
                 read_value(text)
+            elif block.type == OUTSIDE_BLOCK:
+                read_outside(text)
             else:
                 read_lines(text, in_loop=place.loop)
         except CodeTextRefused as refused:

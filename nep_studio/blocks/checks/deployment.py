@@ -5,7 +5,13 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping
 
 from faults import Text, text_of
-from nep_studio.blocks.deployment import NodeEntry, RobotEntry, is_recognised, robot_entries
+from nep_studio.blocks.deployment import (
+    OUTSIDE_BLOCK,
+    NodeEntry,
+    RobotEntry,
+    is_recognised,
+    robot_entries,
+)
 from nep_studio.blocks.language import Language
 from nep_studio.blocks.own_gestures import own_gestures, trained_gestures
 from nep_studio.blocks.procedures import DEFINE
@@ -166,7 +172,7 @@ def check_rules(
 ) -> Iterator[Diagnostic]:
     """Problems of the beginnings of the chains that become code."""
     hats = [project.blocks[chain[0]] for chain in running]
-    hats = [hat for hat in hats if not hat.type.startswith(DEFINE)]
+    hats = [hat for hat in hats if not hat.type.startswith(DEFINE) and hat.type != OUTSIDE_BLOCK]
     if not hats:
         yield Diagnostic(
             "error",

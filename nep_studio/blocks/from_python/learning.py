@@ -159,7 +159,7 @@ def _lines(pieces: Sequence[Piece]) -> Iterator[str]:
 
 
 MOST_PATTERNS, MOST_LANGUAGES, MOST_MIXED = 600, 4, 3
-_KEPT_AS_WRITTEN = frozenset({"code_lines", "code_value", "note"})
+_KEPT_AS_WRITTEN = frozenset({"code_lines", "code_value", "note", "program_lines"})
 
 
 _NOT_MADE = (CodeRefused, KeyError, ValueError, TypeError, IndexError, SyntaxError)

@@ -3,18 +3,22 @@
 from __future__ import annotations
 
 import ast
+import logging
 import textwrap
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from difflib import SequenceMatcher
 from functools import partial
 from itertools import pairwise
 
 from faults import Words
+from nep_studio.blocks.code_text import CodeTextRefused, read_outside
+from nep_studio.blocks.deployment import OUTSIDE_BLOCK, chains
 from nep_studio.blocks.editor import Editor
 from nep_studio.blocks.edits.content import SetComment, SetField
 from nep_studio.blocks.edits.placing import CreateBlocks, DeleteBlocks, MoveBlocks
-from nep_studio.blocks.errors import CodeRefused, EditRefused
+from nep_studio.blocks.errors import BlocksError, CodeRefused, EditRefused
+from nep_studio.blocks.generate.expressions import comment_lines
 from nep_studio.blocks.generate.program import generate_program
 from nep_studio.blocks.generate.source_map import Code
 from nep_studio.blocks.operations.selection import chain_around
@@ -22,8 +26,14 @@ from nep_studio.blocks.places import InBody, InInput, InStack, NewStack, Place
 from nep_studio.blocks.procedures import procedure_of
 from nep_studio.blocks.program import Block, Project
 
+from .comparing import lost_lines
 from .learning import CodeUnread, Made, blocks_of
-from .reading import ReadRule, Source, create_chain, read_rules, read_source
+from .mistakes import too_deep
+from .outside import Part, parts_of
+from .reading import ReadRule, create_chain, create_outside, read_rules
+from .source import Source, read_source
+
+log = logging.getLogger(__name__)
 
 # Change a chain of blocks to another one, keeping the blocks whose Python is the same.
 
@@ -150,25 +160,43 @@ def update_from_python(editor: Editor, text: str) -> None:
 
     Stacks whose lines are the same stay as they are, with their ids, places, comments and disabled
     blocks; in the others, blocks whose lines are the same do. Disabled rules and loose stacks stay.
+    What has no block stays Python, in a rule or outside of all functions.
     """
     source = read_source(text)
-    as_code: set[str] = set()
+    try:
+        _update_until_same(editor, source)
+    except (BlocksError, EditRefused):
+        raise
+    except RecursionError as error:
+        raise too_deep(source.tree, source.lines) from error
+    except Exception as error:
+        log.exception("Python could not be read")
+        raise CodeUnread(
+            "This program could not be read: nothing has changed, and your text is still here.",
+            1,
+            checklist=("Undo the last change of the code.",),
+        ) from error
+
+
+def _update_until_same(editor: Editor, source: Source) -> None:
+    """Change the blocks; what would not be said again by them is kept as Python, or refused."""
+    kept = set[int]()
     anew = False
     while True:
         try:
             with editor.transaction("change the code"):
-                functions = _update(editor, source, as_code, anew)
-                wrong = _functions_that_differ(editor, source, functions)
-                if wrong:
-                    raise _Differs(wrong)
+                parts, functions = _update(editor, source, kept, anew)
+                lost = lost_lines(editor, source, parts, functions)
+                if lost:
+                    raise _Differs(lost)
         except _Differs as differs:
-            if differs.functions <= as_code:
+            if differs.lines <= kept:
                 raise CodeUnread(
                     differs.sentence,
-                    _line_of(source, min(differs.functions)),
+                    min(differs.lines),
                     checklist=("Write it in another way.", "Or undo the last change."),
                 ) from differs
-            as_code |= differs.functions
+            kept |= differs.lines
         except EditRefused as refused:
             if anew:
                 raise CodeUnread(refused.sentence, 1, checklist=refused.checklist) from refused
@@ -178,61 +206,137 @@ def update_from_python(editor: Editor, text: str) -> None:
 
 
 class _Differs(Exception):
-    """Functions that would not be made again from the blocks as they are in the text."""
+    """Lines that would not be made again from the blocks as they are in the text."""
 
-    def __init__(self, functions: set[str], sentence: Words = "") -> None:
+    def __init__(self, lines: set[int], sentence: Words = "") -> None:
         super().__init__()
-        self.functions = functions
-        self.sentence = sentence or "This function cannot become blocks that say the same."
+        self.lines = lines
+        self.sentence = sentence or "This cannot become blocks that say the same."
 
 
-def _update(editor: Editor, source: Source, as_code: set[str], anew: bool) -> dict[str, str]:
+def _update(
+    editor: Editor, source: Source, kept: set[int], anew: bool
+) -> tuple[list[Part], dict[str, ast.FunctionDef]]:
     """Change the stacks whose lines have changed; ``anew``, make those anew.
 
-    Gives the name of the function that each stack is to make.
+    Gives the parts of the text, and the function that each stack is to make.
     """
+    parts = parts_of(source, kept)
     code = _code(editor)
     written = _written(editor.project, code)
-    rules = read_rules(editor, source, as_code, [] if anew else [w.text for w in written])
+    rules = read_rules(editor, source, parts, kept, [] if anew else [w.text for w in written])
     left = {stack.stack: stack for stack in written}
-    same = [_take(left, (w for w in left.values() if w.text == rule.text)) for rule in rules]
+    same = [
+        None if rule.chain else _take(left, (w for w in left.values() if w.text == rule.text))
+        for rule in rules
+    ]
     firsts = []
+    page = "behaviour"
     for number, (rule, known) in enumerate(zip(rules, same, strict=True)):
         if known is not None:
             firsts.append(editor.project.stacks[known.stack].body[0])
-            continue
-        name = rule.function.name
-        known = _take(left, (w for w in left.values() if w.function == name))
-        if known is None and len(rules) == len(written):  # it has got another name
-            known = left.pop(written[number].stack, None)
-        firsts.append(_change(editor, code, rule, known, anew))
+        else:
+            name = rule.function.name
+            known = _take(left, (w for w in left.values() if w.function == name))
+            if known is None and len(rules) == len(written):  # it has got another name
+                known = left.pop(written[number].stack, None)
+            firsts.append(_change(editor, code, rule, known, anew, page))
+        page = editor.project.page_of(firsts[-1])
     for gone in left.values():
         stack = editor.project.stacks[gone.stack]
         editor.apply(DeleteBlocks(stack.body[0], len(stack.body)))
-    _put_in_order(editor, firsts)
-    names = [rule.function.name for rule in rules]
+    _put_in_order(editor, _update_outside(editor, parts, firsts))
     stacks = [editor.project.stack_of(first).id for first in firsts]
-    return dict(zip(stacks, names, strict=True))
+    return parts, dict(zip(stacks, (rule.function for rule in rules), strict=True))
 
 
-def _change(editor: Editor, code: Code, rule: ReadRule, known: _Written | None, anew: bool) -> str:
-    """Make a stack what a rule says, or a new one; gives its first block."""
+def _update_outside(editor: Editor, parts: Sequence[Part], firsts: Sequence[str]) -> list[str]:
+    """Change the stacks of own Python; gives the first blocks of all stacks as in the text."""
+    left = [
+        block
+        for chain in chains(editor.project, editor.language)
+        if (block := editor.project.blocks[chain[0]]).type == OUTSIDE_BLOCK
+    ]
+    known = {text for block in left if (text := _own_text(block))}
+    definition = editor.language.definitions.get(OUTSIDE_BLOCK)
+    ordered: list[str] = []
+    functions = iter(firsts)
+    page = editor.project.page_of(firsts[0]) if firsts else "behaviour"
+    for part in parts:
+        if part.function is not None:
+            ordered.append(next(functions))
+            page = editor.project.page_of(ordered[-1])
+            continue
+        for text in _pieces(part.text, known):
+            fitting = [b for b in left if definition and definition.value(b, "place") == part.place]
+            same = next((b for b in fitting if _own_text(b) == text), None)
+            free = [b for b in fitting if _own_text(b) not in part.text]
+            found = same or next(iter(free), None)
+            if found is None:
+                ordered.append(create_outside(editor, text, part.place, part.line, page))
+                continue
+            left.remove(found)
+            if same is None:
+                editor.apply(SetComment(found.id, ""))
+                editor.apply(SetField(found.id, "code", text))
+            ordered.append(found.id)
+    for gone in left:
+        editor.apply(DeleteBlocks(gone.id, len(editor.project.stack_of(gone.id).body)))
+    return ordered
+
+
+def _own_text(block: Block) -> str:
+    """The lines of a block of own Python, with its comment above them."""
+    code = str(block.fields.get("code", "")).rstrip()
+    return "\n".join([*comment_lines(block.comment), code])
+
+
+def _pieces(text: str, known: set[str]) -> list[str]:
+    """A text in the pieces that are blocks already, and what is between them."""
+    lines, pieces, start, number = text.split("\n"), list[str](), 0, 0
+    while number < len(lines):
+        rest = "\n".join(lines[number:])
+        fitting = [t for t in known if t and (rest == t or rest.startswith(f"{t}\n"))]
+        found = max(fitting, key=len, default=None)
+        if found is None:
+            number += 1
+            continue
+        pieces += ["\n".join(lines[start:number]), found]
+        number += found.count("\n") + 1
+        start = number
+    pieces.append("\n".join(lines[start:]))
+    pieces = [piece.strip("\n") for piece in pieces if piece.strip()]
+    try:
+        for piece in pieces:
+            read_outside(piece)
+    except CodeTextRefused:
+        return [text]
+    return pieces
+
+
+def _change(
+    editor: Editor, code: Code, rule: ReadRule, known: _Written | None, anew: bool, page: str
+) -> str:
+    """Make a stack what a rule says, or a new one on a page; gives its first block."""
     if known is None:
-        return create_chain(editor, rule.chain)
+        return create_chain(editor, rule.chain, page=page)
     stack = editor.project.stacks[known.stack]
     if not anew:
         return ChainUpdater(editor, code).update_stack(stack.body[0], rule.chain)
+    page = editor.project.page_of(stack.id)
     editor.apply(DeleteBlocks(stack.body[0], len(stack.body)))
-    return create_chain(editor, rule.chain, (stack.x, stack.y))
+    return create_chain(editor, rule.chain, (stack.x, stack.y), page)
 
 
 def _put_in_order(editor: Editor, firsts: Sequence[str]) -> None:
     """Let stacks come on their page in the order of the text; they stay where they lie."""
     project = editor.project
+    if not any(project.blocks[first].type == OUTSIDE_BLOCK for first in firsts):
+        firsts = [f for f in firsts if not procedure_of(project.blocks[f].type)]
     for above, first in pairwise(firsts):
         upper, stack = project.stack_of(above), project.stack_of(first)
         page = project.page_of(stack.id)
-        if page != project.page_of(upper.id) or procedure_of(project.blocks[first].type):
+        if page != project.page_of(upper.id):
             continue
         position = project.pages[page].index(upper)
         if project.pages[page].index(stack) < position:
@@ -259,6 +363,8 @@ def _written(project: Project, code: Code) -> list[_Written]:
     for number, block in enumerate(code.blocks, start=1):
         if block and project.kind_of_page(project.page_of(block)) == "behaviour":
             stack = project.stack_of(block).id
+            if project.blocks[project.stacks[stack].body[0]].type == OUTSIDE_BLOCK:
+                continue
             spans[stack] = (spans.get(stack, (number, 0))[0], number)
     found, every = [], code.text.splitlines()
     for stack, (first, last) in spans.items():
@@ -267,43 +373,3 @@ def _written(project: Project, code: Code) -> list[_Written]:
         text = textwrap.dedent("\n".join(lines)).rstrip()
         found.append(_Written(stack, next(headers, ""), text))
     return found
-
-
-def _functions_that_differ(
-    editor: Editor, source: Source, functions: Mapping[str, str]
-) -> set[str]:
-    """The functions that the blocks would make in another way than the text has them."""
-    try:
-        made = ast.parse(generate_program(editor.project, editor.language).text)
-    except CodeRefused as refused:
-        if refused.block in editor.project.blocks:
-            stack = editor.project.stack_of(refused.block).id
-            if stack in functions:
-                raise _Differs({functions[stack]}, refused.sentence) from refused
-        raise CodeUnread(refused.sentence, 1, checklist=refused.checklist) from refused
-    again = [_plain(node) for node in made.body if isinstance(node, ast.FunctionDef)]
-    return {
-        node.name
-        for node in source.tree.body
-        if isinstance(node, ast.FunctionDef) and _plain(node) not in again
-    }
-
-
-def _plain(function: ast.FunctionDef) -> tuple[object, ...]:
-    """A function without what the generator writes by itself: the name of a rule, global lines."""
-    name = "" if function.decorator_list else function.name
-    return name, _comparable(function.decorator_list), _comparable(function.body)
-
-
-def _comparable(node: object) -> object:
-    """A tree as something to compare."""
-    if isinstance(node, list):
-        return [_comparable(one) for one in node if not isinstance(one, ast.Global)]
-    if isinstance(node, ast.AST):
-        return (type(node), *[_comparable(getattr(node, name, None)) for name in node._fields])
-    return type(node), node
-
-
-def _line_of(source: Source, name: str) -> int:
-    functions = (n for n in source.tree.body if isinstance(n, ast.FunctionDef) and n.name == name)
-    return next((node.lineno for node in functions), 1)

@@ -7,7 +7,12 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from functools import partial
 
-from nep_studio.blocks.code_text import CodeTextRefused, read_value
+from nep_studio.blocks.code_text import (
+    CodeTextRefused,
+    made_by,
+    outside_functions,
+    read_value,
+)
 from nep_studio.blocks.definitions import Definition, Slot
 from nep_studio.blocks.edits.content import AddProcedure
 from nep_studio.blocks.edits.project import RenameProject
@@ -36,9 +41,7 @@ from .learning import (
     position_of,
     word_pattern,
 )
-
-HEADERS = ("Robot", "Behavior")
-"""What the lines before the functions make."""
+from .outside import HEADERS
 
 
 @dataclass(slots=True)
@@ -54,21 +57,28 @@ class SourceNames:
     parameters: dict[str, str] = field(default_factory=dict)
 
 
-def names_in(editor: Editor, tree: ast.Module) -> SourceNames:
-    """Find what the names of a text stand for in a project, and make there what lacks."""
+def names_in(
+    editor: Editor, tree: ast.Module, functions: Sequence[ast.FunctionDef], *, loose: bool = False
+) -> SourceNames:
+    """Find what the names of a text stand for in a project, and make there what lacks.
+
+    ``functions`` are those that become blocks. Lines that are in no function are a program's own
+    when they are ``loose``: what they put values into becomes variables too.
+    """
     names = _known(editor)
-    assigned: list[str] = []
     for node in tree.body:
         match node:
             case ast.Assign(
                 targets=[ast.Name(id=name)], value=ast.Call(func=ast.Name(id=made))
             ) if made in HEADERS:
                 _note(editor, names, name, made, node)
-            case ast.FunctionDef(decorator_list=[]):
-                _note_procedure(editor, names, node)
-            case ast.Assign(targets=[ast.Name(id=name)], value=ast.Constant() | ast.List()):
-                assigned.append(name)
-    for name in [*assigned, *_shared(tree)]:
+    of_functions = {node.name: node for node in functions if not node.decorator_list}
+    others = {n.name for n in tree.body if isinstance(n, ast.FunctionDef | ast.ClassDef)}
+    for name in others - of_functions.keys():
+        names.procedures.pop(name, None)
+    for node in of_functions.values():
+        _note_procedure(editor, names, node)
+    for name in [*_begun(tree), *_shared(tree, loose=loose)]:
         if name not in names.robots and name not in names.variables and name not in RESERVED:
             # A name for a new variable that no other has; its Python name is the same
             project = editor.project
@@ -76,6 +86,45 @@ def names_in(editor: Editor, tree: ast.Module) -> SourceNames:
             names.variables[name] = editor.add_variable(name if name not in taken else f"{name}_")
     _require_variables(names, tree)
     return names
+
+
+def _begun(tree: ast.Module) -> Iterator[str]:
+    """The names of plain values that no function has for itself too."""
+    own = {name for function in functions_of(tree) for name in locals_of(function)}
+    for node in tree.body:
+        match node:
+            case ast.Assign(targets=[ast.Name(id=name)], value=ast.Constant() | ast.List()):
+                if name not in own:
+                    yield name
+
+
+def functions_of(tree: ast.AST) -> Iterator[ast.FunctionDef | ast.AsyncFunctionDef]:
+    """All functions, also those in others."""
+    for node in ast.walk(tree):
+        if isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef):
+            yield node
+
+
+def locals_of(function: ast.FunctionDef | ast.AsyncFunctionDef) -> dict[str, int]:
+    """The names that a function has for itself, each with the first line that puts a value there.
+
+    What it is given is not one of them.
+    """
+    return names_made(function.body)
+
+
+def names_made(body: Sequence[ast.stmt]) -> dict[str, int]:
+    """The names to which statements give a meaning where they are, each with the first line."""
+    nodes = [node for part in body for node in outside_functions(part)]
+    shared = {
+        n for node in nodes if isinstance(node, ast.Global | ast.Nonlocal) for n in node.names
+    }
+    made: dict[str, int] = {}
+    for node in sorted(nodes, key=lambda n: getattr(n, "lineno", 0)):
+        for name in made_by(node):
+            if name not in shared:
+                made.setdefault(name, getattr(node, "lineno", body[0].lineno))
+    return made
 
 
 def _require_variables(names: SourceNames, tree: ast.Module) -> None:
@@ -119,25 +168,33 @@ def _note(editor: Editor, names: SourceNames, name: str, made: str, node: ast.As
     call = node.value
     assert isinstance(call, ast.Call)
     match call.args:
+        case _ if call.keywords:
+            pass
         case [ast.Constant(value=str(text))] if made == "Behavior":
             if text != editor.project.name:
                 editor.apply(RenameProject(text))
+            return
         case [ast.Constant(value=str(text))]:
             if text not in names.robots.values():
                 _add_robot(editor, text)
             names.robots[name] = text
-        case [ast.List(elts=listed)] if made == "Robot":
+            return
+        case [ast.List(elts=listed)] if made == "Robot" and all(map(_text_of, listed)):
             names.robots[name] = ALL_ROBOTS
             for robot in listed:
-                if isinstance(robot, ast.Constant) and isinstance(robot.value, str):
-                    _add_robot(editor, robot.value)
-        case _:
-            raise CodeUnread(
-                "{made} needs a name in quotes here.",
-                node.lineno,
-                checklist=('Write the name in quotes, such as "NAO".',),
-                made=made,
-            )
+                _add_robot(editor, _text_of(robot))
+            return
+    raise CodeUnread(
+        "{made} needs a name in quotes here.",
+        node.lineno,
+        checklist=('Write the name in quotes, such as "NAO".',),
+        made=made,
+    )
+
+
+def _text_of(node: ast.expr) -> str:
+    is_text = isinstance(node, ast.Constant) and isinstance(node.value, str)
+    return str(node.value) if is_text else ""  # type: ignore[attr-defined]
 
 
 def _add_robot(editor: Editor, name: str) -> None:
@@ -146,14 +203,7 @@ def _add_robot(editor: Editor, name: str) -> None:
 
 
 def _note_procedure(editor: Editor, names: SourceNames, node: ast.FunctionDef) -> None:
-    given = node.args
-    if given.vararg or given.kwarg or given.kwonlyargs or given.posonlyargs or given.defaults:
-        raise CodeUnread(
-            "An own block takes plain values only.",
-            node.lineno,
-            checklist=("Write its parameters as plain names, with commas between them.",),
-        )
-    wanted = [argument.arg for argument in given.args]
+    wanted = [argument.arg for argument in node.args.args]
     gives_value = any(isinstance(n, ast.Return) and n.value is not None for n in ast.walk(node))
     known = names.procedures.get(node.name)
     if known is not None and len(parameters(known)) == len(wanted):
@@ -166,15 +216,15 @@ def _note_procedure(editor: Editor, names: SourceNames, node: ast.FunctionDef) -
     names.procedures[node.name] = procedure
 
 
-def _shared(tree: ast.Module) -> Iterator[str]:
+def _shared(tree: ast.Module, *, loose: bool) -> Iterator[str]:
     """The names that the whole program shares: those that functions say are global.
 
-    Lines that are in no function are a program's own too.
+    Lines that are in no function are a program's own too when they are ``loose``.
     """
     for node in ast.walk(tree):
         if isinstance(node, ast.Global):
             yield from node.names
-    for line in tree.body:
+    for line in tree.body if loose else ():
         match line:
             case ast.AugAssign(target=ast.Name(id=name)):
                 yield name

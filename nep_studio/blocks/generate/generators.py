@@ -310,20 +310,20 @@ def _own_parameter(code: Expressions, block: Block) -> ast.expr:
 def _code_value(code: Expressions, block: Block) -> ast.expr:
     with refusing(block):
         read = read_value(code.text(block, "code"))
-    _note_names(code, read)
+    note_names(code, read)
     return Verbatim(read.lines[0], is_closed=read.is_closed)
 
 
 def _code_lines(code: Expressions, block: Block) -> list[Piece]:
     with refusing(block):
         read = read_lines(code.text(block, "code"))
-    _note_names(code, read)
+    note_names(code, read)
     assigned = read.set_here & frozenset(code.names.variables.values())
     written = Written(read.lines, read.inside_texts, assigned)
     return [written, "pass"] if read.is_empty else [written]
 
 
-def _note_names(code: Expressions, read: CodeText) -> None:
+def note_names(code: Expressions, read: CodeText) -> None:
     """Note what written code names, so that it is there."""
     named = read.read | read.made
     for variable_id, name in code.names.variables.items():

@@ -92,14 +92,18 @@ class NameTable:
 
 @dataclass(frozen=True, slots=True)
 class ProgramNames:
-    """The Python names in a program, by the names of robots and the ids of all else."""
+    """The Python names in a program, by the names of robots and the ids of all else.
+
+    ``outside`` are the names that own Python outside of all functions makes.
+    """
 
     robots: dict[str, str]
     variables: dict[str, str]
     procedures: dict[str, str] = field(default_factory=dict)
     parameters: dict[str, str] = field(default_factory=dict)
+    outside: frozenset[str] = frozenset()
 
     def taken(self) -> set[str]:
         """All these names."""
         named = (self.robots, self.variables, self.procedures, self.parameters)
-        return {name for names in named for name in names.values()}
+        return {name for names in named for name in names.values()} | self.outside

@@ -4,20 +4,29 @@ from __future__ import annotations
 
 import ast
 import itertools
-from collections.abc import Sequence
+import re
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 
-from nep_studio.blocks.deployment import RobotEntry, chains, node_entries, robot_entries
+from nep_studio.blocks.code_text import CodeText, read_outside
+from nep_studio.blocks.deployment import (
+    OUTSIDE_BLOCK,
+    RobotEntry,
+    chains,
+    node_entries,
+    robot_entries,
+)
 from nep_studio.blocks.errors import CodeRefused
 from nep_studio.blocks.language import Language
 from nep_studio.blocks.procedures import DEFINE, parameters, procedure_of, words
-from nep_studio.blocks.program import ALL_ROBOTS, Project
+from nep_studio.blocks.program import ALL_ROBOTS, Block, Project
 from nep_studio.blocks.slices import Steps, at_once
 from nep_studio.blocks.slots import Setting, constant
 
-from .expressions import Expressions, call, literal, method_call, show
+from .expressions import Expressions, call, literal, method_call, refusing, show
 from .generators import REPORTERS
-from .names import NameTable, ProgramNames
+from .names import MODULES, NameTable, ProgramNames
 from .rules import HATS, Line, RuleWriter
 from .source_map import Code
 
@@ -32,6 +41,41 @@ class _Rule:
     modules: frozenset[str]
     robots: frozenset[str]
     variables: dict[str, frozenset[str]]
+
+
+PLACES = ("top", "here", "end")
+"""Where own Python stands: above what is imported, among the rules, below all."""
+
+_FUTURE = re.compile(r"from\s+__future__\s")
+
+
+@lru_cache(maxsize=256)
+def runs(lines: tuple[str, ...]) -> bool:
+    """Whether own Python lets the behaviour run itself."""
+    return any(
+        isinstance(node, ast.Attribute)
+        and node.attr == "run"
+        and isinstance(node.value, ast.Name)
+        and node.value.id == "behavior"
+        for node in ast.walk(ast.parse("\n".join(lines)))
+    )
+
+
+@dataclass(frozen=True, slots=True)
+class Outside:
+    """Own Python that stands outside of all functions."""
+
+    block: Block
+    place: str
+    read: CodeText
+
+    def begins(self) -> frozenset[str]:
+        """The variables that it begins itself."""
+        return self.read.set_here
+
+    def imports(self) -> frozenset[str]:
+        """The modules that it imports itself."""
+        return self.read.defined & MODULES
 
 
 class ProgramGenerator:
@@ -62,13 +106,14 @@ class ProgramGenerator:
         }
         self._robots = {s: known for s, known in self._robots.items() if s in written}
         headers = self._headers(written)
-        names = yield from self._names(written, headers)
+        outside = self._outside(written)
+        names = yield from self._names(written, headers, outside)
         functions = NameTable(names.taken())
-        ordered = [*headers.values(), *(s for s in written if s not in set(headers.values()))]
+        ordered = self._in_order(written, set(headers.values()), headers, outside)
         for stack in ordered:
             self._rules[stack] = yield from self._rule(stack, written[stack], names, functions)
         self._rules = {stack: self._rules[stack] for stack in ordered}
-        return self._assemble(names, list(self._rules.values()))
+        return self._assemble(names, outside)
 
     def _headers(self, written: dict[str, list[str]]) -> dict[str, str]:
         """The stacks that define own blocks, by the ids of those, in the order of the list."""
@@ -87,6 +132,42 @@ class ProgramGenerator:
             found[procedure] = stack
         return {p: found[p] for p in self._project.procedures if p in found}
 
+    def _outside(self, written: dict[str, list[str]]) -> dict[str, Outside]:
+        """The stacks of own Python that stands outside of all functions."""
+        found: dict[str, Outside] = {}
+        for stack, chain in written.items():
+            block = self._project.blocks[chain[0]]
+            if block.type == OUTSIDE_BLOCK:
+                definition = self._language.definitions[block.type]
+                with refusing(block):
+                    read = read_outside(str(definition.value(block, "code")))
+                own = Outside(block, str(definition.value(block, "place")), read)
+                if own.place != "top" and any(_FUTURE.match(line) for line in read.lines):
+                    raise CodeRefused(
+                        "“from __future__” stands at the very top of a program.",
+                        block=block.id,
+                        checklist=("Choose “at the very top” in this block.",),
+                    )
+                found[stack] = own
+        return found
+
+    def _in_order(
+        self,
+        written: dict[str, list[str]],
+        defining: set[str],
+        headers: dict[str, str],
+        outside: dict[str, Outside],
+    ) -> list[str]:
+        """The stacks as they stand in the text: own blocks are defined before the rules.
+
+        Own Python stands where it is on its page, above all of them when nothing is above it.
+        """
+        of_place = {place: [s for s in outside if outside[s].place == place] for place in PLACES}
+        others = [s for s in written if s not in of_place["top"] and s not in of_place["end"]]
+        first = list(itertools.takewhile(lambda s: s in outside, others))
+        rest = [s for s in others[len(first) :] if s not in defining]
+        return [*of_place["top"], *first, *headers.values(), *rest, *of_place["end"]]
+
     def _rule(
         self, stack: str, chain: list[str], names: ProgramNames, functions: NameTable
     ) -> Steps[_Rule]:
@@ -96,6 +177,8 @@ class ProgramGenerator:
         hat = HATS[code.definition(hat_block).generator](code, hat_block)
         if hat_block.type.startswith(DEFINE):
             code.procedure, function = procedure_of(hat_block.type), hat.name
+        elif hat.outside is not None:
+            function = ""
         else:
             function = functions.give(hat.name, "when")
         revision = self._project.revisions.get(stack)
@@ -114,22 +197,31 @@ class ProgramGenerator:
             {variable: frozenset(kinds) for variable, kinds in code.variables.items()},
         )
 
-    def _names(self, written: dict[str, list[str]], headers: dict[str, str]) -> Steps[ProgramNames]:
-        """Names for the robots of the Robots page, others that rules use, variables, own blocks."""
+    def _names(
+        self, written: dict[str, list[str]], headers: dict[str, str], outside: dict[str, Outside]
+    ) -> Steps[ProgramNames]:
+        """Names for the robots of the Robots page, others that rules use, variables, own blocks.
+
+        Own Python may put values into variables, but nothing else has a name that it makes.
+        """
+        made = frozenset(name for own in outside.values() for name in own.read.set_here)
+        defined = {name for own in outside.values() for name in own.read.defined}
         listed = [entry.name for entry in robot_entries(self._project, self._language)]
         used = set[str]()
         for stack, chain in written.items():
             yield
             used |= self._robots_in(stack, chain)
-        table = NameTable()
+        table = NameTable(made)
         robots: dict[str, str] = {}
         for name in [*listed, *sorted(used - {ALL_ROBOTS}), ALL_ROBOTS]:
             if name not in robots:
                 text = "all_robots" if name == ALL_ROBOTS else name.lower()
                 robots[name] = table.give(text, "robot")
+        table = NameTable({*robots.values(), *defined})
         variables = {v.id: table.give(v.name, "variable") for v in self._project.variables}
+        table = NameTable({*robots.values(), *variables.values(), *made})
         procedures = {p: table.give(words(self._project.procedures[p]), "block") for p in headers}
-        names = ProgramNames(robots, variables, procedures)
+        names = ProgramNames(robots, variables, procedures, outside=made)
         taken = names.taken()
         for p in headers:
             local = NameTable(taken)
@@ -150,32 +242,56 @@ class ProgramGenerator:
             known = self._robots[stack] = (revision, robots)
         return known[1]
 
-    def _assemble(self, names: ProgramNames, rules: list[_Rule]) -> Code:
+    def _assemble(self, names: ProgramNames, outside: dict[str, Outside]) -> Code:
+        rules = self._rules
+        top = [stack for stack, own in outside.items() if own.place == "top"]
+        end = [stack for stack, own in outside.items() if own.place == "end"]
+        between = [stack for stack in rules if stack not in top and stack not in end]
+        first = list(itertools.takewhile(lambda stack: stack in outside, between))
+        parts = [self._head(names, outside, top, first)]
+        for stack in between[len(first) :]:
+            parts += [_GAP, rules[stack].code]
+        if not any(runs(own.read.lines) for own in outside.values()):
+            is_apart = any(stack not in outside for stack in between)
+            parts.append(_code(_unmade([*(["", ""] if is_apart else [""]), "behavior.run()"])))
+        for stack in end:
+            parts += [_GAP, rules[stack].code]
+        blocks = tuple(itertools.chain.from_iterable(part.blocks for part in parts))
+        return Code("".join(part.text for part in parts), blocks, dict(names.variables))
+
+    def _head(
+        self, names: ProgramNames, outside: dict[str, Outside], top: list[str], first: list[str]
+    ) -> Code:
+        """All above the functions: what is imported, the robots, the variables, own Python."""
+        rules = self._rules.values()
         api = {"Behavior"}.union(*(rule.api for rule in rules))
         modules = set[str]().union(*(rule.modules for rule in rules))
+        modules -= {name for stack in top for name in outside[stack].imports()}
         used = set[str]().union(*(rule.robots for rule in rules))
-        begins: dict[str, set[str]] = {}
-        for rule in rules:
-            for variable, kinds in rule.variables.items():
-                begins.setdefault(variable, set()).update(kinds)
         robots = self._robot_lines(names, used)
         if robots:
             api.add("Robot")
-        head = [_docstring(self._project.name), *(f"import {name}" for name in sorted(modules))]
+        head = [*(f"import {name}" for name in sorted(modules))]
         head += [f"from nep_core import {', '.join(sorted(api))}", ""]
         behavior = show(call("Behavior", ast.Constant(self._project.name)))
-        variables = {name: begins[v] for v, name in names.variables.items() if v in begins}
-        globals_ = [f"{name} = {_first(kinds)}" for name, kinds in variables.items()]
-        page = [*_unmade(head), *robots, *_unmade([f"behavior = {behavior}", *globals_])]
-        gap = _code(_unmade(["", ""]))
-        parts = [_code(page)]
-        for rule in rules:
-            parts += [gap, rule.code]
-        parts.append(
-            _code(_unmade(["", "", "behavior.run()"] if rules else ["", "behavior.run()"]))
-        )
-        blocks = tuple(itertools.chain.from_iterable(part.blocks for part in parts))
-        return Code("".join(part.text for part in parts), blocks, dict(names.variables))
+        begun = {name for own in outside.values() if own.place != "end" for name in own.begins()}
+        page = [*_with_docstring(self._project.name, [self._rules[s].code for s in top])]
+        page += [*_unmade(head), *robots, *_unmade([f"behavior = {behavior}"])]
+        page += _unmade([line for name, line in self._variables(names) if name not in begun])
+        for stack in first:
+            own = self._rules[stack].code
+            page += [("", ""), *zip(own.text.splitlines(), own.blocks, strict=True)]
+        return _code(page)
+
+    def _variables(self, names: ProgramNames) -> Iterator[tuple[str, str]]:
+        """The variables that are used, each with the line that begins it."""
+        begins: dict[str, set[str]] = {}
+        for rule in self._rules.values():
+            for variable, kinds in rule.variables.items():
+                begins.setdefault(variable, set()).update(kinds)
+        for variable, name in names.variables.items():
+            if variable in begins:
+                yield name, f"{name} = {_first(begins[variable])}"
 
     def _robot_lines(self, names: ProgramNames, used: set[str]) -> list[tuple[str, str]]:
         """A line for each robot that the rules use, with its block on the Robots page."""
@@ -205,6 +321,19 @@ def _unmade(lines: Sequence[str]) -> list[Line]:
 def _code(page: Sequence[Line]) -> Code:
     lines, blocks = zip(*page, strict=True)
     return Code("\n".join(lines) + "\n", blocks)
+
+
+_GAP = _code(_unmade(["", ""]))
+
+
+def _with_docstring(name: str, own: Sequence[Code]) -> list[Line]:
+    """The first lines: own Python, with a text of what the file is unless it has one itself."""
+    lines = [line for code in own for line in zip(code.text.splitlines(), code.blocks, strict=True)]
+    if lines and ast.get_docstring(ast.parse("\n".join(text for text, _ in lines))) is not None:
+        return lines
+    is_comment = [not text or text.startswith("#") for text, _ in lines]
+    above = next((n for n, one in enumerate(is_comment) if not one), len(lines))
+    return [*lines[:above], (_docstring(name), ""), *lines[above:]]
 
 
 def _first(kinds: set[str]) -> str:

@@ -12,7 +12,7 @@ from nep_studio.blocks.procedures import parameters, procedure_of
 from nep_studio.blocks.program import ALL_ROBOTS, Block
 from nep_studio.blocks.slots import constant
 
-from ..code_text import CodeTextRefused, compile_quietly
+from ..code_text import CodeText, CodeTextRefused, compile_quietly, read_outside
 from ..errors import CodeRefused
 from .expressions import (
     Assignment,
@@ -27,9 +27,10 @@ from .expressions import (
     comment_lines,
     compare,
     method_call,
+    refusing,
     show,
 )
-from .generators import REPORTERS, STATEMENTS
+from .generators import REPORTERS, STATEMENTS, note_names
 from .names import FUNCTIONS
 
 
@@ -37,12 +38,14 @@ from .names import FUNCTIONS
 class Hat:
     """The decorator of a rule's function, and a text from which the function gets its name.
 
-    The function of an own block has no decorator, but ``arguments``.
+    The function of an own block has no decorator, but ``arguments``; own Python outside of all
+    functions has ``outside`` instead.
     """
 
     decorator: ast.expr | None
     name: str
     arguments: tuple[str, ...] = ()
+    outside: CodeText | None = None
 
 
 HatGenerator = Callable[[Expressions, Block], Hat]
@@ -53,6 +56,13 @@ def _own_define(code: Expressions, block: Block) -> Hat:
     given = [f"{procedure.id}.{parameter.id}" for parameter in parameters(procedure)]
     arguments = [code.names.parameters[key] for key in given]
     return Hat(None, code.names.procedures[procedure.id], tuple(arguments))
+
+
+def _program_lines(code: Expressions, block: Block) -> Hat:
+    with refusing(block):
+        read = read_outside(code.text(block, "code"))
+    note_names(code, read)
+    return Hat(None, "", outside=read)
 
 
 # The generator functions of hats.
@@ -149,6 +159,7 @@ HATS: dict[str, HatGenerator] = {
     "goal": _goal,
     "when_goal": _when_goal,
     "own_define": _own_define,
+    "program_lines": _program_lines,
 }
 
 
@@ -218,6 +229,9 @@ class RuleWriter:
         """
         hat_block = self._code.project.blocks[stack[0]]
         self._comment(hat_block, "")
+        if hat.outside is not None:
+            self._outside(hat.outside, stack)
+            return
         if hat.decorator is not None:
             self._line(f"@{show(hat.decorator)}", hat_block.id)
         self._line(f"def {function_name}({', '.join(hat.arguments)}):", hat_block.id)
@@ -244,6 +258,18 @@ class RuleWriter:
                 raise CodeRefused(
                     refused.sentence, block=block, checklist=("Change the code.",)
                 ) from refused
+
+    def _outside(self, read: CodeText, stack: Sequence[str]) -> None:
+        """Write own Python that stands outside of all functions."""
+        for block in (self._code.project.blocks[below] for below in stack[1:]):
+            if not block.disabled:
+                raise CodeRefused(
+                    "Nothing goes below this block: it would never be reached.",
+                    block=block.id,
+                    checklist=("Move the blocks below it to another place.",),
+                )
+        for line in read.lines:
+            self._line(line, stack[0])
 
     def _block(self, chain: _Frame, block: Block) -> _Frame:
         self._comment(block, _MARGINS[chain.indent])

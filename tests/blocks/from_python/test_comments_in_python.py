@@ -114,9 +114,8 @@ def test_a_name_of_the_program_cannot_become_a_variable(language, name):
     before = to_bytes(editor.project)
 
     with pytest.raises(CodeUnread, match=name) as raised:
-        update_from_python(
-            editor, text + f"\n\n@behavior.when_started\ndef b():\n    global {name}\n"
-        )
+        rule = f"@behavior.when_started\ndef b():\n    global {name}\n\n\nbehavior.run()"
+        update_from_python(editor, text.replace("behavior.run()", rule))
 
     assert raised.value.line > 10
     assert to_bytes(editor.project) == before

@@ -10,7 +10,7 @@ from block_building import B, build, karate
 from nep_studio.blocks.editor import Editor
 from nep_studio.blocks.files import load, to_bytes
 from nep_studio.blocks.from_python.learning import CodeUnread
-from nep_studio.blocks.from_python.reading import read_snippet
+from nep_studio.blocks.from_python.pasting import read_snippet
 from nep_studio.blocks.from_python.updating import update_from_python
 from nep_studio.blocks.generate.program import generate_program
 from nep_studio.blocks.operations.copying import paste
@@ -110,6 +110,7 @@ points = 0
 
 @behavior.when("gesture_wave", again="queue")
 def when_waved():
+    global points
     # Count first
     points += 1
     if points > 3:
@@ -146,9 +147,9 @@ behavior.run()
         ("def f(:\n  pass", 1),
         ("x = 1\nif x\n  pass", 2),
         ("@behavior.when_moon\ndef f():\n    pass", 1),
-        ("import os\n", 1),
+        ("async def f():\n    yield\n    await\n", 3),
         ("behavior = Behavior(1)\n", 1),
-        ("print('hello')\n", 1),
+        ("behavior.run()\n@behavior.when_started\ndef f():\n    pass\n", 3),
         ("x = '\x00'", 1),
         ("(" * 500, 1),
     ],

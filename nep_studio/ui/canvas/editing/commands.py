@@ -11,7 +11,7 @@ from PySide6.QtGui import QGuiApplication
 
 from nep_studio.blocks.editor import Editor
 from nep_studio.blocks.errors import BlocksError, CodeRefused, EditRefused
-from nep_studio.blocks.from_python.reading import read_snippet
+from nep_studio.blocks.from_python.pasting import read_snippet
 from nep_studio.blocks.operations.copying import (
     Clip,
     copy,

@@ -1,0 +1,239 @@
+"""What of a text the blocks would not say again: compared with the Python that they make."""
+
+from __future__ import annotations
+
+import ast
+from collections import Counter
+from collections.abc import Mapping, Sequence
+
+from nep_studio.blocks.code_text import CodeTextRefused, compile_quietly
+from nep_studio.blocks.editor import Editor
+from nep_studio.blocks.errors import CodeRefused
+from nep_studio.blocks.generate.names import API
+from nep_studio.blocks.generate.program import generate_program
+from nep_studio.blocks.generate.source_map import Code
+
+from .learning import CodeUnread
+from .outside import HEADERS, Part, is_frame
+from .source import Source, begin_of, read_source
+from .values import locals_of, names_made
+
+
+def lost_lines(
+    editor: Editor,
+    source: Source,
+    parts: Sequence[Part],
+    functions: Mapping[str, ast.FunctionDef],
+) -> set[int]:
+    """The lines of what would be lost or changed, so that it is kept as Python instead.
+
+    ``functions`` are those of the text by the stacks that are to make them. Raises CodeUnread for
+    what cannot be kept either.
+    """
+    try:
+        code = generate_program(editor.project, editor.language)
+        compile_quietly(code.text)
+    except CodeRefused as refused:
+        if refused.block in editor.project.blocks:
+            stack = editor.project.stack_of(refused.block).id
+            if stack in functions:
+                return {functions[stack].lineno}
+        raise CodeUnread(refused.sentence, 1, checklist=refused.checklist) from refused
+    except CodeTextRefused as refused:
+        raise CodeUnread(refused.sentence, 1) from refused
+    made = read_source(code.text)
+    _require_own_names(source, parts)
+    lost = _lost_functions(editor, source, code, made, functions)
+    lost |= _lost_around(source, made)
+    return lost or _lost_comments(source, made, functions)
+
+
+def _require_own_names(source: Source, parts: Sequence[Part]) -> None:
+    """Own Python cannot give another meaning to what the program itself calls so."""
+    taken = {"behavior", *API} | {
+        target.id
+        for node in source.tree.body
+        if isinstance(node, ast.Assign) and _is_header(node)
+        for target in node.targets
+        if isinstance(target, ast.Name)
+    }
+    for part in parts:
+        for node in ast.parse(part.text).body if part.function is None else ():
+            for name in sorted(taken.intersection(_bound(node))):
+                raise CodeUnread(
+                    "“{name}” has a meaning in the program already, and cannot be a variable.",
+                    part.line + node.lineno - 1,
+                    checklist=("Give the variable another name.",),
+                    name=name,
+                )
+
+
+def _bound(node: ast.stmt) -> set[str]:
+    """The names to which a statement outside of functions gives a meaning."""
+    is_import = isinstance(node, ast.ImportFrom) and node.module == "nep_core"
+    return set() if is_import else set(names_made([node]))
+
+
+def _lost_functions(
+    editor: Editor,
+    source: Source,
+    code: Code,
+    made: Source,
+    functions: Mapping[str, ast.FunctionDef],
+) -> set[int]:
+    """The statements, or functions, that the blocks would make in another way."""
+    by_stack: dict[str, ast.FunctionDef] = {}
+    for node in made.tree.body:
+        block = code.block_at(node.lineno)
+        if isinstance(node, ast.FunctionDef) and block in editor.project.blocks:
+            by_stack[editor.project.stack_of(str(block)).id] = node
+    lost: set[int] = set()
+    renamed: dict[str, int] = {}
+    for stack, there in functions.items():
+        again = by_stack.get(stack)
+        if again is None:
+            lost.add(there.lineno)
+            continue
+        lost |= _differing(there, again)
+        if again.name != there.name:
+            renamed[there.name] = there.lineno
+    if not lost:
+        _require_no_use(source, renamed)
+    return lost
+
+
+def _differing(there: ast.FunctionDef, again: ast.FunctionDef) -> set[int]:
+    """The lines of what differs between a function and the one that blocks make."""
+    _require_same_scope(there, again)
+    if not there.decorator_list and not (
+        there.name == again.name and _same(there.args, again.args)
+    ):
+        return {there.lineno}
+    if not _same(there.decorator_list, again.decorator_list):
+        return {there.lineno}
+    ours, theirs = _without_global(there.body), _without_global(again.body)
+    if len(ours) != len(theirs):
+        return {there.lineno}
+    lost = {a.lineno for a, b in zip(ours, theirs, strict=True) if not _same(a, b)}
+    return lost
+
+
+def _require_same_scope(there: ast.FunctionDef, again: ast.FunctionDef) -> None:
+    """What a rule has for itself in the text cannot become one of the whole program, or back."""
+    ours, theirs = locals_of(there), locals_of(again)
+    for name, line in ours.items():
+        if name not in theirs and _is_shared(again, name) and there.decorator_list:
+            raise CodeUnread(
+                "“{name}” is a variable of the whole program, and this rule has one of its own.",
+                line,
+                checklist=(
+                    "Write a “global” line with this name first in the function, to mean that one.",
+                    "Give the variable another name.",
+                ),
+                name=name,
+            )
+
+
+def _is_shared(function: ast.FunctionDef, name: str) -> bool:
+    return any(isinstance(n, ast.Global) and name in n.names for n in ast.walk(function))
+
+
+def _require_no_use(source: Source, renamed: Mapping[str, int]) -> None:
+    """The program names the functions of rules by itself: nothing may call them."""
+    for node in ast.walk(source.tree):
+        if isinstance(node, ast.Name) and node.id in renamed and isinstance(node.ctx, ast.Load):
+            raise CodeUnread(
+                "“{name}” is the function of a rule: the program gives it a name by itself.",
+                node.lineno,
+                checklist=("Put what it does into a function of its own, and call that one.",),
+                name=node.id,
+            )
+
+
+def _lost_around(source: Source, made: Source) -> set[int]:
+    """The statements around the functions that the program would not write so by itself."""
+    again = [_plain(node) for node in made.tree.body]
+    used = {n.id for n in ast.walk(source.tree) if isinstance(n, ast.Name) and _is_read(n)}
+    lost = set()
+    for node in source.tree.body:
+        if not is_frame(node) or isinstance(node, ast.ImportFrom) or _plain(node) in again:
+            continue
+        if isinstance(node, ast.Assign) and _is_header(node):
+            _require_unused(node, used)
+        else:
+            lost.add(begin_of(node))
+    return lost
+
+
+def _require_unused(node: ast.Assign, used: set[str]) -> None:
+    """What the program calls otherwise cannot be used by this name."""
+    (target,) = node.targets
+    if isinstance(target, ast.Name) and target.id in used:
+        raise CodeUnread(
+            "The program does not say this by the name “{name}”.",
+            node.lineno,
+            checklist=("Call a robot as on the page Robots, in small letters.",),
+            name=target.id,
+        )
+
+
+def _is_read(node: ast.Name) -> bool:
+    return isinstance(node.ctx, ast.Load)
+
+
+def _is_header(node: ast.Assign) -> bool:
+    return isinstance(node.value, ast.Call) and getattr(node.value.func, "id", "") in HEADERS
+
+
+def _lost_comments(
+    source: Source, made: Source, functions: Mapping[str, ast.FunctionDef]
+) -> set[int]:
+    """The innermost statements around comments that would be gone."""
+    missing = _said(source) - _said(made)
+    lost = set()
+    for line, said in source.comments.items():
+        if not missing[_words(said)] or not _words(said):
+            continue
+        around = [f for f in functions.values() if _holds(f, line)]
+        if not around:
+            raise CodeUnread(
+                "This comment has no place among the blocks.",
+                line,
+                checklist=("Write it on a line of its own, above what it is about.",),
+            )
+        inner: ast.stmt = around[0]
+        for node in ast.walk(around[0]):
+            if isinstance(node, ast.stmt) and _holds(node, line) and node.lineno >= inner.lineno:
+                inner = node
+        lost.add(inner.lineno)
+        lost.add(around[0].lineno) if inner.lineno == line else None
+    return lost
+
+
+def _said(source: Source) -> Counter[str]:
+    return Counter(_words(comment) for comment in source.comments.values())
+
+
+def _words(comment: str) -> str:
+    return " ".join("".join(c if c.isprintable() else " " for c in comment).split())
+
+
+def _holds(node: ast.stmt, line: int) -> bool:
+    return begin_of(node) <= line <= (node.end_lineno or node.lineno)
+
+
+def _without_global(body: Sequence[ast.stmt]) -> list[ast.stmt]:
+    return [node for node in body if not isinstance(node, ast.Global)]
+
+
+def _same(one: object, other: object) -> bool:
+    return _plain(one) == _plain(other)
+
+
+def _plain(node: object) -> object:
+    """A tree as something to compare, without “global” lines."""
+    if isinstance(node, list):
+        return [_plain(one) for one in node if not isinstance(one, ast.Global)]
+    if isinstance(node, ast.AST):
+        return (type(node), *[_plain(getattr(node, name, None)) for name in node._fields])
+    return type(node), node

@@ -1,0 +1,175 @@
+"""The text of a Python file by lines, with its comments, and the tree of it."""
+
+from __future__ import annotations
+
+import ast
+import io
+import tokenize
+import warnings
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+
+from nep_studio.blocks.code_text import lines_inside_texts
+
+from .learning import CodeUnread
+from .mistakes import checklist_of, too_deep
+
+LONGEST_PROGRAM = 2_000_000
+
+
+@dataclass(frozen=True, slots=True)
+class Source:
+    """A Python text; ``comments`` are the comments by line, ``alone`` the lines of only one.
+
+    ``inside_texts`` are the lines that begin inside a text of several lines, ``set_aside`` those
+    of “global” statements, which blocks write by themselves: nothing is left of them but comments.
+    """
+
+    lines: tuple[str, ...]
+    tree: ast.Module
+    comments: dict[int, str]
+    alone: frozenset[int]
+    inside_texts: frozenset[int]
+    set_aside: frozenset[int] = frozenset()
+
+    def first_line(self, node: ast.stmt, after: int) -> int:
+        """Where a statement begins with its decorators and the comments above it."""
+        first = line = begin_of(node)
+        while line - 1 > after and (self._is_empty(line - 1) or self._is_above(line - 1, node)):
+            line -= 1
+            first = line if line in self.alone else first
+        return first
+
+    def line_before(self, body: Sequence[ast.stmt]) -> int:
+        """The line after which comments belong to statements that are moved in."""
+        line, margin = begin_of(body[0]) - 1, body[0].col_offset
+        while line and (self._is_empty(line) or self._is_alone(line, margin)):
+            line -= 1
+        return line
+
+    def last_line(self, body: Sequence[ast.stmt]) -> int:
+        """The last line of comments that stand below statements as far in as those do."""
+        last = line = end_of(body)
+        margin = body[0].col_offset
+        while line < len(self.lines) and (
+            self._is_empty(line + 1) or self._is_alone(line + 1, margin)
+        ):
+            line += 1
+            last = line if line in self.alone else last
+        return last
+
+    def margin(self, line: int) -> int:
+        """How far in a line begins."""
+        text = self.lines[line - 1]
+        return len(text) - len(text.lstrip())
+
+    def comment_of(self, node: ast.stmt, after: int) -> str:
+        """The comments above a statement and behind its first line."""
+        first, begin = self.first_line(node, after), begin_of(node)
+        said = [self.comments[line] for line in range(first, begin) if line in self.comments]
+        if node.lineno in self.comments and node.lineno not in self.alone:
+            said.append(self.comments[node.lineno])
+        return "\n".join(said)
+
+    def comment_of_function(self, node: ast.FunctionDef, after: int) -> str:
+        """The comments above a function and in the lines before its body."""
+        numbers = range(self.first_line(node, after), self.line_before(node.body) + 1)
+        return "\n".join(self.comments[line] for line in numbers if line in self.comments)
+
+    def comments_between(self, first: int, last: int, margin: int) -> list[str]:
+        """The comments on lines of their own from one line to another, so far in."""
+        lines = [line for line in range(first, last + 1) if line in self.alone]
+        return [self.comments[line] for line in lines if self.margin(line) == margin]
+
+    def text(self, first: int, last: int) -> str:
+        """Lines of the text, without their common margin; texts of several lines keep theirs."""
+        numbers = [n for n in range(first, last + 1) if not self._is_aside(n)]
+        code = [n for n in numbers if n not in self.inside_texts and not self._is_empty(n)]
+        margin = min(map(self.margin, code), default=0)
+        lines = [self._line(n)[margin if n in code else 0 :] for n in numbers]
+        return "\n".join(lines).rstrip()
+
+    def _line(self, line: int) -> str:
+        """A line, of one that is set aside the comment alone."""
+        text = self.lines[line - 1]
+        return (
+            text[: self.margin(line)] + f"# {self.comments[line]}"
+            if (line in self.set_aside)
+            else text
+        )
+
+    def _is_aside(self, line: int) -> bool:
+        return line in self.set_aside and line not in self.comments
+
+    def _is_above(self, line: int, node: ast.stmt) -> bool:
+        return line in self.alone and self.margin(line) <= node.col_offset
+
+    def _is_alone(self, line: int, margin: int) -> bool:
+        return line in self.alone and self.margin(line) >= margin
+
+    def _is_empty(self, line: int) -> bool:
+        return not self.lines[line - 1].strip() or self._is_aside(line)
+
+
+def read_source(text: str) -> Source:
+    """Parse a text; raises CodeUnread with the line."""
+    if len(text) > LONGEST_PROGRAM:
+        raise CodeUnread(
+            "This is too long to become blocks.", 1, checklist=("Take a part of it at a time.",)
+        )
+    text = text.removeprefix("\ufeff").replace("\r\n", "\n").replace("\r", "\n")
+    lines = tuple(text.split("\n"))
+    try:
+        with warnings.catch_warnings(action="ignore"):
+            tree = ast.parse(text)
+        comments, alone = _comments(text)
+    except SyntaxError as error:
+        raise CodeUnread(
+            "Python does not understand this: {msg}.",
+            min(error.lineno or 1, len(lines)),
+            checklist=checklist_of(error, lines),
+            msg=error.msg,
+        ) from error
+    except (RecursionError, MemoryError) as error:
+        raise too_deep(None, lines) from error
+    except (ValueError, tokenize.TokenError) as error:
+        raise CodeUnread(
+            "Python cannot read this.", 1, checklist=("Undo the last change of the code.",)
+        ) from error
+    inside = frozenset(lines_inside_texts(tree))
+    aside = frozenset(_set_aside(tree, lines))
+    alone |= aside & comments.keys()
+    return Source(lines, tree, comments, frozenset(alone), inside, aside)
+
+
+def _set_aside(tree: ast.Module, lines: Sequence[str]) -> Iterator[int]:
+    """The lines of “global” statements directly in a function of the text, with nothing else."""
+    for function in tree.body:
+        for node in function.body if isinstance(function, ast.FunctionDef) else ():
+            if isinstance(node, ast.Global) and node.lineno == node.end_lineno:
+                code = lines[node.lineno - 1].partition("#")[0]
+                if code.split()[:1] == ["global"] and ";" not in code:
+                    yield node.lineno
+
+
+def end_of(nodes: Sequence[ast.stmt]) -> int:
+    """The last line of statements."""
+    return nodes[-1].end_lineno or nodes[-1].lineno
+
+
+def begin_of(node: ast.stmt) -> int:
+    """The first line of a statement, with its decorators."""
+    decorators: list[ast.expr] = getattr(node, "decorator_list", [])
+    lines = [decorator.lineno for decorator in decorators]
+    return min(lines, default=node.lineno)
+
+
+def _comments(text: str) -> tuple[dict[int, str], set[int]]:
+    comments: dict[int, str] = {}
+    alone: set[int] = set()
+    for token in tokenize.generate_tokens(io.StringIO(text).readline):
+        if token.type == tokenize.COMMENT:
+            comments[token.start[0]] = token.string.lstrip("#").strip()
+            if not token.line[: token.start[1]].strip():
+                alone.add(token.start[0])
+    return comments, alone

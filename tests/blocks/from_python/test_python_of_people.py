@@ -1,0 +1,102 @@
+"""Python as people write it: each line is kept, became blocks, or is refused with its line."""
+
+from __future__ import annotations
+
+import ast
+import textwrap
+from collections import Counter
+
+import pytest
+
+from nep_studio.blocks.editor import Editor
+from nep_studio.blocks.files import from_bytes, to_bytes
+from nep_studio.blocks.from_python.learning import CodeUnread
+from nep_studio.blocks.from_python.source import read_source
+from nep_studio.blocks.from_python.updating import update_from_python
+from nep_studio.blocks.generate.program import generate_program
+from nep_studio.blocks.program import Project
+from tests.blocks.from_python.python_pieces import IN_RULE, OUTSIDE, TOP
+
+HEAD = '"""T. Made with NEP Studio."""\nfrom nep_core import Behavior, Robot, together, wait\n\n'
+MADE = 'nao = Robot("NAO")\nbehavior = Behavior("T")\n'
+
+
+def program(*, top: str = "", outside: str = "", rule: str = "nao.say('hi')") -> str:
+    """A program with a piece in one of its places."""
+    body = textwrap.indent(rule, "    ")
+    begin = "\n\n@behavior.when_started\ndef when_started():\n"
+    more = "\n\n@behavior.when('touched_head')\ndef more():\n    nao.say('More')\n"
+    return f"{top}\n{HEAD}{MADE}{outside}\n{begin}{body}\n{more}\n\nbehavior.run()\n"
+
+
+PROGRAMS = (
+    [program(outside=piece) for piece in OUTSIDE]
+    + [program(rule=piece) for piece in IN_RULE]
+    + [program(top=piece) for piece in TOP]
+)
+
+
+def said(text: str) -> tuple[Counter[str], Counter[str]]:
+    """The statements of a program and its comments, without what depends on the blocks alone."""
+    source = read_source(text)
+    for node in ast.walk(source.tree):
+        if isinstance(body := getattr(node, "body", None), list):
+            node.body = [one for one in body if not isinstance(one, ast.Global)]
+    statements = Counter(
+        ast.dump(node)
+        for node in ast.walk(source.tree)
+        if isinstance(node, ast.stmt)
+        and not isinstance(node, ast.Global | ast.Pass | ast.FunctionDef | ast.ImportFrom)
+    )
+    return statements, Counter(" ".join(c.split()) for c in source.comments.values())
+
+
+@pytest.mark.parametrize("text", PROGRAMS, ids=range(len(PROGRAMS)))
+def test_each_line_is_kept_or_refused_with_its_line(language, text):
+    editor = Editor(Project("T"), language)
+    before = to_bytes(editor.project)
+
+    try:
+        update_from_python(editor, text)
+    except CodeUnread as refused:
+        assert "could not be read" not in str(refused.sentence)
+        assert 1 <= refused.line <= text.count("\n") + 1
+        assert to_bytes(editor.project) == before
+        return
+
+    made = generate_program(editor.project, language).text
+    for ours, theirs in zip(said(text), said(made), strict=True):
+        assert not ours - theirs
+    loaded = Editor(from_bytes(to_bytes(editor.project), "x", language), language)
+    assert generate_program(loaded.project, language).text == made
+    update_from_python(loaded, made)
+    assert generate_program(loaded.project, language).text == made
+
+
+def test_there_are_enough_pieces():
+    assert len(PROGRAMS) >= 150
+
+
+@pytest.mark.parametrize(
+    ("line", "told"),
+    [
+        ("if x = 0:", "=="),
+        ("if x == 0", "colon"),
+        ("else if x:", "elif"),
+        ('print "x"', "print"),
+        ("nao.say(\u201chi\u201d)", "quotes"),
+        ('nao.say("hi)', "quote"),
+        ('nao.say("hi"', "bracket"),
+        ("class = 5", "another name"),
+        ("let x = 5;", "language"),
+        ("  wait(1)", "spaces"),
+        ("\twait(1)", "spaces"),
+    ],
+)
+def test_a_mistake_is_told_with_what_fits_it(language, line, told):
+    editor = Editor(Project("T"), language)
+
+    with pytest.raises(CodeUnread) as refused:
+        update_from_python(editor, program(rule=f"wait(1)\n{line}"))
+
+    assert told in str(refused.value.checklist[0])
