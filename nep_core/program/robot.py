@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import re
 import threading
+import time
 from typing import Any
 
 from nep_core.errors import RobotError
@@ -15,7 +16,7 @@ from nep_core.wire.pubsub import Subscriber
 
 from .actions import ActionClient, action_client, not_answering
 from .human import LONGEST_WAIT_S, human_listener, next_word, plain, state_of_word
-from .tasks import POLL_S, current_task
+from .tasks import POLL_S, Stamp, current_task
 
 # Where the robots of a program are, and what their sensors measure, as last heard.
 
@@ -28,30 +29,36 @@ class RobotListener:
     """Hears ``/robot_state`` for a whole program."""
 
     def __init__(self, network: Network) -> None:
-        self._states: dict[str, RobotState] = {}
+        self._states: dict[str, tuple[RobotState, Stamp]] = {}
         self._news = threading.Condition()
         self._subscriber = Subscriber(
             ROBOT_STATE, RobotState, network=network, callback=self._on_state
         )
 
-    def newest(self, robot: str, since: float = 0.0) -> RobotState | None:
+    def newest(self, robot: str, *since: Stamp) -> RobotState | None:
         """The newest state of a robot, None when it does not tell any for 5 s.
 
-        Waits up to a second for one that was told after the time ``since``.
+        Waits up to a second for one that was told after all that it told at ``since``.
         """
-        waited_s = 0.0
+        begun_s = time.monotonic()
         with self._news:
-            while not (robot in self._states and self._states[robot].time >= since):
-                if waited_s >= (FRESH_STATE_S if robot in self._states else FIRST_STATE_S):
+            while not self._is_told_after(robot, since):
+                longest_s = FRESH_STATE_S if robot in self._states else FIRST_STATE_S
+                if time.monotonic() - begun_s >= longest_s:
                     break
                 current_task().check()
                 self._news.wait(POLL_S)
-                waited_s += POLL_S
-            return self._states.get(robot)
+            return self._states[robot][0] if robot in self._states else None
+
+    def _is_told_after(self, robot: str, since: tuple[Stamp, ...]) -> bool:
+        if robot not in self._states:
+            return False
+        _, stamp = self._states[robot]
+        return all(before.is_before(stamp) for before in since)
 
     def _on_state(self, state: RobotState) -> None:
         with self._news:
-            self._states[state.robot] = state
+            self._states[state.robot] = state, Stamp(state.time, time.monotonic())
             self._news.notify_all()
 
 
@@ -411,10 +418,10 @@ class Robot:
     def _state(self) -> RobotState:
         """The newest state, told after all that the robot was seen to do, or told of the person."""
         robot = self.robots[0]
-        done = self._client.last_done.get(robot, 0.0)
+        done = self._client.last_done.get(robot, Stamp())
         # A rule may have fired just now
-        told = human_listener(self._network).told_s.get(robot, 0.0)
-        state = robot_listener(self._network).newest(robot, max(done, told))
+        told = human_listener(self._network).told.get(robot, Stamp())
+        state = robot_listener(self._network).newest(robot, done, told)
         if state is None:
             raise not_answering(robot)
         return state

@@ -14,15 +14,15 @@ from typing import TYPE_CHECKING, Any
 from faults import Fault, fault_of
 from nep_core.networks.transports import set_default_network
 from nep_core.processes.node import STOP_SIGNALS, Node
+from nep_core.program.behavior import explain_by, told
 from nep_core.program.human import human_listener
-from nep_core.program.tasks import PROGRAM, Cancelled, wait_until
+from nep_core.program.tasks import PROGRAM, Cancelled, RuleStopped, wait_until
 from nep_core.wire.messages import (
     PROGRAM_CONTROL,
     PROGRAM_STATE,
     ProgramControl,
     ProgramEvent,
     ProgramState,
-    described,
 )
 from nep_core.wire.pubsub import Publisher
 from nodes.cognitive.failures import ProgramFailed, failure_of, line_of
@@ -48,6 +48,7 @@ def run(node: Node, *, file: str, hold: bool, trace: bool) -> None:
     begin = threading.Event()
     _listen_for_orders(node, begin, tracer)
     set_default_network(node.network)
+    explain_by(lambda error: (failure_of(error), line_of(error, file)))
     human_listener(node.network)  # what the person does from now on reaches the rules
     node.ready("runs {name}", name=Path(file).name)
     try:
@@ -58,6 +59,8 @@ def run(node: Node, *, file: str, hold: bool, trace: bool) -> None:
             runpy.run_path(file, run_name="__main__")
     except Cancelled:
         _tell(states, node, "finished", fault_of("stopped", code="stopped"))
+    except RuleStopped:  # in a program without rules, which is one
+        _tell(states, node, "finished")
     except SystemExit as error:
         if error.code not in (None, 0):
             _fail(states, node, file, error)
@@ -94,9 +97,7 @@ def _traced(tracer: Tracer | None) -> Iterator[None]:
 def _tell(
     states: Publisher, node: Node, event: ProgramEvent, fault: Fault | None = None, line: int = 0
 ) -> None:
-    told = described(fault) if fault is not None else {}
-    told["text_values"] = told.pop("values", {})  # its values are those of variables
-    states.send(ProgramState(program=node.name, event=event, line=line, **told))
+    states.send(ProgramState(program=node.name, event=event, line=line, **told(fault)))
 
 
 def _fail(states: Publisher, node: Node, file: str, error: BaseException) -> None:
