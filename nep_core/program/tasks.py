@@ -133,17 +133,9 @@ class Task:
             raise Cancelled
 
     def sleep(self, seconds: float) -> None:
-        """Wait so long; raises Cancelled as soon as this part is asked to end.
-
-        Pauses of the program do not count.
-        """
-        countdown, left_s = Countdown(seconds), seconds
-        while True:
-            longest_s = POLL_S if CLOCK.is_pausable else threading.TIMEOUT_MAX
-            if self.cancelled.wait(max(0.0, min(left_s, longest_s))):
-                raise Cancelled
-            if (left_s := countdown.left_s()) <= 0:
-                return
+        """Wait so long; raises Cancelled as soon as this part is asked to end."""
+        if self.cancelled.wait(max(0.0, min(seconds, threading.TIMEOUT_MAX))):
+            raise Cancelled
 
     def _adopt(self, child: Task) -> None:
         with self._lock:
@@ -275,8 +267,12 @@ def _is_interruptible(frame: FrameType) -> bool:
 
 
 def wait(seconds: float) -> None:
-    """Let this part of the program rest for so many seconds."""
-    current_task().sleep(seconds)
+    """Let this part of the program rest for so many seconds; pauses of it do not count."""
+    task, countdown, left_s = current_task(), Countdown(seconds), seconds
+    while left_s > 0:
+        task.sleep(min(left_s, POLL_S) if CLOCK.is_pausable else left_s)
+        left_s = countdown.left_s()
+    task.check()
 
 
 def wait_until(condition: Callable[[], object], at_most_s: float = math.inf) -> bool:
