@@ -23,7 +23,7 @@ from nep_studio.blocks.procedures import procedure_of
 from nep_studio.blocks.program import Block, Project
 
 from .learning import CodeUnread, Made, blocks_of
-from .reading import ReadRule, Source, create_chain, read_rules, read_source
+from .reading import ReadRule, Source, as_block, create_chain, read_rules, read_source
 
 # Change a chain of blocks to another one, keeping the blocks whose Python is the same.
 
@@ -299,9 +299,18 @@ def _comparable(node: object) -> object:
     """A tree as something to compare."""
     if isinstance(node, list):
         return [_comparable(one) for one in node if not isinstance(one, ast.Global)]
+    if isinstance(node, ast.With) or (isinstance(node, ast.For) and not _names_its_list(node)):
+        node = as_block(node)
     if isinstance(node, ast.AST):
         return (type(node), *[_comparable(getattr(node, name, None)) for name in node._fields])
     return type(node), node
+
+
+def _names_its_list(loop: ast.For) -> bool:
+    """Whether the list that a loop goes through is named inside it: it might change there."""
+    items = loop.iter.value if isinstance(loop.iter, ast.Subscript) else loop.iter
+    inside = {one.id for line in loop.body for one in ast.walk(line) if isinstance(one, ast.Name)}
+    return not isinstance(items, ast.Name) or items.id in inside
 
 
 def _line_of(source: Source, name: str) -> int:
