@@ -11,7 +11,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 from functools import partial
 from types import CodeType, FunctionType
-from typing import Any, Literal
+from typing import Literal
 
 from faults import Fault, fault_in, fault_of
 from nep_core.errors import NepError
@@ -24,7 +24,7 @@ from nep_core.wire.messages import (
     HumanBehavior,
     ProgramEvent,
     ProgramState,
-    described,
+    told,
 )
 from nep_core.wire.pubsub import Publisher
 
@@ -349,13 +349,6 @@ class Behavior:
                 program=self.name, event=event, rule=rule, thread=name, line=line, **told(fault)
             )
         )
-
-
-def told(fault: Fault | None) -> dict[str, Any]:
-    """A fault as keys of a ProgramState, whose own values are those of variables."""
-    keys = described(fault) if fault is not None else {}
-    keys["text_values"] = keys.pop("values", {})
-    return keys
 
 
 def _decorator(note: Callable[[Action], None]) -> Decorator:

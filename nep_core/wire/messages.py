@@ -219,6 +219,13 @@ class ProgramState(Described, kw_only=True, omit_defaults=True):
     time: float = msgspec.field(default_factory=time.time)
 
 
+def told(fault: Fault | None) -> dict[str, Any]:
+    """The keys of a ProgramState that says what happened: its values are those of variables."""
+    keys = described(fault) if fault is not None else {}
+    keys["text_values"] = keys.pop("values", {})
+    return keys
+
+
 class ProgramControl(msgspec.Struct, kw_only=True, omit_defaults=True):
     """What a running program is asked to do (``/program_control``).
 

@@ -91,8 +91,15 @@ def look_at(project: Project, language: Language, chain: list[str]) -> Iterator[
             inside = (*path, (block.id, slot)) if block.type == TOGETHER else path
             waiting += [(child, inside) for child in body]
     defines = procedure_of(first.type) if first.type.startswith(DEFINE) else ""
-    places = (_frozen(found) for found in (sets, python, calls))
-    yield Chain(*places, frozenset(lists), any_list, takes_time, defines)
+    yield Chain(
+        _frozen(sets),
+        _frozen(python),
+        _frozen(calls),
+        frozenset(lists),
+        any_list,
+        takes_time,
+        defines,
+    )
 
 
 def variables_set(project: Project, language: Language, block: Block) -> Iterator[str]:

@@ -20,6 +20,7 @@ import msgspec
 from nep_core.cli.console import seconds
 from nep_core.errors import NepError
 from nep_core.processes.node import STOP_SIGNALS
+from nep_core.wire.messages import ProgramState
 from nep_studio.blocks import text
 from nep_studio.blocks.checks.diagnostic import Diagnostic
 from nep_studio.blocks.deployment import robot_entries
@@ -121,11 +122,12 @@ class _Play:
         self._subject, self._printer, self._most_s = subject, printer, most_s
         self._turns: queue.SimpleQueue[Callable[[], None]] = queue.SimpleQueue()
         self._network = LocalNetwork()
-        self._network.listen(lambda *heard: self._turns.put(partial(printer.hear, *heard)))
+        self._network.listen(lambda *heard: self._turns.put(partial(self._hear, *heard)))
         self._controller = RunController(
             self._network, lambda: subject, self._turns.put, self._on_event, is_traced=False
         )
         self._exit_code = 0
+        self._has_failed_rules = False
         self._problem: Problem | None = None
 
     def play(self) -> int:
@@ -144,9 +146,17 @@ class _Play:
             self._network.close()
         if self._exit_code != UNUSABLE:
             self._printer.end()
+            if self._has_failed_rules:
+                self._exit_code = FAILED
+                print("Rules failed while it played: see above.", file=sys.stderr)
         if self._problem is not None:
             print(self._problem, file=sys.stderr)
         return self._exit_code
+
+    def _hear(self, topic: str, message: msgspec.Struct) -> None:
+        if isinstance(message, ProgramState) and message.event == "rule_failed":
+            self._has_failed_rules = True
+        self._printer.hear(topic, message)
 
     def _on_event(self, event: Event) -> None:
         match event:

@@ -123,6 +123,17 @@ class BecameStale:
 
 
 @dataclass(frozen=True)
+class Troubled:
+    """Something went wrong while the program goes on, at a line of its Python; a rule failed, or
+    (not ``is_error``) a warning was told.
+    """
+
+    problem: Problem
+    line: int
+    is_error: bool
+
+
+@dataclass(frozen=True)
 class Ended:
     """How the program ended.
 
@@ -136,7 +147,7 @@ class Ended:
     runs_again: bool
 
 
-Event = StateChanged | Checked | Refused | Begun | BecameStale | Ended
+Event = StateChanged | Checked | Refused | Begun | BecameStale | Troubled | Ended
 
 
 class RunController:
@@ -170,6 +181,8 @@ class RunController:
         self._code: Sliced[Code] | None = None
         self._session: Session | None = None
         self._thread: threading.Thread | None = None
+        self._troubles: set[tuple[int, str]] = set()
+        """What went wrong at which line: a rule that fails again and again tells it once."""
         self._breakpoints: frozenset[str] = frozenset()
         self._line_s = 0.0
         self._was_stopped = self._had_begun = self._runs_again = self._is_closed = False
@@ -277,6 +290,7 @@ class RunController:
             return
         self.request = request
         self.is_stale = self._was_stopped = self._had_begun = False
+        self._troubles.clear()
         self._tell(Begun(request))
         watching = self._watching() if self._is_traced else None
         self._session = Session(request.nodes, self._network, watching=watching)
@@ -372,6 +386,12 @@ class RunController:
         """The program has told of itself: at a breakpoint it pauses without being asked."""
         if told.event == "paused" and self.state == "running":
             self._set_state("paused")
+        elif told.event in TROUBLES and self._session is not None:
+            fault, trouble = told.fault, (told.line, str(told.fault.sentence.text))
+            if trouble not in self._troubles:
+                self._troubles.add(trouble)
+                problem = Problem(TROUBLES[told.event], fault.sentence, fault.checklist)
+                self._tell(Troubled(problem, told.line, told.event == "rule_failed"))
 
     def _watching(self) -> Watching:
         request = self.request
@@ -386,6 +406,13 @@ class RunController:
         if state != self.state:
             self.state = state
             self._tell(StateChanged(state))
+
+
+TROUBLES = {
+    "rule_failed": "A rule ended with an error; the others go on",
+    "warning": "The program goes on, but look at this",
+}
+"""The titles of what is told while the program runs."""
 
 
 def _disk_problem(error: OSError) -> Problem:

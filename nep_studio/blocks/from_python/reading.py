@@ -252,9 +252,9 @@ class StatementReader:
     def _statement(self, nodes: Sequence[ast.stmt], begin: int) -> tuple[Made, int] | None:
         """The block that the first of these statements, or several, are; and how many."""
         if (plain := as_block(nodes[0])) is not nodes[0]:
-            found = self._statement([plain], begin)
-            if found is not None:
-                return found
+            inner = self._statement([plain], begin)
+            if inner is not None:
+                return inner
         first = nodes[0]
         if isinstance(first, ast.Expr) and isinstance(first.value, ast.Call):
             for made in self.values.called(first.value):

@@ -9,7 +9,7 @@ from functools import partial
 
 from nep_studio.blocks.code_text import CodeTextRefused, read_value
 from nep_studio.blocks.definitions import Definition, Slot
-from nep_studio.blocks.edits.content import AddProcedure
+from nep_studio.blocks.edits.content import AddProcedure, SetExtra
 from nep_studio.blocks.edits.project import RenameProject
 from nep_studio.blocks.language import Language
 from nep_studio.blocks.procedures import CALL, PARAMETER, parameters, words
@@ -21,7 +21,7 @@ from ..editor import Editor
 from ..generate.expressions import known_whole
 from ..generate.names import RESERVED, python_name
 from ..operations.fixes import append_entry
-from ..program import ALL_ROBOTS, ROBOT_BLOCK, Parameter, Procedure
+from ..program import ALL_ROBOTS, ON_ERROR, ROBOT_BLOCK, Parameter, Procedure
 from .learning import (
     BODY,
     PART,
@@ -122,6 +122,7 @@ def _note(editor: Editor, names: SourceNames, name: str, made: str, node: ast.As
         case [ast.Constant(value=str(text))] if made == "Behavior":
             if text != editor.project.name:
                 editor.apply(RenameProject(text))
+            _note_on_error(editor, call)
         case [ast.Constant(value=str(text))]:
             if text not in names.robots.values():
                 _add_robot(editor, text)
@@ -138,6 +139,14 @@ def _note(editor: Editor, names: SourceNames, name: str, made: str, node: ast.As
                 checklist=('Write the name in quotes, such as "NAO".',),
                 made=made,
             )
+
+
+def _note_on_error(editor: Editor, call: ast.Call) -> None:
+    """Keep whether an error of one rule ends the program."""
+    said = {word.arg: word.value for word in call.keywords}.get(ON_ERROR)
+    is_end = isinstance(said, ast.Constant) and said.value == "end"
+    if is_end != editor.project.ends_on_error:
+        editor.apply(SetExtra(ON_ERROR, "end" if is_end else None))
 
 
 def _add_robot(editor: Editor, name: str) -> None:

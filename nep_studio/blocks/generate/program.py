@@ -187,7 +187,8 @@ class ProgramGenerator:
             api.add("Robot")
         head = [_docstring(self._project.name), *(f"import {name}" for name in sorted(modules))]
         head += [f"from nep_core import {', '.join(sorted(api))}", ""]
-        behavior = show(call("Behavior", ast.Constant(self._project.name)))
+        options = {"on_error": ast.Constant("end")} if self._project.ends_on_error else {}
+        behavior = show(call("Behavior", ast.Constant(self._project.name), **options))
         variables = {name: begins[v] for v, name in names.variables.items() if v in begins}
         globals_ = [f"{name} = {_first(kinds)}" for name, kinds in variables.items()]
         page = [*_unmade(head), *robots, *_unmade([f"behavior = {behavior}", *globals_])]
