@@ -37,12 +37,14 @@ class Clock:
     """Counts seconds, but none while the program is paused; no clock of the computer matters.
 
     Whoever pauses programs says so by ``is_pausable``; else a wait need not look for pauses.
-    ``is_stepped`` tells whether the thread that asks runs a line of a paused program.
+    ``is_stepped`` tells whether the thread that asks runs a line of a paused program; ``hold``
+    returns when a thread that waits may go on with that.
     """
 
     def __init__(self) -> None:
         self.is_pausable = False
         self.is_stepped: Callable[[], bool] = lambda: False
+        self.hold: Callable[[], None] = lambda: None
         self._lost_s = 0.0
         self._paused_s = math.inf
         """Since when the program is paused, infinite when it is not."""
@@ -74,6 +76,10 @@ class Countdown:
 
     def __init__(self, seconds: float) -> None:
         self._left_s = seconds
+        self._looked_s = time.monotonic(), CLOCK.now_s()
+
+    def skip(self) -> None:
+        """Do not count the time since it was looked at last."""
         self._looked_s = time.monotonic(), CLOCK.now_s()
 
     def left_s(self) -> float:
@@ -271,7 +277,9 @@ def wait(seconds: float) -> None:
     task, countdown, left_s = current_task(), Countdown(seconds), seconds
     while left_s > 0:
         task.sleep(min(left_s, POLL_S) if CLOCK.is_pausable else left_s)
-        left_s = countdown.left_s()
+        if (left_s := countdown.left_s()) > 0:
+            CLOCK.hold()
+            countdown.skip()
     task.check()
 
 

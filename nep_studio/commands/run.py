@@ -127,7 +127,7 @@ class _Play:
             self._network, lambda: subject, self._turns.put, self._on_event, is_traced=False
         )
         self._exit_code = 0
-        self._has_failed_rules = False
+        self._failed_rule: ProgramState | None = None
         self._problem: Problem | None = None
 
     def play(self) -> int:
@@ -146,16 +146,19 @@ class _Play:
             self._network.close()
         if self._exit_code != UNUSABLE:
             self._printer.end()
-            if self._has_failed_rules:
+            if self._failed_rule is not None and self._problem is None:
                 self._exit_code = FAILED
-                print("Rules failed while it played: see above.", file=sys.stderr)
+                fault, line = self._failed_rule.fault, self._failed_rule.line
+                title = "A rule failed while others went on"
+                problem = Problem(title, fault.sentence, fault.checklist)
+                self._problem = self._placed(Ending(problem, line))
         if self._problem is not None:
             print(self._problem, file=sys.stderr)
         return self._exit_code
 
     def _hear(self, topic: str, message: msgspec.Struct) -> None:
         if isinstance(message, ProgramState) and message.event == "rule_failed":
-            self._has_failed_rules = True
+            self._failed_rule = self._failed_rule or message
         self._printer.hear(topic, message)
 
     def _on_event(self, event: Event) -> None:

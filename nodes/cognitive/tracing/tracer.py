@@ -98,6 +98,11 @@ class Pace:
             return not (is_step and self._is_paused)  # perhaps since a moment ago
         return False
 
+    def in_wait(self, thread: ProgramThread, line: int) -> None:
+        """Return when a thread may go on with a wait; raises Cancelled when the program ends."""
+        if self._is_paused and not thread.is_stepped and not thread.is_cancelled:
+            self._hold(thread, line)
+
     def _pause(self) -> None:
         """Pause, the waits of the program too."""
         self._is_paused = True
@@ -109,7 +114,10 @@ class Pace:
 
     def _step(self, name: str) -> None:
         if self._is_paused:
-            self._may_go |= {held for held in self._held if name in ("", held.name)}
+            may_go = {held for held in self._held if name in ("", held.name)}
+            self._may_go |= may_go
+            if not may_go:  # those that wait for something with a limit come to their next line
+                CLOCK.resume()
         else:
             self._pause()
             self._is_first_pause_step = True
@@ -191,7 +199,7 @@ class Tracer:
 
     def begin(self) -> None:
         """Follow this thread and those that begin from now on."""
-        CLOCK.is_pausable, CLOCK.is_stepped = True, self._is_stepped
+        CLOCK.is_pausable, CLOCK.is_stepped, CLOCK.hold = True, self._is_stepped, self._hold
         self._teller.start()
         self._set_lines()
         self._watch.begin()
@@ -199,7 +207,7 @@ class Tracer:
     def end(self) -> None:
         """Follow no more; what is new is told first."""
         self._pace.end()
-        CLOCK.is_pausable, CLOCK.is_stepped = False, lambda: False
+        CLOCK.is_pausable, CLOCK.is_stepped, CLOCK.hold = False, lambda: False, lambda: None
         self._over.set()
         with self._lock:
             self._watch.end()
@@ -254,6 +262,11 @@ class Tracer:
         with self._sending:
             self._tell_lines(self._threads.lines())
         self._tell_values()
+
+    def _hold(self) -> None:
+        """Hold a thread that waits while the program is paused, at the line in which it waits."""
+        if (thread := self._threads.this()) is not None and thread.frames:
+            self._pace.in_wait(thread, thread.frames[-1].f_lineno or 0)
 
     def _is_stepped(self) -> bool:
         """Whether the thread that asks runs a line of a program that is paused."""
