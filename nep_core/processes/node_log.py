@@ -102,7 +102,7 @@ def log_file_name(node: str) -> str:
 # What Python writes into the log of a process in which one call holds up all threads for long.
 
 BUSY_S = 5.0
-GOES_ON = "The program goes on after a long call."
+GOES_ON = "nep: goes on after a long call"
 _HANG, _THREAD = "Timeout (", re.compile(r"(Current thread|Thread) 0x")
 _FRAME = re.compile(r'  File "(?P<file>.*)", line (?P<line>\d+) in ')
 

@@ -17,6 +17,7 @@ from .program import Block, Project
 
 TOGETHER, CODE_LINES, VARIABLE = "control.together", "code.lines", "variable.get"
 CHANGING_LISTS = frozenset({"list.add", "list.set", "list.insert", "list.remove", "list.take"})
+RESIZING_LISTS = CHANGING_LISTS - {"list.set"}
 LIST_SLOT = "list"
 
 Path = tuple[tuple[str, str], ...]

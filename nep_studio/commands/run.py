@@ -149,8 +149,9 @@ class _Play:
             if self._failed_rule is not None and self._problem is None:
                 self._exit_code = FAILED
                 fault, line = self._failed_rule.fault, self._failed_rule.line
-                title = "A rule failed while others went on"
-                problem = Problem(title, fault.sentence, fault.checklist)
+                problem = Problem(
+                    "A rule failed while others went on", fault.sentence, fault.checklist
+                )
                 self._problem = self._placed(Ending(problem, line))
         if self._problem is not None:
             print(self._problem, file=sys.stderr)

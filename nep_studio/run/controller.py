@@ -386,12 +386,11 @@ class RunController:
         """The program has told of itself: at a breakpoint it pauses without being asked."""
         if told.event == "paused" and self.state == "running":
             self._set_state("paused")
-        elif told.event in TROUBLES and self._session is not None:
-            fault, trouble = told.fault, (told.line, str(told.fault.sentence.text))
+        elif told.event in ("rule_failed", "warning") and self._session is not None:
+            trouble = told.line, told.fault.sentence.text
             if trouble not in self._troubles:
                 self._troubles.add(trouble)
-                problem = Problem(TROUBLES[told.event], fault.sentence, fault.checklist)
-                self._tell(Troubled(problem, told.line, told.event == "rule_failed"))
+                self._tell(_trouble(told))
 
     def _watching(self) -> Watching:
         request = self.request
@@ -408,11 +407,16 @@ class RunController:
             self._tell(StateChanged(state))
 
 
-TROUBLES = {
-    "rule_failed": "A rule ended with an error; the others go on",
-    "warning": "The program goes on, but look at this",
-}
-"""The titles of what is told while the program runs."""
+def _trouble(told: m.ProgramState) -> Troubled:
+    """What went wrong while the program goes on."""
+    fault = told.fault
+    if told.event == "rule_failed":
+        problem = Problem(
+            "A rule ended with an error; the others go on", fault.sentence, fault.checklist
+        )
+        return Troubled(problem, told.line, is_error=True)
+    problem = Problem("The program goes on, but look at this", fault.sentence, fault.checklist)
+    return Troubled(problem, told.line, is_error=False)
 
 
 def _disk_problem(error: OSError) -> Problem:
