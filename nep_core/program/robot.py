@@ -78,6 +78,40 @@ HEAD_UP_M = 0.45
 """How high the eyes of a standing robot are."""
 
 
+MOST_QUESTIONS = 3
+_NUMBER_WORDS = (
+    "zero one two three four five six seven eight nine ten eleven twelve thirteen fourteen fifteen "
+    "sixteen seventeen eighteen nineteen twenty",
+    "null eins zwei drei vier fünf sechs sieben acht neun zehn elf zwölf dreizehn vierzehn "
+    "fünfzehn sechzehn siebzehn achtzehn neunzehn zwanzig",
+    "cero uno dos tres cuatro cinco seis siete ocho nueve diez once doce trece catorce quince "
+    "dieciséis diecisiete dieciocho diecinueve veinte",
+    "zéro un deux trois quatre cinq six sept huit neuf dix onze douze treize quatorze quinze seize "
+    "dix-sept dix-huit dix-neuf vingt",
+    "zero uno due tre quattro cinque sei sette otto nove dieci undici dodici tredici quattordici "
+    "quindici sedici diciassette diciotto diciannove venti",
+    "零 一 二 三 四 五 六 七 八 九 十 十一 十二 十三 十四 十五 十六 十七 十八 十九 二十",
+)
+_SPOKEN = {
+    word.replace("-", " "): number
+    for words in _NUMBER_WORDS
+    for number, word in enumerate(words.split())
+}
+
+
+def number_in_words(heard: str) -> float | None:
+    """The number that an answer is, None when it is something else, or more than a number.
+
+    What is heard has no signs: “3.5” comes as “3 5”.
+    """
+    words = heard.strip().casefold()
+    if words in _SPOKEN:
+        return _SPOKEN[words]
+    if re.fullmatch(r"\d{1,15}", words):
+        return int(words)
+    return float(words.replace(" ", ".")) if re.fullmatch(r"\d{1,15}[ .]\d{1,15}", words) else None
+
+
 class Robot:
     """One robot by name, or several that act at once.
 
@@ -128,6 +162,28 @@ class Robot:
             self.say(question)
             heard.clear()  # what was said before the question ended answers nothing
             return self._listen(words or [], seconds, heard)
+
+    def ask_number(self, question: object, seconds: float = 10.0) -> float:
+        """Ask for a number, and give it; an answer that is none is asked again, three times in all.
+
+        It is heard as digits, or as a word from zero to twenty of a language of the studio. Raises
+        RobotError when none is heard.
+        """
+        for _ in range(MOST_QUESTIONS):
+            number = number_in_words(self.ask(question, seconds=seconds))
+            if number is not None:
+                return number
+        raise RobotError(
+            "{robot} has asked “{question}” {count} times and has heard no number.",
+            checklist=(
+                "Answer with the number alone, such as 7 or seven.",
+                "Give more seconds for the answer.",
+                "Use the block that asks for any answer, and decide what to do with it.",
+            ),
+            robot=self.robots[0],
+            question=question,
+            count=MOST_QUESTIONS,
+        )
 
     def wait_for_word(self, *words: str, seconds: float = LONGEST_WAIT_S) -> str:
         """Wait until one of the words is heard, and give it; "" when none is in time."""
