@@ -10,8 +10,11 @@ import pytest
 from block_building import B, build, read_program
 
 from nep_core.program.tasks import RuleStopped
+from nep_studio.blocks.edits.content import SetExtra
+from nep_studio.blocks.files import from_bytes, to_bytes
 from nep_studio.blocks.from_python.updating import update_from_python
 from nep_studio.blocks.generate.program import generate_program
+from nep_studio.blocks.program import ON_ERROR
 
 ONE = B("math.random_integer", {"low": 1, "high": 1})
 TWO = ("n", "items")
@@ -260,3 +263,18 @@ def test_a_rule_stopped_in_an_own_block_runs_again_at_the_next_event(language):
         with pytest.raises(RuleStopped):
             space["when_started"]()
     assert space["n"] == 0
+
+
+def test_what_an_error_ends_is_kept_written_and_read(language):
+    editor = build(language, [B("event.started")])
+    assert "on_error" not in generate_program(editor.project, language).text
+
+    editor.apply(SetExtra(ON_ERROR, "end"))
+    text = generate_program(editor.project, language).text
+
+    assert 'behavior = Behavior("Test", on_error="end")' in text
+    assert generate_program(read_program(text, language), language).text == text
+    kept = from_bytes(to_bytes(editor.project), "test.nep", language)
+    assert kept.ends_on_error
+    update_from_python(editor, text.replace(', on_error="end"', ""))
+    assert not editor.project.ends_on_error
