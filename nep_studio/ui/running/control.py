@@ -293,6 +293,6 @@ class RunControl(QObject):
         workbench = self._host.workbench
         page = workbench.canvas.editor.project.page_of(block)
         sentence, steps = problem.sentence, problem.checklist
-        shown = Diagnostic(severity, "run", page, block, sentence, steps)
-        workbench.show_run_problem(shown)
+        shown = Diagnostic("error", "run", page, block, sentence, steps)
+        workbench.show_run_problem(replace(shown, severity=severity))
         workbench.show_block(block)
