@@ -29,7 +29,7 @@ if TYPE_CHECKING:
         was_seen,
     )
     from .program.robot import Robot, colour_from, mix_colours
-    from .program.tasks import stop_program, together, wait, wait_until
+    from .program.tasks import at_once, stop_program, stop_rule, together, wait, wait_until
     from .wire.pubsub import Publisher, Subscriber
 
 _HOMES = {
@@ -44,17 +44,17 @@ _HOMES = {
         "program.human": "heard_word human_state is_remembered remember times_seen until_state "
         "was_seen",
         "program.robot": "Robot colour_from mix_colours",
-        "program.tasks": "stop_program together wait wait_until",
+        "program.tasks": "at_once stop_program stop_rule together wait wait_until",
         "wire.pubsub": "Publisher Subscriber",
     }.items()
     for name in names.split()
 }
 
 __all__ = ["Behavior", "Broker", "BrokerNetwork", "DirectNetwork", "Launcher", "Master"]
-__all__ += ["NepError", "Node", "PeerNetwork", "Publisher", "Robot", "Subscriber", "colour_from"]
-__all__ += ["heard_word", "human_state", "in_turn", "is_remembered", "mix_colours", "one_of"]
-__all__ += ["remember", "stop_program", "times_seen", "together", "until_state", "wait"]
-__all__ += ["wait_until", "was_seen"]
+__all__ += ["NepError", "Node", "PeerNetwork", "Publisher", "Robot", "Subscriber", "at_once"]
+__all__ += ["colour_from", "heard_word", "human_state", "in_turn", "is_remembered", "mix_colours"]
+__all__ += ["one_of", "remember", "stop_program", "stop_rule", "times_seen", "together"]
+__all__ += ["until_state", "wait", "wait_until", "was_seen"]
 
 
 def __getattr__(name: str) -> Any:

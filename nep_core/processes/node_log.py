@@ -7,10 +7,14 @@ ended. However much a node writes, its newest words are kept.
 from __future__ import annotations
 
 import logging
+import os
+import re
 import time
 import zlib
+from collections.abc import Sequence
 from contextlib import suppress
 from io import FileIO
+from itertools import pairwise
 from pathlib import Path
 
 from nep_core.closing import Closing
@@ -95,3 +99,26 @@ def log_file_name(node: str) -> str:
     if plain != node:
         plain += f"-{zlib.crc32(node.encode()):08x}"
     return f"{plain}.log"
+
+
+# What Python writes into the log of a process in which one call holds up all threads for long.
+
+BUSY_S = 5.0
+GOES_ON = "nep: goes on after a long call"
+_HANG, _THREAD = "Timeout (", re.compile(r"(Current thread|Thread) 0x")
+_FRAME = re.compile(r'  File "(?P<file>.*)", line (?P<line>\d+) in ')
+
+
+def busy_line(lines: Sequence[str], file: str) -> int:
+    """The line of ``file`` at which a process has hung last and hangs still; 0 where it does not.
+
+    ``lines`` are the last of its log.
+    """
+    begin = next((n for n in reversed(range(len(lines))) if lines[n].startswith(_HANG)), None)
+    if begin is None or GOES_ON in lines[begin:]:
+        return 0
+    for above, line in pairwise(lines[begin:]):  # the innermost call of a thread comes first
+        frame = _FRAME.match(line) if _THREAD.match(above) else None
+        if frame is not None and os.path.basename(frame["file"]) == os.path.basename(file):
+            return int(frame["line"])
+    return 0

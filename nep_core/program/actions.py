@@ -20,7 +20,7 @@ from nep_core.networks.transports import default_network
 from nep_core.wire.messages import ACTION_REQUEST, ACTION_RESULT, ActionRequest, ActionResult
 from nep_core.wire.pubsub import Publisher, Subscriber
 
-from .tasks import POLL_S, Cancelled, current_task
+from .tasks import POLL_S, Cancelled, Stamp, current_task
 
 ASK_AGAIN_S = 1.0
 SILENCE_S = 5.0
@@ -65,8 +65,8 @@ class ActionClient:
     """Sends requests and hands every result to the call that waits for it."""
 
     def __init__(self, network: Network) -> None:
-        self.last_done: dict[str, float] = {}
-        """When (time.time()) each robot last told of an end that was waited for."""
+        self.last_done: dict[str, Stamp] = {}
+        """When each robot last told of an end that was waited for."""
         self._calls: dict[str, Call] = {}
         self._requests = Publisher(ACTION_REQUEST, network=network)
         self._results = Subscriber(
@@ -138,8 +138,7 @@ class ActionClient:
     def _on_result(self, result: ActionResult) -> None:
         if (call := self._calls.get(result.id)) is not None:
             if result.state in _ENDS:
-                before = self.last_done.get(result.robot, 0.0)
-                self.last_done[result.robot] = max(result.time, before)
+                self.last_done[result.robot] = Stamp(result.time, time.monotonic())
             call.note(result)
 
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import contextlib
+import logging
 import random
 import threading
 import time
@@ -11,6 +13,7 @@ from functools import partial
 from types import CodeType, FunctionType
 from typing import Literal
 
+from faults import Fault, fault_in, fault_of
 from nep_core.errors import NepError
 from nep_core.networks.network import Network
 from nep_core.networks.transports import default_network
@@ -21,18 +24,41 @@ from nep_core.wire.messages import (
     HumanBehavior,
     ProgramEvent,
     ProgramState,
+    told,
 )
 from nep_core.wire.pubsub import Publisher
 
 from .human import human_listener, state_of_thing, state_of_word, word_of_state
-from .tasks import POLL_S, PROGRAM, Part, Task, current_task
+from .tasks import CLOCK, POLL_S, PROGRAM, Cancelled, Part, RuleStopped, Task, current_task
+
+log = logging.getLogger(__name__)
 
 Action = Callable[[], object]
 Condition = Callable[[], object]
 Decorator = Callable[[Action], Action]
 Again = Literal["ignore", "restart", "queue"]
+OnError = Literal["go_on", "end"]
 
-MOST_QUEUED = 20
+MOST_QUEUED = 1000
+TELL_AGAIN_S = 1.0
+"""What happens over and over is told no more often than this, with how often it happened."""
+
+# Who runs a program can say more about an error of it than that there was one.
+
+Explain = Callable[[BaseException], tuple[Fault, int]]
+"""The fault that a person reads of an error of the program, and its line of the file, 0: none."""
+
+
+def _explain(error: BaseException) -> tuple[Fault, int]:
+    return fault_in(error), 0
+
+
+_explainers: list[Explain] = [_explain]
+
+
+def explain_by(explain: Explain) -> None:
+    """Let errors of rules be explained so from now on."""
+    _explainers[:] = [explain]
 
 
 @dataclass
@@ -50,24 +76,37 @@ class Rule:
     condition: Condition | None = None
     running: Part | None = None
     queued: int = 0
+    dropped: int = 0
+    """How many starts did not fit into the queue since that was last told."""
     lock: threading.Lock = field(default_factory=threading.Lock)
 
 
 class Behavior:
     """The rules of a program; ``run`` returns when the program ends.
 
-    A behaviour without rules ends when all that was started at the start is done.
+    A behaviour without rules ends when all that was started at the start is done. An error in a
+    rule, goal or start ends that one, and what it had begun on robots; ``on_error`` says whether
+    the others "go_on", or whether the program shall "end" too.
     """
 
-    def __init__(self, name: str = "behaviour", *, network: Network | None = None) -> None:
+    def __init__(
+        self,
+        name: str = "behaviour",
+        *,
+        on_error: OnError = "go_on",
+        network: Network | None = None,
+    ) -> None:
         self.name = name
+        self._ends_on_error = on_error == "end"
         self._network = network
         self._rules: list[Rule] = []
         self._starts: list[Action] = []
-        self._goals = Goals(self._tell)
-        self._busy_s = time.monotonic()
+        self._goals = Goals(self._tell, self._note_error)
+        self._busy_s = CLOCK.now_s()
         self._parts: list[Part] = []
         self._parts_lock = threading.Lock()
+        self._first_error: BaseException | None = None
+        self._told_drops_s = -TELL_AGAIN_S
 
     def when(self, state: str, *, again: Again = "ignore", source: str = "") -> Decorator:
         """Run the decorated function each time the person's state is ``state``.
@@ -147,7 +186,7 @@ class Behavior:
         return action
 
     def run(self) -> None:
-        """Run until the program is stopped; raises the first error of any of its parts."""
+        """Run until the program is stopped or all is done; raises the first error of its parts."""
         network = self._network or default_network()
         self._states = Publisher(PROGRAM_STATE, network=network)
         words = Publisher(EXPECTED_WORDS, network=network)
@@ -156,7 +195,7 @@ class Behavior:
         expected = dict.fromkeys(filter(None, map(word_of_state, states)))
         words.send(ExpectedWords(words=list(expected)))
         listener = human_listener(network)
-        self._busy_s = time.monotonic()
+        self._busy_s = CLOCK.now_s()
         listener.listen(self._on_behavior)
         try:
             for rule in self._rules:
@@ -165,7 +204,7 @@ class Behavior:
             if self._goals:
                 self._start(self._goals.run, "goals")
             for action in self._starts:
-                self._start(action, "")
+                self._start(partial(self._play, action, ""), "")
             self._supervise()
         finally:
             listener.unlisten(self._on_behavior)
@@ -174,8 +213,11 @@ class Behavior:
             for part in self._parts:
                 part.join(1.0)
             PROGRAM.end_undone()
+            self._tell_drops()
             self._states.close()
             words.close()
+        if self._first_error is not None and not PROGRAM.cancelled.is_set():
+            raise self._first_error
 
     def _watch(self, rule: Rule) -> None:
         """Fire a rule each time that its condition becomes true."""
@@ -189,7 +231,7 @@ class Behavior:
 
     def _idle_s(self) -> float:
         """For how long nothing has happened."""
-        now_s = time.monotonic()
+        now_s = CLOCK.now_s()
         if self._goals.is_busy or any(rule.running for rule in self._rules):
             self._busy_s = now_s
         heard_s = human_listener(self._network).heard_s
@@ -204,7 +246,50 @@ class Behavior:
                 self._parts = [part for part in self._parts if part not in ended]
             for part in ended:
                 if part.error is not None:
-                    raise part.error
+                    self._note_error(part.error, "")
+            if self._ends_on_error and self._first_error is not None:
+                return
+            if time.monotonic() - self._told_drops_s >= TELL_AGAIN_S:
+                self._tell_drops()
+
+    def _play(self, action: Action, rule: str) -> None:
+        """Do something; an error in it is told, and ends nothing else than the program says."""
+        try:
+            action()
+        except RuleStopped:
+            pass
+        except Cancelled:
+            raise
+        except BaseException as error:
+            current_task().end_undone()
+            self._note_error(error, rule)
+
+    def _note_error(self, error: BaseException, rule: str) -> None:
+        """Tell that a rule has failed; whether others go on, ``_supervise`` sees to."""
+        log.error("a rule failed", exc_info=error)
+        fault, line = _explainers[0](error)
+        self._tell("rule_failed", rule, line, fault)
+        self._first_error = self._first_error or error
+
+    def _tell_drops(self) -> None:
+        """Tell of the starts that did not fit into a queue since that was last told."""
+        for rule in self._rules:
+            with rule.lock:
+                count, rule.dropped = rule.dropped, 0
+            if count:
+                self._told_drops_s = time.monotonic()
+                fault = fault_of(
+                    "“{rule}” happened more often than its rule could keep up with: {count} times "
+                    "it was left out.",
+                    code="queue_full",
+                    checklist=(
+                        "Make the rule shorter.",
+                        "Let it wait for something that happens less often.",
+                    ),
+                    rule=rule.state.replace("_", " "),
+                    count=count,
+                )
+                self._tell("warning", rule.state, _line_of(rule.action), fault)
 
     def _on_behavior(self, behavior: HumanBehavior) -> None:
         for rule in self._rules:
@@ -218,6 +303,7 @@ class Behavior:
             if rule.running is None or not rule.running.is_running:
                 rule.running = self._start(lambda: self._run_rule(rule), rule.state)
             elif rule.again == "queue":
+                rule.dropped += rule.queued >= MOST_QUEUED
                 rule.queued = min(rule.queued + 1, MOST_QUEUED)
             elif rule.again == "restart":
                 old = rule.running
@@ -225,7 +311,7 @@ class Behavior:
                 rule.running = self._start(lambda: self._restart_rule(rule, old), rule.state)
 
     def _restart_rule(self, rule: Rule, old: Part) -> None:
-        old.join()
+        old.await_end()
         current_task().check()  # a newer one may have taken its place meanwhile
         self._run_rule(rule)
 
@@ -233,8 +319,8 @@ class Behavior:
         again = True
         while again:
             self._tell("rule_started", rule.state, _line_of(rule.action))
-            rule.action()
-            self._busy_s = time.monotonic()
+            self._play(rule.action, rule.state)
+            self._busy_s = CLOCK.now_s()
             again = self._goes_on(rule)  # before it is told: who hears it may fire the rule
             self._tell("rule_finished", rule.state, _line_of(rule.action))
 
@@ -254,10 +340,15 @@ class Behavior:
             self._parts.append(part)
             return part.start()
 
-    def _tell(self, event: ProgramEvent, rule: str, line: int = 0) -> None:
+    def _tell(
+        self, event: ProgramEvent, rule: str, line: int = 0, fault: Fault | None = None
+    ) -> None:
         name = threading.current_thread().name
-        state = ProgramState(program=self.name, event=event, rule=rule, thread=name, line=line)
-        self._states.send(state)
+        self._states.send(
+            ProgramState(
+                program=self.name, event=event, rule=rule, thread=name, line=line, **told(fault)
+            )
+        )
 
 
 def _decorator(note: Callable[[Action], None]) -> Decorator:
@@ -335,8 +426,12 @@ class Goal:
 class Goals:
     """The goals of a behaviour: at most one runs, the others wait by priority, then by time."""
 
-    def __init__(self, tell: Callable[[ProgramEvent, str], None]) -> None:
-        self._tell = tell
+    def __init__(
+        self,
+        tell: Callable[[ProgramEvent, str], None],
+        note_error: Callable[[BaseException, str], None],
+    ) -> None:
+        self._tell, self._note_error = tell, note_error
         self._goals: list[Goal] = []
         self._hooks: list[tuple[str, GoalEvent, Action]] = []
         self._waiting: list[Goal] = []
@@ -402,13 +497,15 @@ class Goals:
         """Pursue goals one after the other until this part of the program is cancelled."""
         goals = {goal.name: goal for goal in self._goals}
         for name, event, action in self._hooks:
-            if name not in goals:
-                raise NepError(
-                    "There is no goal with the name “{name}”.",
-                    checklist=("Write the name as the goal's own block has it.",),
-                    name=name,
-                )
-            goals[name].hooks.setdefault(event, []).append(action)
+            if name in goals:
+                goals[name].hooks.setdefault(event, []).append(action)
+                continue
+            unknown = NepError(
+                "There is no goal with the name “{name}”.",
+                checklist=("Write the name as the goal's own block has it.",),
+                name=name,
+            )
+            self._note_error(unknown, name)
         task = current_task()
         while True:
             self._pursue(self._next(task), task)
@@ -433,13 +530,15 @@ class Goals:
             if self._cut != "finished":  # cut before it could begin
                 part.task.cancel()
         self._tell("goal_started", goal.name)
-        _wait_for(part.start(), task)
+        self._wait_for(part.start(), task, goal)
         with self._news:
             end: End = "finished" if self._has_ended else self._cut
+            if part.error is not None:
+                end = "stopped"
             self._task = None
         self._tell(TOLD[end], goal.name)
         for action in goal.hooks.get(end, ()):
-            _wait_for(Part(action, f"nep-goal-{goal.name}-{end}", task).start(), task)
+            self._wait_for(Part(action, f"nep-goal-{goal.name}-{end}", task).start(), task, goal)
         # Let go of a goal that has ended; one that returns waits before those of its priority
         with self._news:
             self._running = None
@@ -452,7 +551,8 @@ class Goals:
         if goal.returns:
             for returning in goal.hooks.get("returns", ()):
                 returning()
-        goal.action()
+        with contextlib.suppress(RuleStopped):
+            goal.action()
         with self._news:
             self._has_ended = True
 
@@ -462,11 +562,9 @@ class Goals:
         if self._task is not None:
             self._task.cancel()
 
-
-def _wait_for(part: Part, task: Task) -> None:
-    """Wait for the end of a part; its error is raised here, and it ends with ``task``."""
-    while part.is_running:
-        part.join(POLL_S)
-    task.check()
-    if part.error is not None:
-        raise part.error
+    def _wait_for(self, part: Part, task: Task, goal: Goal) -> None:
+        """Wait for the end of a part; its error is told, and it ends with ``task``."""
+        part.await_end()
+        task.check()
+        if part.error is not None and not isinstance(part.error, RuleStopped):
+            self._note_error(part.error, goal.name)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import re
 import threading
 import time
@@ -15,7 +16,7 @@ from nep_core.networks.transports import default_network
 from nep_core.wire.messages import HUMAN_BEHAVIOR, HumanBehavior
 from nep_core.wire.pubsub import Subscriber
 
-from .tasks import POLL_S, current_task
+from .tasks import CLOCK, POLL_S, Countdown, Stamp, current_task
 
 # Words that people say, which come as human states: "yes" is heard_yes.
 
@@ -49,15 +50,14 @@ def next_word(heard: list[str], wanted: dict[str, str], seconds: float) -> str:
 
     ``heard`` grows while this waits; ``wanted`` is the word of each state.
     """
-    task, end_s, looked_at = current_task(), time.monotonic() + seconds, 0
+    task, countdown, looked_at = current_task(), Countdown(seconds), 0
     while True:
         while looked_at < len(heard):
             state = heard[looked_at]
             looked_at += 1
             if state in wanted or (not wanted and word_of_state(state)):
                 return wanted.get(state) or word_of_state(state)
-        left_s = end_s - time.monotonic()
-        if left_s <= 0:
+        if (left_s := countdown.left_s()) <= 0:
             return ""
         task.sleep(min(POLL_S, left_s))
 
@@ -74,7 +74,7 @@ Listener = Callable[[HumanBehavior], None]
 
 @dataclass
 class Seen:
-    """When a state was last seen (time.monotonic(), s), and how often."""
+    """When a state was last seen (by the program's clock, s), and how often."""
 
     last_s: float = 0.0
     times: int = 0
@@ -89,13 +89,13 @@ class HumanListener:
     def __init__(self, network: Network) -> None:
         self.state = ""
         """What was heard last."""
-        self.heard_s = 0.0
-        """When anything was last heard, time.monotonic(); 0 when nothing was."""
+        self.heard_s = -math.inf
+        """When anything was last heard, by the program's clock."""
         self._seen: dict[str, Seen] = {}
-        self.told_s: dict[str, float] = {}
-        """When each robot or node told of the person last, on its own clock, in s."""
+        self.told: dict[str, Stamp] = {}
+        """When each robot or node told of the person last."""
         self.remembered_until_s: dict[str, float] = {}
-        """Until when (time.monotonic()) states are remembered."""
+        """Until when, by the program's clock, states are remembered."""
         self._lock = threading.RLock()
         self._listeners: list[Listener] = []
         self._kept: deque[HumanBehavior] = deque(maxlen=100)
@@ -142,8 +142,8 @@ class HumanListener:
 
     def _on_behavior(self, behavior: HumanBehavior) -> None:
         with self._lock:
-            self.state, self.heard_s = behavior.human_state, time.monotonic()
-            self.told_s[behavior.source] = behavior.time
+            self.state, self.heard_s = behavior.human_state, CLOCK.now_s()
+            self.told[behavior.source] = Stamp(behavior.time, time.monotonic())
             seen = self._seen.pop(self.state, Seen())  # the newest last
             self._seen[self.state] = Seen(self.heard_s, seen.times + 1)
             if len(self._seen) > MOST_STATES:
@@ -162,13 +162,13 @@ def human_listener(network: Network | None = None) -> HumanListener:
 def human_state() -> str:
     """What the person did last, such as "gesture_karate"; "" when nothing for 3 s."""
     listener = human_listener()
-    return listener.state if time.monotonic() - listener.heard_s <= REMEMBER_S else ""
+    return listener.state if CLOCK.now_s() - listener.heard_s <= REMEMBER_S else ""
 
 
 def was_seen(state: str, seconds: float) -> bool:
     """Whether the person did that in the last so many seconds."""
     seen = human_listener().seen(state)
-    return seen.times > 0 and time.monotonic() - seen.last_s <= seconds
+    return seen.times > 0 and CLOCK.now_s() - seen.last_s <= seconds
 
 
 def times_seen(state: str) -> int:
@@ -178,12 +178,12 @@ def times_seen(state: str) -> int:
 
 def remember(state: str, seconds: float) -> None:
     """Remember something from now on for some seconds."""
-    human_listener().remembered_until_s[state] = time.monotonic() + seconds
+    human_listener().remembered_until_s[state] = CLOCK.now_s() + seconds
 
 
 def is_remembered(state: str) -> bool:
     """Whether something is remembered still."""
-    return time.monotonic() < human_listener().remembered_until_s.get(state, 0.0)
+    return CLOCK.now_s() < human_listener().remembered_until_s.get(state, 0.0)
 
 
 def until_state(state: str, most: float = float("inf")) -> Iterator[int]:

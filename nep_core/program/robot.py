@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import re
 import threading
+import time
 from typing import Any
 
 from nep_core.errors import RobotError
@@ -15,7 +16,7 @@ from nep_core.wire.pubsub import Subscriber
 
 from .actions import ActionClient, action_client, not_answering
 from .human import LONGEST_WAIT_S, human_listener, next_word, plain, state_of_word
-from .tasks import POLL_S, current_task
+from .tasks import POLL_S, Stamp, current_task
 
 # Where the robots of a program are, and what their sensors measure, as last heard.
 
@@ -28,30 +29,36 @@ class RobotListener:
     """Hears ``/robot_state`` for a whole program."""
 
     def __init__(self, network: Network) -> None:
-        self._states: dict[str, RobotState] = {}
+        self._states: dict[str, tuple[RobotState, Stamp]] = {}
         self._news = threading.Condition()
         self._subscriber = Subscriber(
             ROBOT_STATE, RobotState, network=network, callback=self._on_state
         )
 
-    def newest(self, robot: str, since: float = 0.0) -> RobotState | None:
+    def newest(self, robot: str, *since: Stamp) -> RobotState | None:
         """The newest state of a robot, None when it does not tell any for 5 s.
 
-        Waits up to a second for one that was told after the time ``since``.
+        Waits up to a second for one that was told after all that it told at ``since``.
         """
-        waited_s = 0.0
+        begun_s = time.monotonic()
         with self._news:
-            while not (robot in self._states and self._states[robot].time >= since):
-                if waited_s >= (FRESH_STATE_S if robot in self._states else FIRST_STATE_S):
+            while not self._is_told_after(robot, since):
+                longest_s = FRESH_STATE_S if robot in self._states else FIRST_STATE_S
+                if time.monotonic() - begun_s >= longest_s:
                     break
                 current_task().check()
                 self._news.wait(POLL_S)
-                waited_s += POLL_S
-            return self._states.get(robot)
+            return self._states[robot][0] if robot in self._states else None
+
+    def _is_told_after(self, robot: str, since: tuple[Stamp, ...]) -> bool:
+        if robot not in self._states:
+            return False
+        _, stamp = self._states[robot]
+        return all(before.is_before(stamp) for before in since)
 
     def _on_state(self, state: RobotState) -> None:
         with self._news:
-            self._states[state.robot] = state
+            self._states[state.robot] = state, Stamp(state.time, time.monotonic())
             self._news.notify_all()
 
 
@@ -69,6 +76,40 @@ TOUCHES = {
 """Parts with several touch sensors."""
 HEAD_UP_M = 0.45
 """How high the eyes of a standing robot are."""
+
+
+MOST_QUESTIONS = 3
+_NUMBER_WORDS = (
+    "zero one two three four five six seven eight nine ten eleven twelve thirteen fourteen fifteen "
+    "sixteen seventeen eighteen nineteen twenty",
+    "null eins zwei drei vier fünf sechs sieben acht neun zehn elf zwölf dreizehn vierzehn "
+    "fünfzehn sechzehn siebzehn achtzehn neunzehn zwanzig",
+    "cero uno dos tres cuatro cinco seis siete ocho nueve diez once doce trece catorce quince "
+    "dieciséis diecisiete dieciocho diecinueve veinte",
+    "zéro un deux trois quatre cinq six sept huit neuf dix onze douze treize quatorze quinze seize "
+    "dix-sept dix-huit dix-neuf vingt",
+    "zero uno due tre quattro cinque sei sette otto nove dieci undici dodici tredici quattordici "
+    "quindici sedici diciassette diciotto diciannove venti",
+    "零 一 二 三 四 五 六 七 八 九 十 十一 十二 十三 十四 十五 十六 十七 十八 十九 二十",
+)
+_SPOKEN = {
+    word.replace("-", " "): number
+    for words in _NUMBER_WORDS
+    for number, word in enumerate(words.split())
+}
+
+
+def number_in_words(heard: str) -> float | None:
+    """The number that an answer is, None when it is something else, or more than a number.
+
+    What is heard has no signs: “3.5” comes as “3 5”.
+    """
+    words = heard.strip().casefold()
+    if words in _SPOKEN:
+        return _SPOKEN[words]
+    if re.fullmatch(r"\d{1,15}", words):
+        return int(words)
+    return float(words.replace(" ", ".")) if re.fullmatch(r"\d{1,15}[ .]\d{1,15}", words) else None
 
 
 class Robot:
@@ -121,6 +162,28 @@ class Robot:
             self.say(question)
             heard.clear()  # what was said before the question ended answers nothing
             return self._listen(words or [], seconds, heard)
+
+    def ask_number(self, question: object, seconds: float = 10.0) -> float:
+        """Ask for a number, and give it; an answer that is none is asked again, three times in all.
+
+        It is heard as digits, or as a word from zero to twenty of a language of the studio. Raises
+        RobotError when none is heard.
+        """
+        for _ in range(MOST_QUESTIONS):
+            number = number_in_words(self.ask(question, seconds=seconds))
+            if number is not None:
+                return number
+        raise RobotError(
+            "{robot} has asked “{question}” {count} times and has heard no number.",
+            checklist=(
+                "Answer with the number alone, such as 7 or seven.",
+                "Give more seconds for the answer.",
+                "Use the block that asks for any answer, and decide what to do with it.",
+            ),
+            robot=self.robots[0],
+            question=question,
+            count=MOST_QUESTIONS,
+        )
 
     def wait_for_word(self, *words: str, seconds: float = LONGEST_WAIT_S) -> str:
         """Wait until one of the words is heard, and give it; "" when none is in time."""
@@ -411,10 +474,10 @@ class Robot:
     def _state(self) -> RobotState:
         """The newest state, told after all that the robot was seen to do, or told of the person."""
         robot = self.robots[0]
-        done = self._client.last_done.get(robot, 0.0)
+        done = self._client.last_done.get(robot, Stamp())
         # A rule may have fired just now
-        told = human_listener(self._network).told_s.get(robot, 0.0)
-        state = robot_listener(self._network).newest(robot, max(done, told))
+        told = human_listener(self._network).told.get(robot, Stamp())
+        state = robot_listener(self._network).newest(robot, done, told)
         if state is None:
             raise not_answering(robot)
         return state

@@ -1,17 +1,22 @@
 """The parts of a program that run side by side, and how they wait and are cancelled.
 
 Cancelling is cooperative: a part ends at its next wait or robot call, by Cancelled, which
-ordinary ``except`` clauses do not catch.
+ordinary ``except`` clauses do not catch. One that only computes is interrupted after a while.
 """
 
 from __future__ import annotations
 
 import contextvars
+import ctypes
 import itertools
 import math
+import os
+import sys
 import threading
 import time
 from collections.abc import Callable
+from types import FrameType
+from typing import NamedTuple
 
 POLL_S = 0.05
 """How often a condition is looked at."""
@@ -19,6 +24,85 @@ POLL_S = 0.05
 
 class Cancelled(BaseException):
     """This part of the program has been asked to end."""
+
+
+class RuleStopped(BaseException):
+    """The rule in which this part runs is to end here, well."""
+
+
+# The time of a program: what waits and limits are counted by.
+
+
+class Clock:
+    """Counts seconds, but none while the program is paused; no clock of the computer matters.
+
+    Whoever pauses programs says so by ``is_pausable``; else a wait need not look for pauses.
+    ``is_stepped`` tells whether the thread that asks runs a line of a paused program; ``hold``
+    returns when a thread that waits may go on with that.
+    """
+
+    def __init__(self) -> None:
+        self.is_pausable = False
+        self.is_stepped: Callable[[], bool] = lambda: False
+        self.hold: Callable[[], None] = lambda: None
+        self._lost_s = 0.0
+        self._paused_s = math.inf
+        """Since when the program is paused, infinite when it is not."""
+        self._lock = threading.Lock()
+
+    def now_s(self) -> float:
+        """Seconds of the program since some moment."""
+        with self._lock:
+            return min(time.monotonic(), self._paused_s) - self._lost_s
+
+    def pause(self) -> None:
+        """Stand still from now on."""
+        with self._lock:
+            self._paused_s = min(self._paused_s, time.monotonic())
+
+    def resume(self) -> None:
+        """Go on where it stopped."""
+        with self._lock:
+            now_s = time.monotonic()
+            self._lost_s += max(0.0, now_s - self._paused_s)
+            self._paused_s = math.inf
+
+
+CLOCK = Clock()
+
+
+class Countdown:
+    """What is left of some seconds; of one thread, which may run while the others are paused."""
+
+    def __init__(self, seconds: float) -> None:
+        self._left_s = seconds
+        self._looked_s = time.monotonic(), CLOCK.now_s()
+
+    def skip(self) -> None:
+        """Do not count the time since it was looked at last."""
+        self._looked_s = time.monotonic(), CLOCK.now_s()
+
+    def left_s(self) -> float:
+        """How many seconds are left, 0 or less when they are over."""
+        before, self._looked_s = self._looked_s, (time.monotonic(), CLOCK.now_s())
+        own, programs = (now - then for now, then in zip(self._looked_s, before, strict=True))
+        self._left_s -= own if CLOCK.is_stepped() else programs
+        return self._left_s
+
+
+LATER_S = 1.0
+"""What came so much later was told later too, whatever a clock says that may have been set."""
+
+
+class Stamp(NamedTuple):
+    """When somebody told something: by their own clock, and when it came here (monotonic), in s."""
+
+    told_s: float = -math.inf
+    came_s: float = -math.inf
+
+    def is_before(self, other: Stamp) -> bool:
+        """Whether the other was told after this, by the same one."""
+        return other.told_s >= self.told_s or other.came_s - self.came_s >= LATER_S
 
 
 class Task:
@@ -98,6 +182,12 @@ def _claim_name(wanted: str) -> str:
         return name
 
 
+PATIENCE_S = 1.0
+"""A part that was asked to end, and has not waited for anything for so long, is interrupted."""
+GIVEN_UP_S = 5.0
+"""One that cannot be interrupted, as in a long call, is waited for no longer."""
+
+
 class Part:
     """A function in a thread and task of its own; its error is kept for whoever joins it.
 
@@ -126,6 +216,36 @@ class Part:
         """Wait for its end."""
         self._thread.join(timeout_s)
 
+    def await_end(self, look: Callable[[], object] = lambda: None) -> None:
+        """Wait for its end; ``look`` is called all the while.
+
+        When it was asked to end, but only computes and so never notices, it is interrupted; it is
+        not waited for any longer when that does not help either.
+        """
+        asked_s, interrupted_s = math.inf, -math.inf
+        while self.is_running:
+            self.join(POLL_S)
+            look()
+            now_s = time.monotonic()
+            if not self.task.cancelled.is_set():
+                continue
+            asked_s = min(asked_s, now_s)
+            if now_s - asked_s >= GIVEN_UP_S:
+                return
+            if now_s - asked_s >= PATIENCE_S and now_s - interrupted_s >= PATIENCE_S:
+                interrupted_s = now_s if self.interrupt() else interrupted_s
+
+    def interrupt(self) -> bool:
+        """Raise Cancelled in the program's own lines, not where nep_core holds something; if so."""
+        ident = self._thread.ident
+        frame = sys._current_frames().get(ident) if ident is not None else None
+        if ident is not None and frame is not None and _is_interruptible(frame):
+            ctypes.pythonapi.PyThreadState_SetAsyncExc(
+                ctypes.c_ulong(ident), ctypes.py_object(Cancelled)
+            )
+            return True
+        return False
+
     def _run(self) -> None:
         _current.set(self.task)
         try:
@@ -134,15 +254,33 @@ class Part:
             pass
         except BaseException as error:
             self.error = error
+            self.task.cancel()  # what it has begun on a robot, such as a walk, ends with it
         finally:
             self._parent.release(self.task)
             with _names_lock:
                 _names.discard(self._thread.name)
 
 
+def _is_interruptible(frame: FrameType) -> bool:
+    """Whether a thread is in lines of a program, not in what nep_core does for it."""
+    own = os.path.dirname(Part._run.__code__.co_filename)
+    ours = os.path.dirname(own)
+    at: FrameType | None = frame
+    while at is not None and not at.f_code.co_filename.startswith(ours):
+        at = at.f_back
+    # behaviours and parts call the program's functions, everything else does something itself
+    return at is not None and at is not frame and os.path.dirname(at.f_code.co_filename) == own
+
+
 def wait(seconds: float) -> None:
-    """Let this part of the program rest for so many seconds."""
-    current_task().sleep(seconds)
+    """Let this part of the program rest for so many seconds; pauses of it do not count."""
+    task, countdown, left_s = current_task(), Countdown(seconds), seconds
+    while left_s > 0:
+        task.sleep(min(left_s, POLL_S) if CLOCK.is_pausable else left_s)
+        if (left_s := countdown.left_s()) > 0:
+            CLOCK.hold()
+            countdown.skip()
+    task.check()
 
 
 def wait_until(condition: Callable[[], object], at_most_s: float = math.inf) -> bool:
@@ -150,12 +288,11 @@ def wait_until(condition: Callable[[], object], at_most_s: float = math.inf) -> 
 
     Gives whether the condition came true.
     """
-    task, end = current_task(), time.monotonic() + at_most_s
+    task, countdown = current_task(), Countdown(at_most_s)
     while not condition():
-        left = end - time.monotonic()
-        if left <= 0:
+        if (left_s := countdown.left_s()) <= 0:
             return False
-        task.sleep(min(POLL_S, left))
+        task.sleep(min(POLL_S, left_s))
     return True
 
 
@@ -164,12 +301,14 @@ def together(*functions: Callable[[], object]) -> None:
     task = current_task()
     name = threading.current_thread().name
     parts = [Part(f, f"{name}-part-{i}", task).start() for i, f in enumerate(functions, 1)]
+
+    def look() -> None:
+        if task.cancelled.is_set() or any(other.error for other in parts):
+            for other in parts:
+                other.task.cancel()
+
     for part in parts:
-        while part.is_running:
-            part.join(POLL_S)
-            if task.cancelled.is_set() or any(other.error for other in parts):
-                for other in parts:
-                    other.task.cancel()
+        part.await_end(look)
     task.check()
     for part in parts:
         if part.error is not None:
@@ -180,3 +319,12 @@ def stop_program() -> None:
     """End the whole program, well."""
     PROGRAM.cancel()
     raise Cancelled
+
+
+def stop_rule() -> None:
+    """End the rule that runs here, well; also out of its parts and own blocks."""
+    raise RuleStopped
+
+
+at_once = threading.RLock()
+"""What is done ``with at_once:`` is done whole: nobody else who says so changes it meanwhile."""

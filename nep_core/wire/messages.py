@@ -32,10 +32,12 @@ Working = Literal["starting", "ready", "running", "busy"]
 Connection = Literal["connecting", "connected", "connection_failed", "disconnected"]
 NodeEvent = Literal[Working, Connection, "alive", "warning", "stopped", "crashed"]
 ActionState = Literal["accepted", "started", "done", "failed", "cancelled"]
-RuleStep = Literal["rule_started", "rule_finished"]
+RuleStep = Literal["rule_started", "rule_finished", "rule_failed"]
 GoalStep = Literal["goal_started", "goal_finished", "goal_stopped", "goal_interrupted"]
 Pause = Literal["paused", "resumed"]
-ProgramEvent = Literal["started", "line", RuleStep, GoalStep, "value", Pause, "finished", "failed"]
+ProgramEvent = Literal[
+    "started", "line", RuleStep, GoalStep, "value", Pause, "warning", "finished", "failed"
+]
 
 PROCESS_ENDED = "process_ended"
 PROCESS_RESTARTS = "process_restarts"
@@ -202,7 +204,8 @@ class ProgramState(Described, kw_only=True, omit_defaults=True):
     or the name of a goal. A "line" event tells of all threads at once: ``lines`` are, by thread,
     the lines that it is in now, the outermost call first; one that is not there has ended. A
     "value" event tells the ``values`` that changed, by the name of the variable, as Python; what
-    fills the places of ``text`` is in ``text_values`` here.
+    fills the places of ``text`` is in ``text_values`` here. "rule_failed" tells that a rule, a goal
+    or a start ended with an error, "warning" what a person should look at; the program goes on.
     """
 
     program: str
@@ -214,6 +217,13 @@ class ProgramState(Described, kw_only=True, omit_defaults=True):
     rule: str = ""
     thread: str = ""
     time: float = msgspec.field(default_factory=time.time)
+
+
+def told(fault: Fault | None) -> dict[str, Any]:
+    """The keys of a ProgramState that says what happened: its values are those of variables."""
+    keys = described(fault) if fault is not None else {}
+    keys["text_values"] = keys.pop("values", {})
+    return keys
 
 
 class ProgramControl(msgspec.Struct, kw_only=True, omit_defaults=True):

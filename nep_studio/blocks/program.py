@@ -26,6 +26,10 @@ ALL_ROBOTS = "*"
 """The value of a robot field that means every robot of the Robots page."""
 
 
+ON_ERROR = "on_error"
+"""Under which key of the file a project keeps that an error of one rule shall "end" them all."""
+
+
 class Block(msgspec.Struct, omit_defaults=True):
     """One block.
 
@@ -170,6 +174,11 @@ class Project:
         self.extra_revision = 0
         """How often ``extra`` has changed; never goes back, not even by undo."""
         self._last_id = 0
+
+    @property
+    def ends_on_error(self) -> bool:
+        """Whether an error of one rule ends the whole program; usually the others go on."""
+        return self.extra.get(ON_ERROR) == "end"
 
     def new_id(self, prefix: str) -> str:
         """An id that nothing in this project has had: prefix and number."""

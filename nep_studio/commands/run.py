@@ -20,6 +20,7 @@ import msgspec
 from nep_core.cli.console import seconds
 from nep_core.errors import NepError
 from nep_core.processes.node import STOP_SIGNALS
+from nep_core.wire.messages import ProgramState
 from nep_studio.blocks import text
 from nep_studio.blocks.checks.diagnostic import Diagnostic
 from nep_studio.blocks.deployment import robot_entries
@@ -132,11 +133,12 @@ class _Play:
         self._subject, self._printer, self._most_s = subject, printer, most_s
         self._turns: queue.SimpleQueue[Callable[[], None]] = queue.SimpleQueue()
         self._network = LocalNetwork()
-        self._network.listen(lambda *heard: self._turns.put(partial(printer.hear, *heard)))
+        self._network.listen(lambda *heard: self._turns.put(partial(self._hear, *heard)))
         self._controller = RunController(
             self._network, lambda: subject, self._turns.put, self._on_event, is_traced=False
         )
         self._exit_code = 0
+        self._failed_rule: ProgramState | None = None
         self._problem: Problem | None = None
 
     def trust(self) -> None:
@@ -161,9 +163,21 @@ class _Play:
             self._network.close()
         if self._exit_code not in (UNUSABLE, NOT_APPROVED):
             self._printer.end()
+            if self._failed_rule is not None and self._problem is None:
+                self._exit_code = FAILED
+                fault, line = self._failed_rule.fault, self._failed_rule.line
+                problem = Problem(
+                    "A rule failed while others went on", fault.sentence, fault.checklist
+                )
+                self._problem = self._placed(Ending(problem, line))
         if self._problem is not None:
             print(self._problem, file=sys.stderr)
         return self._exit_code
+
+    def _hear(self, topic: str, message: msgspec.Struct) -> None:
+        if isinstance(message, ProgramState) and message.event == "rule_failed":
+            self._failed_rule = self._failed_rule or message
+        self._printer.hear(topic, message)
 
     def _on_event(self, event: Event) -> None:
         match event:

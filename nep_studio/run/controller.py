@@ -137,6 +137,17 @@ class BecameStale:
 
 
 @dataclass(frozen=True)
+class Troubled:
+    """Something went wrong while the program goes on, at a line of its Python; a rule failed, or
+    (not ``is_error``) a warning was told.
+    """
+
+    problem: Problem
+    line: int
+    is_error: bool
+
+
+@dataclass(frozen=True)
 class Ended:
     """How the program ended.
 
@@ -150,7 +161,7 @@ class Ended:
     runs_again: bool
 
 
-Event = StateChanged | Checked | Refused | NeedsApproval | Begun | BecameStale | Ended
+Event = StateChanged | Checked | Refused | NeedsApproval | Begun | BecameStale | Troubled | Ended
 
 
 class RunController:
@@ -184,6 +195,8 @@ class RunController:
         self._code: Sliced[Code] | None = None
         self._session: Session | None = None
         self._thread: threading.Thread | None = None
+        self._troubles: set[tuple[int, str]] = set()
+        """What went wrong at which line: a rule that fails again and again tells it once."""
         self._breakpoints: frozenset[str] = frozenset()
         self._line_s = 0.0
         self._was_stopped = self._had_begun = self._runs_again = self._is_closed = False
@@ -307,6 +320,7 @@ class RunController:
             return
         self.request = request
         self.is_stale = self._was_stopped = self._had_begun = False
+        self._troubles.clear()
         self._tell(Begun(request))
         watching = self._watching() if self._is_traced else None
         self._session = Session(request.nodes, self._network, watching=watching)
@@ -402,6 +416,11 @@ class RunController:
         """The program has told of itself: at a breakpoint it pauses without being asked."""
         if told.event == "paused" and self.state == "running":
             self._set_state("paused")
+        elif told.event in ("rule_failed", "warning") and self._session is not None:
+            trouble = told.line, told.fault.sentence.text
+            if trouble not in self._troubles:
+                self._troubles.add(trouble)
+                self._tell(_trouble(told))
 
     def _watching(self) -> Watching:
         request = self.request
@@ -416,6 +435,18 @@ class RunController:
         if state != self.state:
             self.state = state
             self._tell(StateChanged(state))
+
+
+def _trouble(told: m.ProgramState) -> Troubled:
+    """What went wrong while the program goes on."""
+    fault = told.fault
+    if told.event == "rule_failed":
+        problem = Problem(
+            "A rule ended with an error; the others go on", fault.sentence, fault.checklist
+        )
+        return Troubled(problem, told.line, is_error=True)
+    problem = Problem("The program goes on, but look at this", fault.sentence, fault.checklist)
+    return Troubled(problem, told.line, is_error=False)
 
 
 def _disk_problem(error: OSError) -> Problem:

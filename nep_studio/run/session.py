@@ -9,9 +9,10 @@ from pathlib import Path
 
 import msgspec
 
-from faults import Text, text_of
+from faults import Text, fault_of, text_of
 from nep_core.processes.launcher import LaunchedNode
 from nep_core.processes.manifest import Value
+from nep_core.processes.node_log import BUSY_S, busy_line
 from nep_core.processes.process import Outcome
 from nep_core.wire import messages as m
 from nep_studio.problems import Problem
@@ -23,6 +24,7 @@ PROGRAM = "program"
 ASK_TO_END_S = 1.0
 LAST_RULES_S = 2.0
 """How long a rule that a recording's end set off may still take."""
+HANG_LOOK_S = 0.5
 LAST_WORDS_S = 0.3
 """How long a program's last message may take, which is not always quicker than its end."""
 
@@ -140,6 +142,7 @@ class Session:
                 launched.wait_ready(given_up=self._is_over)
             self._start_nodes([node for node in self._nodes if node.is_sensory])
             self._begin_program()
+            threading.Thread(target=self._look_for_hangs, name="nep-hangs", daemon=True).start()
         except BaseException:
             self.stop()
             raise
@@ -165,6 +168,26 @@ class Session:
         if self._watching is not None:
             self.order("set")
         self.order("start")
+
+    def _look_for_hangs(self) -> None:
+        """Tell of a call in the program that holds it up, which it cannot tell by itself."""
+        told = 0
+        while not self._is_over.wait(HANG_LOOK_S):
+            line = busy_line(self.network.log_of(PROGRAM), str(self.program))
+            if line and line != told:
+                fault = fault_of(
+                    "The program has been busy with this block for {seconds} s, and does nothing "
+                    "else.",
+                    code="busy",
+                    checklist=(
+                        "Stop it, or wait: perhaps the computation comes to an end.",
+                        "Are the numbers very large, or the list or text very long?",
+                    ),
+                    seconds=f"{BUSY_S:g}",
+                )
+                state = m.ProgramState(program=PROGRAM, event="warning", line=line, **m.told(fault))
+                self.network.tell(m.PROGRAM_STATE, state)
+            told = line
 
     def _on_message(self, _topic: str, message: msgspec.Struct) -> None:
         match message:

@@ -310,6 +310,19 @@ def _program_words(state: m.ProgramState, tr: Tr) -> str:
             return tr("gives the goal “{goal}” up", goal=state.rule)
         case "goal_interrupted":
             return tr("interrupts the goal “{goal}”", goal=state.rule)
+        case "rule_failed":
+            reason, rule = tr(state.fault.sentence), state.rule.replace("_", " ")
+            if not rule:
+                return tr("a rule failed in line {line}: {reason}", line=state.line, reason=reason)
+            return tr(
+                "the rule “when {rule}” failed in line {line}: {reason}",
+                rule=rule,
+                line=state.line,
+                reason=reason,
+            )
+        case "warning":
+            told = tr(state.fault.sentence)
+            return tr("{told} (line {line})", told=told, line=state.line) if state.line else told
         case "failed":
             return tr("stopped with an error: {reason}", reason=tr(state.fault.sentence))
         case "finished":

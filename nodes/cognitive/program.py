@@ -3,27 +3,32 @@
 from __future__ import annotations
 
 import contextlib
+import faulthandler
 import runpy
 import signal
+import sys
 import threading
+import time
 import traceback
 import zipfile
 from collections.abc import Iterator
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TextIO
 
 from faults import Fault, fault_of
 from nep_core.networks.transports import set_default_network
 from nep_core.processes.node import STOP_SIGNALS, Node
+from nep_core.processes.node_log import BUSY_S, GOES_ON
+from nep_core.program.behavior import explain_by
 from nep_core.program.human import human_listener
-from nep_core.program.tasks import PROGRAM, Cancelled, wait_until
+from nep_core.program.tasks import PROGRAM, Cancelled, RuleStopped, wait_until
 from nep_core.wire.messages import (
     PROGRAM_CONTROL,
     PROGRAM_STATE,
     ProgramControl,
     ProgramEvent,
     ProgramState,
-    described,
+    told,
 )
 from nep_core.wire.pubsub import Publisher
 from nodes.cognitive.failures import ProgramFailed, failure_of, line_of
@@ -32,6 +37,7 @@ if TYPE_CHECKING:
     from nodes.cognitive.tracing.tracer import Tracer
 
 ONE_HOUR_S = 3600.0
+LOOK_S = 1.0
 
 
 def run(node: Node, *, file: str, hold: bool, trace: bool) -> None:
@@ -56,16 +62,25 @@ def run(node: Node, *, file: str, hold: bool, trace: bool) -> None:
     begin = threading.Event()
     _listen_for_orders(node, begin, tracer)
     set_default_network(node.network)
+    failures: list[BaseException] = []
+
+    def explain(error: BaseException) -> tuple[Fault, int]:
+        failures.append(error)
+        return failure_of(error), line_of(error, file)
+
+    explain_by(explain)
     human_listener(node.network)  # what the person does from now on reaches the rules
     node.ready("runs {name}", name=Path(file).name)
     try:
         if hold:
             wait_until(begin.is_set)
         _tell(states, node, "started")
-        with _traced(tracer):
+        with _traced(tracer), _telling_of_hangs():
             runpy.run_path(file, run_name="__main__")
     except Cancelled:
         _tell(states, node, "finished", fault_of("stopped", code="stopped"))
+    except RuleStopped:  # in a program without rules, which is one
+        _tell(states, node, "finished")
     except SystemExit as error:
         if error.code not in (None, 0):
             _fail(states, node, file, error)
@@ -79,6 +94,8 @@ def run(node: Node, *, file: str, hold: bool, trace: bool) -> None:
         _tell(states, node, "finished")
     finally:
         node.stop_on_signals()  # the program is over: end the node in the usual way
+    if failures:  # rules of a program that went on, and was stopped in the end
+        raise SystemExit(1)
 
 
 def _tracer(states: Publisher, node: Node, file: str) -> Tracer:
@@ -99,12 +116,37 @@ def _traced(tracer: Tracer | None) -> Iterator[None]:
         tracer.end()
 
 
+@contextlib.contextmanager
+def _telling_of_hangs() -> Iterator[None]:
+    """Let Python write where the program is when it does nothing else for BUSY_S.
+
+    A single call, such as a very large power, holds up all threads of this process, also the one
+    that tells of lines. So who started the node reads it in its log: nep_core.processes.node_log.
+    """
+    over, written = threading.Event(), sys.__stderr__
+
+    def keep_off(file: TextIO) -> None:
+        looked_s = time.monotonic()
+        while not over.is_set():
+            faulthandler.dump_traceback_later(BUSY_S, file=file)
+            if time.monotonic() - looked_s > BUSY_S:
+                print(GOES_ON, file=file, flush=True)
+            looked_s = time.monotonic()
+            over.wait(LOOK_S)
+        faulthandler.cancel_dump_traceback_later()
+
+    if written is not None:
+        threading.Thread(target=keep_off, args=[written], name="nep-hangs", daemon=True).start()
+    try:
+        yield
+    finally:
+        over.set()
+
+
 def _tell(
     states: Publisher, node: Node, event: ProgramEvent, fault: Fault | None = None, line: int = 0
 ) -> None:
-    told = described(fault) if fault is not None else {}
-    told["text_values"] = told.pop("values", {})  # its values are those of variables
-    states.send(ProgramState(program=node.name, event=event, line=line, **told))
+    states.send(ProgramState(program=node.name, event=event, line=line, **told(fault)))
 
 
 def _fail(states: Publisher, node: Node, file: str, error: BaseException) -> None:

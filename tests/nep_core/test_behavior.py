@@ -10,13 +10,21 @@ import pytest
 
 from nep_core.networks.zmq_networks import PeerNetwork
 from nep_core.program import human, tasks
-from nep_core.program.behavior import Again, Behavior
+from nep_core.program.behavior import Again, Behavior, one_of
 from nep_core.program.human import human_state
-from nep_core.program.tasks import Cancelled, stop_program, wait, wait_until
+from nep_core.program.tasks import (
+    Cancelled,
+    stop_program,
+    stop_rule,
+    together,
+    wait,
+    wait_until,
+)
 from nep_core.wire.messages import HUMAN_BEHAVIOR, PROGRAM_STATE, HumanBehavior, ProgramState
 from nep_core.wire.pubsub import Publisher, Subscriber
 
 Join = Callable[[str], PeerNetwork]
+WAIT_S = 20.0
 
 
 class Person:
@@ -193,10 +201,10 @@ def test_two_rules_run_side_by_side(person: Person, run: Callable[[Behavior], Ru
     meet.wait(5)
 
 
-def test_an_error_in_a_rule_ends_the_program_with_that_error(
+def test_an_error_in_a_rule_ends_the_program_where_that_is_wanted(
     person: Person, run: Callable[[Behavior], Running]
 ) -> None:
-    behavior = Behavior()
+    behavior = Behavior(on_error="end")
 
     @behavior.when("gesture_karate")
     def rule() -> None:
@@ -267,3 +275,190 @@ def test_the_human_state_is_forgotten_after_a_while(
     monkeypatch.setattr(human, "REMEMBER_S", 0.0)
 
     assert human_state() == ""
+
+
+# What rules do to each other: errors, starting again, queues, ending early.
+
+
+def until(running: Running, event: str) -> ProgramState:
+    """The next state of this event."""
+    while (state := running.states.receive(WAIT_S)) is not None:
+        if state.event == event:
+            return state
+    raise AssertionError(event)
+
+
+def test_an_error_in_a_rule_is_told_and_the_others_go_on(
+    person: Person, run: Callable[[Behavior], Running]
+) -> None:
+    behavior = Behavior()
+    rounds = threading.Semaphore(0)
+
+    @behavior.when("gesture_karate")
+    def rule() -> None:
+        raise ZeroDivisionError("a rule divides by zero")
+
+    behavior.when("wave")(rounds.release)
+    running = run(behavior)
+    person.does("gesture_karate")
+
+    failed = until(running, "rule_failed")
+    assert failed.rule == "gesture_karate"
+    assert "divides by zero" in str(failed.fault.sentence)
+    person.does("wave")
+    assert rounds.acquire(timeout=WAIT_S)
+    person.does("gesture_karate")
+    assert until(running, "rule_failed").rule == "gesture_karate"
+    running.stop()
+    assert running.error is None
+
+
+def test_a_program_without_rules_ends_with_the_error_of_its_start(network: PeerNetwork) -> None:
+    behavior = Behavior()
+    done = threading.Event()
+
+    @behavior.when_started
+    def fail() -> None:
+        raise ValueError("at the start")
+
+    behavior.when_started(lambda: (wait(0.2), done.set()))
+
+    with pytest.raises(ValueError, match="at the start"):
+        behavior.run()
+    assert done.is_set()
+
+
+def test_an_error_in_a_goal_ends_that_goal_and_others_follow(
+    person: Person, run: Callable[[Behavior], Running]
+) -> None:
+    behavior = Behavior()
+    given_up, reached = threading.Event(), threading.Event()
+
+    @behavior.goal("greet", when="seen_face")
+    def greet() -> None:
+        raise ValueError("no words")
+
+    behavior.goal("wave", when="wave")(reached.set)
+    behavior.when_goal("greet", "stopped")(given_up.set)
+    running = run(behavior)
+    person.does("seen_face")
+
+    assert until(running, "rule_failed").rule == "greet"
+    assert given_up.wait(WAIT_S)
+    person.does("wave")
+    assert reached.wait(WAIT_S)
+
+
+def test_a_condition_that_fails_is_told_once(run: Callable[[Behavior], Running]) -> None:
+    behavior = Behavior()
+    behavior.when_true(lambda: [][0])(lambda: None)
+    running = run(behavior)
+
+    assert until(running, "rule_failed").event == "rule_failed"
+    assert running.states.receive(0.3) is None
+
+
+def test_a_rule_that_never_waits_is_started_again(
+    person: Person, run: Callable[[Behavior], Running]
+) -> None:
+    behavior = Behavior()
+    begun, running_now = threading.Semaphore(0), [0]
+
+    @behavior.when("gesture_karate", again="restart")
+    def rule() -> None:
+        begun.release()
+        running_now[0] += 1
+        try:
+            number = 0
+            while True:
+                number += 1
+        finally:
+            running_now[0] -= 1
+
+    running = run(behavior)
+    for _ in range(3):
+        person.does("gesture_karate")
+        assert begun.acquire(timeout=WAIT_S)
+
+    assert running_now[0] == 1
+    running.stop()
+
+
+def test_a_rule_that_swallows_every_error_is_started_again_all_the_same(
+    person: Person, run: Callable[[Behavior], Running]
+) -> None:
+    behavior = Behavior()
+    begun, is_over = threading.Semaphore(0), threading.Event()
+
+    @behavior.when("gesture_karate", again="restart")
+    def rule() -> None:
+        begun.release()
+        while not is_over.is_set():
+            with contextlib.suppress(BaseException):
+                while not is_over.is_set():
+                    sum(range(100))
+
+    run(behavior)
+    person.does("gesture_karate")
+    assert begun.acquire(timeout=WAIT_S)
+    person.does("gesture_karate")
+    assert begun.acquire(timeout=WAIT_S + tasks.GIVEN_UP_S)
+    is_over.set()
+
+
+def test_a_queue_keeps_what_comes_and_tells_what_it_cannot_keep(
+    person: Person, run: Callable[[Behavior], Running], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("nep_core.program.behavior.MOST_QUEUED", 100)
+    behavior = Behavior()
+    go_on, rounds, heard = threading.Event(), [0], threading.Semaphore(0)
+
+    @behavior.when("gesture_karate", again="queue")
+    def rule() -> None:
+        rounds[0] += 1
+        wait_until(go_on.is_set)
+
+    behavior.when("last")(heard.release)
+    running = run(behavior)
+    for _ in range(131):
+        person.does("gesture_karate")
+    person.does("last")
+    assert heard.acquire(timeout=WAIT_S)
+
+    warning = until(running, "warning")
+    assert warning.fault.code == "queue_full"
+    counts = [warning.fault.sentence.values["count"]]
+    go_on.set()
+    wait_until(lambda: rounds[0] >= 101, WAIT_S)
+    running.stop()
+    while (state := running.states.receive(0.1)) is not None:
+        counts += [state.fault.sentence.values["count"]] if state.event == "warning" else []
+    assert (rounds[0], sum(map(int, counts))) == (101, 30)
+
+
+def test_stopping_the_rule_in_its_parts_ends_all_of_it(
+    person: Person, run: Callable[[Behavior], Running]
+) -> None:
+    behavior = Behavior()
+    diary: list[str] = []
+
+    def own_block() -> None:
+        stop_rule()
+
+    @behavior.when("gesture_karate")
+    def rule() -> None:
+        diary.append("begins")
+        try:
+            together(lambda: one_of(own_block), lambda: wait(60))
+        except Exception:
+            diary.append("no pupil sees it")
+        diary.append("goes on")
+
+    running = run(behavior)
+    for _ in range(2):
+        person.does("gesture_karate")
+        until(running, "rule_finished")
+
+    assert diary == ["begins", "begins"]
+    running.stop()
+    assert running.error is None

@@ -32,7 +32,9 @@ def test_rules_and_goals_live_side_by_side(scene: Scene) -> None:
     assert scene.diary.next() == "waves back"
 
 
-def test_an_error_in_a_goal_ends_the_program_with_it(scene: Scene) -> None:
+def test_an_error_in_a_goal_ends_the_program_where_that_is_wanted(scene: Scene) -> None:
+    scene.behavior = Behavior("Goals", on_error="end")
+
     @scene.behavior.goal("break", when="break")
     def goal() -> None:
         raise ValueError("broken")
@@ -75,14 +77,16 @@ def test_a_goal_that_cannot_be_is_refused_at_once(
     assert refused.value.checklist
 
 
-def test_what_hangs_on_a_goal_that_is_not_there_fails_with_its_name(scene: Scene) -> None:
+def test_what_hangs_on_a_goal_that_is_not_there_is_told_with_its_name(scene: Scene) -> None:
     scene.goal("chat")
     scene.hook("chatt", "finished")
     scene.begin()
 
-    scene.join()
-
-    assert isinstance(scene.error, NepError) and "chatt" in str(scene.error.sentence)
+    told = scene.told.receive(WAIT_S)
+    assert told is not None and told.event == "rule_failed"
+    assert "chatt" in str(told.fault.sentence)
+    scene.does("chat")
+    assert scene.diary.next() == "chat begins"
 
 
 def test_a_storm_of_states_runs_one_goal_at_a_time(scene: Scene) -> None:

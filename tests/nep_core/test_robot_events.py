@@ -4,9 +4,13 @@ from __future__ import annotations
 
 import threading
 
+import pytest
+
+from nep_core.errors import RobotError
 from nep_core.networks.zmq_networks import PeerNetwork
 from nep_core.program import tasks
 from nep_core.program.behavior import Behavior
+from nep_core.program.human import state_of_word
 from nep_core.program.tasks import wait, wait_until
 from tests.nep_core.outside import Outside, seen
 
@@ -109,3 +113,44 @@ def test_a_walk_without_an_end_ends_with_the_program(
 
     wait_until(lambda: "stop" in [action for action, _ in outside.nao.asked])
     assert [action for action, _ in outside.nao.asked] == ["walk_freely", "stop"]
+
+
+@pytest.mark.parametrize(
+    ("answers", "number", "questions"),
+    [
+        (["7"], 7, 1),
+        (["Seven"], 7, 1),
+        (["seven apples", "", "zwölf"], 12, 3),
+        (["2.5"], 2.5, 1),
+        (["apples", "pears", "plums"], None, 3),
+    ],
+)
+def test_a_wrong_answer_to_a_question_for_a_number_is_asked_again(
+    outside: Outside, answers: list[str], number: float | None, questions: int
+) -> None:
+    left = list(answers)
+    is_over = threading.Event()
+
+    def answer() -> None:
+        """Say the next answer each time that the robot listens."""
+        heard = 0
+        while not is_over.wait(0.02):
+            listens = [action for action, _ in outside.nao.asked].count("listen")
+            if listens > heard and left:
+                heard = listens
+                if word := left.pop(0):
+                    outside.does(state_of_word(word))
+
+    person = threading.Thread(target=answer)
+    person.start()
+    try:
+        if number is None:
+            with pytest.raises(RobotError, match="has heard no number"):
+                outside.robot.ask_number("How many?", seconds=4)
+        else:
+            assert outside.robot.ask_number("How many?", seconds=4) == number
+    finally:
+        is_over.set()
+        person.join()
+
+    assert outside.nao.words() == ["How many?"] * questions

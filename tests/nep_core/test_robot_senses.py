@@ -2,11 +2,16 @@
 
 from __future__ import annotations
 
+import os
+import subprocess
+import sys
 import threading
 
 import pytest
 
 from nep_core import errors
+from nep_core.networks.endpoints import MASTER_VARIABLE
+from nep_core.networks.zmq_networks import PeerNetwork
 from nep_core.program import human
 from nep_core.program import robot as robot_states
 from nep_core.program.behavior import in_turn, one_of
@@ -19,6 +24,7 @@ from nep_core.program.human import (
     was_seen,
 )
 from nep_core.program.tasks import wait, wait_until
+from tests.conftest import PROJECT
 from tests.nep_core.outside import Outside, seen
 
 
@@ -174,3 +180,47 @@ def test_one_of_several_is_done_by_chance_and_each_in_turn() -> None:
 
     assert by_chance == {"a", "b"}
     assert "".join(done) == "a1b2a3b1a2"
+
+
+SET_BACK = """
+import time
+
+offset_s, real = [0.0], time.time
+time.time = lambda: real() + offset_s[0]
+
+from nep_core.networks.endpoints import MASTER_VARIABLE
+from nep_core.networks.zmq_networks import PeerNetwork
+from tests.nep_core.outside import Outside
+
+program, world = PeerNetwork("program"), PeerNetwork("world")
+outside = Outside(program, world)
+
+
+def asked_ms():
+    outside.robot.say("hello")
+    outside.robot_is(sensors={"sonar_left": 1.0})
+    begun_s = time.monotonic()
+    assert outside.robot.sensor("sonar_left") == 100.0
+    return 1000 * (time.monotonic() - begun_s)
+
+
+asked_ms()
+before = sorted(asked_ms() for _ in range(5))[2]
+offset_s[0] = -3600.0
+after = sorted(asked_ms() for _ in range(5))[2]
+print(before, after)
+program.close()
+world.close()
+"""
+
+
+def test_a_clock_that_is_set_back_makes_no_sensor_slower(network: PeerNetwork) -> None:
+    environment = {**os.environ, MASTER_VARIABLE: network.master, "PYTHONPATH": str(PROJECT)}
+
+    run = subprocess.run(
+        [sys.executable, "-c", SET_BACK], capture_output=True, text=True, env=environment
+    )
+
+    assert run.returncode == 0, run.stderr
+    _before_ms, after_ms = map(float, run.stdout.split())
+    assert after_ms < 500.0

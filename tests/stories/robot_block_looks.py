@@ -233,6 +233,9 @@ LOOKS: dict[str, Look] = {
     "robot_speech.ask_for": Look(
         "the answer that somebody gave it", value_is("yes"), {"question": LONG, "seconds": 20}
     ),
+    "robot_speech.ask_number": Look(
+        "the number that somebody answered", value_near(7), {"question": LONG, "seconds": 20}
+    ),
     "robot_speech.wait_for_word": Look(
         "that it listens",
         lambda seen: any(state.listening for state in seen.states),
@@ -256,5 +259,9 @@ LOOKS: dict[str, Look] = {
 }
 """By the id of the block."""
 
-ANSWERED = ("robot_speech.ask_for", "robot_speech.heard_word")
-"""Where somebody says “yes” as soon as the robot listens."""
+ANSWERS = {
+    "robot_speech.ask_for": "yes",
+    "robot_speech.heard_word": "yes",
+    "robot_speech.ask_number": "seven",
+}
+"""What somebody says as soon as the robot listens."""

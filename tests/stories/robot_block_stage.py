@@ -36,7 +36,7 @@ from nep_studio.blocks.definitions import Definition
 from nep_studio.blocks.generate.program import generate_program
 from nep_studio.run.installation import studio_language
 from tests.node_running import NodeRunner
-from tests.stories.robot_block_looks import ANSWERED, LOOKS
+from tests.stories.robot_block_looks import ANSWERS, LOOKS
 from tests.stories.robot_block_pictures import before
 from tests.stories.robot_block_seen import LONG, Look, Seen, Sense
 from tests.stories.robot_theatre import B, build
@@ -90,7 +90,7 @@ class BlockStage(NodeRunner):
         self.body = "NAO" if driver == "virtual" else "Served"
         """Whose state is looked at, and who is told what there is to sense."""
         self.states_of: dict[str, list[RobotState]] = {"NAO": [], "Served": []}
-        self._is_answering = False
+        self._answer = ""
         self._senses = Publisher(SENSE_REQUEST, network=outside)
         self._person = Publisher(HUMAN_BEHAVIOR, network=outside)
         self._around = Publisher(SURROUNDINGS, network=outside)
@@ -118,14 +118,14 @@ class BlockStage(NodeRunner):
         if definition.shape != "hat":
             self._wait(lambda: look.in_sight <= self._sees())
         seen = Seen(self.states_of[self.body][-1], self.states_of[self.body])
-        self._is_answering = block in ANSWERED
+        self._answer = ANSWERS.get(block, "")
         if definition.shape == "hat":
             self._run_rule(B(block, look.fields), look, seen)
         elif definition.is_value:
             self._ask([STARTED, *look.first, self._keeping(block, look)], look, seen)
         else:
             self._run([STARTED, *look.first, B(block, look.fields), *look.then], seen)
-        self._is_answering = False
+        self._answer = ""
         with contextlib.suppress(TimeoutError):  # who looks says that it is not so
             self._wait(lambda: look.holds(seen))
         self._put(())
@@ -205,8 +205,8 @@ class BlockStage(NodeRunner):
 
     def _on_state(self, state: RobotState) -> None:
         self.states_of[state.robot].append(state)
-        if state.robot == self.body and state.listening and self._is_answering:
-            self._sense(("word", 1.0, {"name": "yes"}))
+        if state.robot == self.body and state.listening and self._answer:
+            self._sense(("word", 1.0, {"name": self._answer}))
 
     def _wait(self, is_so: Callable[[], object], at_most_s: float = PATIENCE_S) -> None:
         end_s = time.monotonic() + at_most_s

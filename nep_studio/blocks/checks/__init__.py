@@ -7,13 +7,21 @@ from functools import partial
 from typing import Any, TypeVar
 
 from ..deployment import chains, find_uses, node_entries, robot_entries
+from ..generate.names import python_name
 from ..language import Language
 from ..program import Project
+from ..sharing import look_at, sharing_of
 from ..slices import Steps, at_once
 from .blocks import check_blocks, check_inside, check_own_blocks
-from .deployment import check_abilities, check_deployment, check_real_robots, check_rules
+from .deployment import (
+    check_abilities,
+    check_deployment,
+    check_goals,
+    check_real_robots,
+    check_rules,
+)
 from .diagnostic import SEVERITIES, Diagnostic, Fix
-from .flow import check_flow, check_limits
+from .flow import check_flow, check_limits, check_shared
 
 One = TypeVar("One")
 _OfChain = Callable[[Project, Language, list[str]], Iterator[One | None]]
@@ -88,6 +96,7 @@ def check_steps(
     every = [stack.body for stacks in project.pages.values() for stack in stacks]
     running = list(chains(project, language))
     problems = list(check_rules(project, language, running))
+    problems += check_goals(project, language, running)
     problems += yield from known.in_chains(check_blocks, project, language, every)
     problems += yield from known.in_chains(check_inside, project, language, running)
     if project.procedures:
@@ -96,6 +105,14 @@ def check_steps(
         problems += yield from known.find(check_own_blocks, always_anew, own)
     for look in (check_limits, check_flow, check_abilities, check_real_robots):
         problems += yield from known.in_chains(look, project, language, running)
+    made = yield from known.in_chains(look_at, project, language, running)
+    sharing = sharing_of(made, {one.id: python_name(one.name, "") for one in project.variables})
+    if sharing.shared:
+        for chain in running:
+            stack = project.stack_of(chain[0]).id
+            of = project.revisions.get(stack, 0), sharing
+            torn = partial(check_shared, project, language, sharing, chain)
+            problems += yield from known.find((check_shared, stack), of, torn)
     # the other pages follow from which robots and gestures are named, and where first
     nodes, uses = node_entries(project, language), dict[tuple[str, str], tuple[str, str]]()
     for use in (yield from known.in_chains(find_uses, project, language, running)):

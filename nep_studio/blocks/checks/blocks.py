@@ -95,7 +95,7 @@ def _why_not_number(definition: Definition, slot: Slot, value: FieldValue | None
 
 # Checks of what a block must be inside of: a loop, the definition of an own block, good Python.
 
-CODE_LINES, CODE_VALUE, STOP_RULE = "code.lines", "code.value", "control.stop_rule"
+CODE_LINES, CODE_VALUE = "code.lines", "code.value"
 
 
 class _Place(NamedTuple):
@@ -135,9 +135,6 @@ def _why_not_there(block: Block, definition: Definition, place: _Place) -> _Misp
     """How bad it is, the kind, the sentence and the remedy of what is wrong, or None."""
     if "in_loop" in definition.flags and not place.loop:
         return ("error", "outside_loop", Text("it is in no loop."), "Put it into a “repeat” block.")
-    if block.type == STOP_RULE and place.apart:
-        reason = Text("only the part in which it is stops, not the whole rule.")
-        return ("info", "stops_part", reason, "Is that meant? Then leave it as it is.")
     if block.type == RETURN and (not place.procedure or place.apart):
         reason = Text("only the definition of an own block gives a value back.")
         remedy = "Put it under a “define” block, and not into “do together”."

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
+from difflib import get_close_matches
+from itertools import count
 
 from faults import Text, text_of
 from nep_studio.blocks.deployment import (
@@ -186,6 +188,40 @@ def check_rules(
     for hat in hats:
         if first.setdefault(_trigger(language, hat), hat.id) != hat.id:
             yield found("same_trigger", project, language, hat.id)
+
+
+GOAL, OF_GOAL = "goal.goal", "goal.when_goal"
+
+
+def check_goals(
+    project: Project, language: Language, running: Iterable[list[str]]
+) -> Iterator[Diagnostic]:
+    """Goals of one name, and rules for a goal that is not there."""
+    hats = [project.blocks[chain[0]] for chain in running]
+    names = [
+        (hat, str(language.definitions[hat.type].value(hat, "name")))
+        for hat in hats
+        if hat.type in (GOAL, OF_GOAL)
+    ]
+    goals = dict[str, str]()
+    for hat, name in names:
+        if hat.type == GOAL and goals.setdefault(name, hat.id) != hat.id:
+            taken = {other for _, other in names}
+            free = next(n for number in count(2) if (n := f"{name} {number}") not in taken)
+            fix = _name_goal(hat, free)
+            yield found("same_goal", project, language, hat.id, fix, name=name)
+    for hat, name in names:
+        if hat.type == OF_GOAL and name not in goals:
+            folded = {goal.casefold().strip(): goal for goal in goals}
+            near = get_close_matches(name.casefold().strip(), folded, 1)
+            chosen = folded[near[0]] if near else next(iter(goals)) if len(goals) == 1 else ""
+            offered = _name_goal(hat, chosen) if chosen else None
+            yield found("unknown_goal", project, language, hat.id, offered, name=name)
+
+
+def _name_goal(hat: Block, name: str) -> Fix:
+    label = text_of("Choose “{choice}”", choice=name)
+    return Fix("choose", label, {"block": hat.id, "slot": "name", "value": name})
 
 
 def _trigger(language: Language, hat: Block) -> str:

@@ -80,6 +80,30 @@ SORTS = {
         "Two rules begin with “{block}”. Both will run.",
         ("Put the blocks of both rules under one.", "Or let one wait for something else."),
     ),
+    "same_goal": Sort(
+        "error",
+        "Two goals are called “{name}”.",
+        ("Give each goal a name of its own.",),
+    ),
+    "unknown_goal": Sort(
+        "warning",
+        "There is no goal with the name “{name}”.",
+        ("Write the name as the goal's own block has it.",),
+    ),
+    "torn_apart": Sort(
+        "warning",
+        "“{block}” waits: what other rules do to “{variable}” meanwhile is lost.",
+        ("Put what is waited for into a variable of its own first, then use that here.",),
+    ),
+    "grows_in_loop": Sort(
+        "info",
+        "“{block}” changes the list that the loop goes through. The loop still takes the items "
+        "that there were when it began.",
+        (
+            "Is that meant? Then leave it as it is.",
+            "To go on with what is added, use “while” and take the items out one by one.",
+        ),
+    ),
     # own blocks
     "defined_twice": Sort(
         "error",

@@ -10,12 +10,21 @@ from nep_studio.blocks.generate.expressions import DEEPEST_VALUE, value_cost
 from nep_studio.blocks.generate.rules import DEEPEST_INDENT, DEEPEST_LOOP
 from nep_studio.blocks.language import Language
 from nep_studio.blocks.program import ALL_ROBOTS, Block, Project
+from nep_studio.blocks.sharing import (
+    LIST_SLOT,
+    RESIZING_LISTS,
+    VARIABLE,
+    Sharing,
+    is_slow,
+    variables_set,
+)
 from nep_studio.blocks.text import sentence
 
 from .diagnostic import Fix, Found, found
 
 _POSTURES = {"stands_up": "posture_stand", "rests": "posture_rest"}
 """The postures after blocks with such a flag."""
+FOR_EACH, CHANGE = "control.for_each", "variable.change"
 _OF_POSTURE = {"posture", "stands", *_POSTURES}
 
 
@@ -25,6 +34,7 @@ def check_flow(project: Project, language: Language, chain: list[str]) -> Found:
     yield from _loops_without_pause(project, language, blocks)
     yield from _never_reached(project, language, chain, blocks)
     yield from _walking_unready(project, language, blocks)
+    yield from _growing_lists(project, language, blocks)
 
 
 def _loops_without_pause(project: Project, language: Language, blocks: list[Block]) -> Found:
@@ -80,6 +90,43 @@ def _walking_unready(project: Project, language: Language, blocks: list[Block]) 
             name = "A robot" if robot == ALL_ROBOTS else robot
             fix = Fix("stand_first", "Stand first", {"block": block.id, "robot": robot})
             yield found("not_standing", project, language, block.id, fix, name=name, label=label)
+
+
+def _growing_lists(project: Project, language: Language, blocks: list[Block]) -> Found:
+    """Blocks that add to a list, or take from it, in a loop that goes through it."""
+    for loop in blocks:
+        if loop.type != FOR_EACH or not (variable := _held(project, loop)):
+            continue
+        inside = [block_id for chain in loop.bodies.values() for block_id in chain]
+        for block in project.within(inside, enabled=True):
+            yield None
+            if block.type in RESIZING_LISTS and _held(project, block) == variable:
+                yield found("grows_in_loop", project, language, block.id)
+                break
+
+
+def _held(project: Project, block: Block) -> str:
+    """The variable in the slot of a block for a list, "" where something else is."""
+    held = project.blocks.get(block.inputs.get(LIST_SLOT, ""))
+    is_variable = held is not None and held.type == VARIABLE and not held.disabled
+    return str(held.fields.get("variable", "")) if held is not None and is_variable else ""
+
+
+def check_shared(project: Project, language: Language, sharing: Sharing, chain: list[str]) -> Found:
+    """Blocks that read and set what other rules set too, and wait in between."""
+    for block in project.within(chain, enabled=True):
+        yield None
+        if block.type not in language.definitions or not block.inputs:
+            continue
+        inside = list(project.within(list(block.inputs.values()), enabled=True))
+        if not any(is_slow(language, sharing, one) for one in inside):
+            continue
+        read = {str(one.fields.get("variable", "")) for one in inside if one.type == VARIABLE}
+        read |= {str(block.fields.get("variable", ""))} if block.type == CHANGE else set()
+        for variable in variables_set(project, language, block):
+            known = project.variable(variable)
+            if known is not None and variable in sharing.shared & read:
+                yield found("torn_apart", project, language, block.id, variable=known.name)
 
 
 # Checks of what Python itself cannot take: loops in loops in loops, values in values.

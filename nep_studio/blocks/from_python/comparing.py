@@ -15,6 +15,7 @@ from nep_studio.blocks.generate.source_map import Code
 
 from .learning import CodeUnread
 from .outside import HEADERS, Part, is_frame
+from .reading import as_block
 from .source import Source, begin_of, read_source
 from .values import locals_of, names_made
 
@@ -234,6 +235,15 @@ def _plain(node: object) -> object:
     """A tree as something to compare, without “global” lines."""
     if isinstance(node, list):
         return [_plain(one) for one in node if not isinstance(one, ast.Global)]
+    if isinstance(node, ast.With) or (isinstance(node, ast.For) and not _names_its_list(node)):
+        node = as_block(node)
     if isinstance(node, ast.AST):
         return (type(node), *[_plain(getattr(node, name, None)) for name in node._fields])
     return type(node), node
+
+
+def _names_its_list(loop: ast.For) -> bool:
+    """Whether the list that a loop goes through is named inside it: it might change there."""
+    items = loop.iter.value if isinstance(loop.iter, ast.Subscript) else loop.iter
+    inside = {one.id for line in loop.body for one in ast.walk(line) if isinstance(one, ast.Name)}
+    return not isinstance(items, ast.Name) or items.id in inside

@@ -126,6 +126,10 @@ class StatementReader:
 
     def _statement(self, nodes: Sequence[ast.stmt], begin: int) -> tuple[Made, int] | None:
         """The block that the first of these statements, or several, are; and how many."""
+        if (plain := as_block(nodes[0])) is not nodes[0]:
+            inner = self._statement([plain], begin)
+            if inner is not None:
+                return inner
         first = nodes[0]
         if first.lineno in self._kept:
             return None
@@ -156,6 +160,22 @@ class StatementReader:
         made.comment = self._source.comment_of(nodes[0], begin)
         first = self._source.first_line(nodes[0], begin)
         made.text = self._source.text(first, end_of(nodes))
+
+
+def as_block(node: ast.stmt) -> ast.stmt:
+    """A statement as a block says it, without what the program writes around it by itself.
+
+    Such as ``with at_once:``, a list that is copied before a loop, the end of a rule in a part.
+    """
+    match node:
+        case ast.With(items=[ast.withitem(ast.Name("at_once"), None)], body=[inner]):
+            return inner
+        case ast.For(iter=ast.Subscript(ast.Name() as items, ast.Slice(None, None, None))):
+            plain = ast.For(node.target, items, node.body, node.orelse, node.type_comment)
+            return ast.copy_location(plain, node)
+        case ast.Expr(value=ast.Call(ast.Name("stop_rule"), [], [])):
+            return ast.copy_location(ast.Return(None), node)
+    return node
 
 
 def _without_pass(body: Sequence[ast.stmt]) -> list[ast.stmt]:

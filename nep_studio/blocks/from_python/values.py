@@ -14,7 +14,7 @@ from nep_studio.blocks.code_text import (
     read_value,
 )
 from nep_studio.blocks.definitions import Definition, Slot
-from nep_studio.blocks.edits.content import AddProcedure
+from nep_studio.blocks.edits.content import AddProcedure, SetExtra
 from nep_studio.blocks.edits.project import RenameProject
 from nep_studio.blocks.language import Language
 from nep_studio.blocks.procedures import CALL, PARAMETER, parameters, words
@@ -26,7 +26,7 @@ from ..editor import Editor
 from ..generate.expressions import known_whole
 from ..generate.names import RESERVED, python_name
 from ..operations.fixes import append_entry
-from ..program import ALL_ROBOTS, ROBOT_BLOCK, Parameter, Procedure
+from ..program import ALL_ROBOTS, ON_ERROR, ROBOT_BLOCK, Parameter, Procedure
 from .learning import (
     BODY,
     PART,
@@ -168,11 +168,12 @@ def _note(editor: Editor, names: SourceNames, name: str, made: str, node: ast.As
     call = node.value
     assert isinstance(call, ast.Call)
     match call.args:
-        case _ if call.keywords:
+        case _ if call.keywords and not _is_known(call, made):
             pass
         case [ast.Constant(value=str(text))] if made == "Behavior":
             if text != editor.project.name:
                 editor.apply(RenameProject(text))
+            _note_on_error(editor, call)
             return
         case [ast.Constant(value=str(text))]:
             if text not in names.robots.values():
@@ -192,9 +193,22 @@ def _note(editor: Editor, names: SourceNames, name: str, made: str, node: ast.As
     )
 
 
+def _is_known(call: ast.Call, made: str) -> bool:
+    """Whether the program can keep all that a call names."""
+    return made == "Behavior" and {word.arg for word in call.keywords} <= {ON_ERROR}
+
+
 def _text_of(node: ast.expr) -> str:
     is_text = isinstance(node, ast.Constant) and isinstance(node.value, str)
     return str(node.value) if is_text else ""  # type: ignore[attr-defined]
+
+
+def _note_on_error(editor: Editor, call: ast.Call) -> None:
+    """Keep whether an error of one rule ends the program."""
+    said = {word.arg: word.value for word in call.keywords}.get(ON_ERROR)
+    is_end = isinstance(said, ast.Constant) and said.value == "end"
+    if is_end != editor.project.ends_on_error:
+        editor.apply(SetExtra(ON_ERROR, "end" if is_end else None))
 
 
 def _add_robot(editor: Editor, name: str) -> None:

@@ -15,6 +15,7 @@ from nep_studio.blocks.definitions import Call, Definition
 from nep_studio.blocks.errors import CodeRefused
 from nep_studio.blocks.language import Language
 from nep_studio.blocks.program import Block, Project, split_slot
+from nep_studio.blocks.sharing import Sharing
 from nep_studio.blocks.slots import TEXT_RESULTS, FieldValue, Kind, constant
 
 from .names import NameTable, ProgramNames
@@ -129,6 +130,8 @@ class Expressions:
         """The variables that are used, each with what it must begin as: "list", "text"."""
         self.procedure = ""
         """The own block that is being written, or an empty text."""
+        self.sharing = Sharing()
+        """What other rules may change meanwhile."""
         self._depth = 0
         self._parts = 0
         self._part_names: NameTable | None = None
@@ -426,6 +429,13 @@ class Leave:
 
 
 @dataclass(frozen=True, slots=True)
+class EndRule:
+    """The end of the rule: a function of its own inside it cannot just return."""
+
+    line: str = "return"
+
+
+@dataclass(frozen=True, slots=True)
 class GiveBack:
     """A line that gives the value of an own block."""
 
@@ -449,7 +459,7 @@ class Gap:
     """An empty line, to keep apart what does not belong together."""
 
 
-Piece = str | Body | Function | Assignment | Leave | GiveBack | Written | Gap
+Piece = str | Body | Function | Assignment | Leave | EndRule | GiveBack | Written | Gap
 StatementGenerator = Callable[[Expressions, Block], Sequence[Piece]]
 
 

@@ -21,6 +21,7 @@ from nep_studio.blocks.slots import constant
 from .expressions import (
     Assignment,
     Body,
+    EndRule,
     Expressions,
     Function,
     Gap,
@@ -388,6 +389,11 @@ def _count(code: Expressions, block: Block) -> list[Piece]:
 
 def _for_each(code: Expressions, block: Block) -> list[Piece]:
     items, name = code.slot(block, "list"), code.variable(block)
+    held = code.plugged(block, "list")
+    if held is not None and isinstance(items, ast.Name):
+        variable = str(held.fields.get("variable", ""))
+        if code.sharing.changes(variable):  # the items that it had when the loop began
+            items = ast.Subscript(items, ast.Slice())
     return [Assignment(name, f"for {name} in {show(items)}:"), Body("do", loop=True)]
 
 
@@ -479,7 +485,7 @@ STATEMENTS: dict[str, StatementGenerator] = {
     "for_each": _for_each,
     "leave_loop": lambda code, block: [Leave("break")],
     "next_round": lambda code, block: [Leave("continue")],
-    "stop_rule": lambda code, block: ["return"],
+    "stop_rule": lambda code, block: [EndRule()],
     "if": _if,
     "together": _parts("together"),
     "one_of": _parts("one_of"),

@@ -14,6 +14,7 @@ API = frozenset(
         "Behavior",
         "Launcher",
         "Robot",
+        "at_once",
         "colour_from",
         "heard_word",
         "human_state",
@@ -23,6 +24,7 @@ API = frozenset(
         "one_of",
         "remember",
         "stop_program",
+        "stop_rule",
         "times_seen",
         "together",
         "until_state",
@@ -33,7 +35,10 @@ API = frozenset(
 )
 """What a generated program may import from nep_core under its own name."""
 
-FUNCTIONS = frozenset(name for name in API if name[0].islower())
+AT_ONCE = "at_once"
+"""What a line is done ``with`` that reads and sets what others set at the same time."""
+
+FUNCTIONS = frozenset(name for name in API if name[0].islower() and name != AT_ONCE)
 """The functions of nep_core that a block may call."""
 
 MODULES = frozenset({"math", "random", "statistics"})

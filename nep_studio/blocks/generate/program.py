@@ -21,6 +21,7 @@ from nep_studio.blocks.errors import CodeRefused
 from nep_studio.blocks.language import Language
 from nep_studio.blocks.procedures import DEFINE, parameters, procedure_of, words
 from nep_studio.blocks.program import ALL_ROBOTS, Block, Project
+from nep_studio.blocks.sharing import Chain, Sharing, look_at, sharing_of
 from nep_studio.blocks.slices import Steps, at_once
 from nep_studio.blocks.slots import Setting, constant
 
@@ -86,6 +87,7 @@ class ProgramGenerator:
         self._language = language.of(project)
         self._rules: dict[str, _Rule] = {}
         self._robots: dict[str, tuple[int, frozenset[str]]] = {}
+        self._chains: dict[str, tuple[object, Chain]] = {}
         self._robot_slots = {
             definition.id: slot.name
             for definition in language.definitions.values()
@@ -108,10 +110,13 @@ class ProgramGenerator:
         headers = self._headers(written)
         outside = self._outside(written)
         names = yield from self._names(written, headers, outside)
+        sharing = yield from self._sharing(written, names)
         functions = NameTable(names.taken())
         ordered = self._in_order(written, set(headers.values()), headers, outside)
         for stack in ordered:
-            self._rules[stack] = yield from self._rule(stack, written[stack], names, functions)
+            self._rules[stack] = yield from self._rule(
+                stack, written[stack], names, functions, sharing
+            )
         self._rules = {stack: self._rules[stack] for stack in ordered}
         return self._assemble(names, outside)
 
@@ -168,11 +173,30 @@ class ProgramGenerator:
         rest = [s for s in others[len(first) :] if s not in defining]
         return [*of_place["top"], *first, *headers.values(), *rest, *of_place["end"]]
 
+    def _sharing(self, written: dict[str, list[str]], names: ProgramNames) -> Steps[Sharing]:
+        """What parts that run at once change, from all chains; those that are known stay so."""
+        self._chains = {stack: known for stack, known in self._chains.items() if stack in written}
+        for stack, chain in written.items():
+            state = self._project.revisions.get(stack, 0), self._project.procedure_revision
+            if stack not in self._chains or self._chains[stack][0] != state:
+                for found in look_at(self._project, self._language, chain):
+                    if found is None:
+                        yield
+                    else:
+                        self._chains[stack] = state, found
+        return sharing_of((chain for _, chain in self._chains.values()), names.variables)
+
     def _rule(
-        self, stack: str, chain: list[str], names: ProgramNames, functions: NameTable
+        self,
+        stack: str,
+        chain: list[str],
+        names: ProgramNames,
+        functions: NameTable,
+        sharing: Sharing,
     ) -> Steps[_Rule]:
         """Write the rule of a stack, unless it is written already."""
         code = Expressions(self._project, self._language, names, REPORTERS)
+        code.sharing = sharing
         hat_block = self._project.blocks[chain[0]]
         hat = HATS[code.definition(hat_block).generator](code, hat_block)
         if hat_block.type.startswith(DEFINE):
@@ -182,7 +206,7 @@ class ProgramGenerator:
         else:
             function = functions.give(hat.name, "when")
         revision = self._project.revisions.get(stack)
-        made_for = (revision, function, names, self._project.procedure_revision)
+        made_for = (revision, function, names, self._project.procedure_revision, sharing)
         known = self._rules.get(stack)
         if known is not None and known.made_for == made_for:
             return known
@@ -273,7 +297,8 @@ class ProgramGenerator:
             api.add("Robot")
         head = [*(f"import {name}" for name in sorted(modules))]
         head += [f"from nep_core import {', '.join(sorted(api))}", ""]
-        behavior = show(call("Behavior", ast.Constant(self._project.name)))
+        options = {"on_error": ast.Constant("end")} if self._project.ends_on_error else {}
+        behavior = show(call("Behavior", ast.Constant(self._project.name), **options))
         begun = {name for own in outside.values() if own.place != "end" for name in own.begins()}
         page = [*_with_docstring(self._project.name, [self._rules[s].code for s in top])]
         page += [*_unmade(head), *robots, *_unmade([f"behavior = {behavior}"])]

@@ -10,6 +10,7 @@ from itertools import chain as chain_of
 from faults import Text
 from nep_studio.blocks.procedures import parameters, procedure_of
 from nep_studio.blocks.program import ALL_ROBOTS, Block
+from nep_studio.blocks.sharing import is_slow, variables_set
 from nep_studio.blocks.slots import constant
 
 from ..code_text import CodeText, CodeTextRefused, compile_quietly, read_outside
@@ -17,6 +18,7 @@ from ..errors import CodeRefused
 from .expressions import (
     Assignment,
     Body,
+    EndRule,
     Expressions,
     Function,
     Gap,
@@ -31,7 +33,7 @@ from .expressions import (
     show,
 )
 from .generators import REPORTERS, STATEMENTS, note_names
-from .names import FUNCTIONS
+from .names import AT_ONCE, FUNCTIONS
 
 
 @dataclass(frozen=True, slots=True)
@@ -285,7 +287,29 @@ class RuleWriter:
             pieces: Sequence[Piece] = (show(self._code.call(block, definition.call)),)
         else:
             pieces = STATEMENTS[definition.generator](self._code, block)
+        pieces = self._whole(block, pieces)
         return _Frame(iter(pieces), block.id, chain.indent, chain.loops, chain.scope)
+
+    def _whole(self, block: Block, pieces: Sequence[Piece]) -> Sequence[Piece]:
+        """The same, so that no other rule sets a variable between its being read and set here."""
+        code = self._code
+        shared = code.sharing.shared
+        if not shared or len(pieces) != 1 or not isinstance(pieces[0], str | Assignment):
+            return pieces
+        piece = pieces[0]
+        line = piece if isinstance(piece, str) else piece.line
+        variables = shared.intersection(variables_set(code.project, code.language, block))
+        names = [code.names.variables[one] for one in variables if one in code.names.variables]
+        if not any(_can_be_torn(line, name) for name in names) or self._takes_time(block):
+            return pieces
+        code.api.add(AT_ONCE)
+        whole = f"with {AT_ONCE}: {line}"
+        return [Assignment(piece.variable, whole) if isinstance(piece, Assignment) else whole]
+
+    def _takes_time(self, block: Block) -> bool:
+        """Whether what is plugged into a block waits: nobody else is to wait for that."""
+        inside = self._code.project.within(list(block.inputs.values()), enabled=True)
+        return any(is_slow(self._code.language, self._code.sharing, one) for one in inside)
 
     def _piece(self, frame: _Frame, piece: Piece) -> _Frame | None:
         """Write one piece of a block; give the chain inside it, if it has one."""
@@ -307,7 +331,10 @@ class RuleWriter:
         return _Frame(blocks, frame.block, indent, loops, frame.scope)
 
     def _simple(
-        self, frame: _Frame, piece: Gap | Assignment | Leave | GiveBack | Written, margin: str
+        self,
+        frame: _Frame,
+        piece: Gap | Assignment | Leave | EndRule | GiveBack | Written,
+        margin: str,
     ) -> None:
         """Write a piece that has no blocks in it."""
         if isinstance(piece, Gap):
@@ -319,6 +346,9 @@ class RuleWriter:
             for number, line in enumerate(piece.lines, start=1):
                 is_inside = number in piece.inside_texts
                 self._line(line if is_inside else (margin + line).rstrip(), frame.block)
+            return
+        if isinstance(piece, EndRule) and (self._code.procedure or frame.scope.indent > 1):
+            self._line(margin + show(self._code.api_call("stop_rule")), frame.block)
             return
         if isinstance(piece, Assignment):
             frame.scope.assigned.add(piece.variable)
@@ -370,3 +400,16 @@ class RuleWriter:
         if block.comment:
             for line in comment_lines(block.comment):
                 self._line(margin + line, block.id)
+
+
+def _can_be_torn(line: str, variable: str) -> bool:
+    """Whether a statement reads and changes a variable, with a call in between.
+
+    Threads take turns at calls and at the ends of loops only: ``n += 1`` is whole by itself.
+    """
+    statement = ast.parse(line).body[0]
+    own_call = statement.value if isinstance(statement, ast.Expr) else None
+    nodes = list(ast.walk(statement))
+    named = sum(isinstance(node, ast.Name) and node.id == variable for node in nodes)
+    is_read = named > 1 or (named and isinstance(statement, ast.AugAssign))
+    return bool(is_read) and any(isinstance(n, ast.Call) and n is not own_call for n in nodes)

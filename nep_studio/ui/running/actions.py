@@ -29,7 +29,7 @@ PACES = (
 )
 """How long it stays at each block, in seconds, and what that is called."""
 
-WITH_A_PROJECT = ("breakpoint", "clear_breakpoints", "needs")
+WITH_A_PROJECT = ("breakpoint", "clear_breakpoints", "end_on_error", "needs")
 
 
 def fill_run_menu(menu: QMenu, host: Host) -> None:
@@ -58,6 +58,15 @@ def fill_run_menu(menu: QMenu, host: Host) -> None:
     )
     menu.addActions([toggle, clear])
     menu.addSeparator()
+    ends = add(
+        "end_on_error",
+        "Stop everything when one rule fails",
+        lambda: services.running.end_on_error(ends.isChecked()),
+        tip="An error ends the rule in which it happens. This project's other rules go on, or not.",
+    )
+    ends.setCheckable(True)
+    menu.addAction(ends)
+    menu.aboutToShow.connect(lambda: _show_end_on_error(host))
     needs = add(
         "needs",
         "What the program needs…",
@@ -67,6 +76,13 @@ def fill_run_menu(menu: QMenu, host: Host) -> None:
     )
     menu.addAction(needs)
     host.actions.enable(False, *RUN_BUTTONS, *WITH_A_PROJECT)
+
+
+def _show_end_on_error(host: Host) -> None:
+    """Let the mark be as it is in the open project, which may have been undone or read."""
+    document = host.services.document
+    is_set = document is not None and document.project.ends_on_error
+    host.actions["end_on_error"].setChecked(is_set)
 
 
 def follow_running(host: Host, toolbar: QToolBar) -> None:
@@ -107,6 +123,7 @@ class RunLooks(QObject):
         actions.enable(state == "running", "pause")
         actions.enable(state == "paused", "step")
         actions.enable(is_open, *WITH_A_PROJECT)
+        _show_end_on_error(self._host)
         actions.label("run", RUN_WORDS.get(state, "Run"))
 
 

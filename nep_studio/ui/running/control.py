@@ -10,11 +10,12 @@ from typing import TYPE_CHECKING
 from PySide6.QtCore import QObject, Signal
 from PySide6.QtWidgets import QWidget
 
-from nep_studio.blocks.checks.diagnostic import Diagnostic
+from nep_studio.blocks.checks.diagnostic import Diagnostic, Severity
 from nep_studio.blocks.deployment import names_used, node_entries, robot_entries
+from nep_studio.blocks.edits.content import SetExtra
 from nep_studio.blocks.errors import CodeRefused
 from nep_studio.blocks.generate.source_map import Code
-from nep_studio.blocks.program import Changes, Project
+from nep_studio.blocks.program import ON_ERROR, Changes, Project
 from nep_studio.problems import Problem
 from nep_studio.project.trust import Concern
 from nep_studio.run.controller import (
@@ -27,6 +28,7 @@ from nep_studio.run.controller import (
     Refused,
     StateChanged,
     Subject,
+    Troubled,
 )
 from nep_studio.run.gate import concerns_of
 from nep_studio.run.plan import Choices, PlannedNode
@@ -72,6 +74,8 @@ class RunControl(QObject):
         """Whether nothing was edited since it was looked what the nodes follow from."""
         self._wanted: object = None
         """What the nodes of the open project follow from, as it was when it was last told."""
+        self._troubles: dict[int, Message] = {}
+        """What was told of lines of the program while it ran."""
         self._told_of_end: Message | None = None
         """What went wrong with the last run; it is over when the next one begins."""
         self.runner.told.connect(self._on_told)
@@ -147,6 +151,13 @@ class RunControl(QObject):
         blocks = {statement_at(canvas, block) for block in canvas.selection.ids} - {""}
         if blocks:
             self.breakpoints.toggle(blocks)
+
+    def end_on_error(self, does_end: bool) -> None:
+        """Let an error of one rule end the whole program, or let the other rules go on."""
+        document = self._host.services.document
+        if document is not None and document.project.ends_on_error != does_end:
+            label = tr("change what an error ends")
+            document.editor.apply(SetExtra(ON_ERROR, "end" if does_end else None), label)
 
     def set_pace(self, line_s: float) -> None:
         """Stay so long at each block."""
@@ -239,6 +250,8 @@ class RunControl(QObject):
                 messages = self._host.services.messages
                 self._host.workbench.show_run_problem(None)
                 messages.clear_passing()
+                while self._troubles:
+                    messages.withdraw(self._troubles.popitem()[1])
                 if self._told_of_end is not None:
                     messages.withdraw(self._told_of_end)
                     self._told_of_end = None
@@ -248,6 +261,8 @@ class RunControl(QObject):
                 self._show_robots()
             case BecameStale():
                 self.became_stale.emit()
+            case Troubled(problem, line, is_error):
+                self._tell_trouble(problem, line, is_error)
             case Ended(runs_again=False):
                 self._tell_end(event)
 
@@ -286,7 +301,19 @@ class RunControl(QObject):
             if panel.name == "RobotsPanel" and not host.services.settings.is_chosen(panel.name):
                 host.show_panel(panel.widget)
 
-    # How it ended
+    # How it goes on, and how it ended
+
+    def _tell_trouble(self, problem: Problem, line: int, is_error: bool) -> None:
+        """Tell of a rule that has failed, or of a warning, while the program goes on."""
+        answers = []
+        block = self.stage.marks.code.block_at(line)
+        if block is not None and block in self._host.workbench.canvas.editor.project.blocks:
+            self._mark(block, problem, "error" if is_error else "warning")
+            workbench = self._host.workbench
+            answers.append(Answer(tr("Show the block"), lambda: workbench.show_block(block)))
+        messages = self._host.services.messages
+        messages.tell_problem(problem, *answers, kind="error" if is_error else "warning")
+        self._troubles[line] = messages.history[-1].message
 
     def _tell_end(self, end: Ended) -> None:
         messages, problem = self._host.services.messages, end.ending.problem
@@ -294,6 +321,8 @@ class RunControl(QObject):
             if not end.was_stopped:
                 messages.confirm(tr("The program has ended."))
             return
+        if (same := self._troubles.pop(end.ending.line, None)) is not None:
+            messages.withdraw(same)  # the end says the same, and that it is the end
         answers = [Answer(tr("Run again"), self.runner.run)]
         block = self.stage.marks.code.block_at(end.ending.line)
         if block is not None and block in self._host.workbench.canvas.editor.project.blocks:
@@ -305,11 +334,11 @@ class RunControl(QObject):
         messages.tell_problem(problem, *answers)
         self._told_of_end = messages.history[-1].message
 
-    def _mark(self, block: str, problem: Problem) -> None:
+    def _mark(self, block: str, problem: Problem, severity: Severity = "error") -> None:
         """Show the sentence at the block that failed."""
         workbench = self._host.workbench
         page = workbench.canvas.editor.project.page_of(block)
         sentence, steps = problem.sentence, problem.checklist
         shown = Diagnostic("error", "run", page, block, sentence, steps)
-        workbench.show_run_problem(shown)
+        workbench.show_run_problem(replace(shown, severity=severity))
         workbench.show_block(block)

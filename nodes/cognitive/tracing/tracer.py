@@ -11,7 +11,7 @@ from itertools import islice
 from pathlib import Path
 from types import CodeType, FrameType
 
-from nep_core.program.tasks import POLL_S, PROGRAM, Cancelled
+from nep_core.program.tasks import CLOCK, POLL_S, PROGRAM, Cancelled
 from nep_core.wire.messages import ProgramControl, ProgramEvent, ProgramState
 
 from .state import ProgramSource, ProgramThread, ProgramThreads, ProgramValues, read_source
@@ -55,9 +55,10 @@ class Pace:
         """Pause, resume, step, or go on as "set" says."""
         with self._changed:
             if order.command == "pause":
-                self._is_paused, self._is_first_pause_step = True, False
+                self._pause()
+                self._is_first_pause_step = False
             elif order.command == "resume":
-                self._is_paused = False
+                self._resume()
             elif order.command == "step":
                 self._step(order.thread)
             elif order.command == "set":
@@ -69,7 +70,8 @@ class Pace:
     def end(self) -> None:
         """Hold nobody any more."""
         with self._changed:
-            self._is_over, self._is_paused, self._line_s = True, False, 0.0
+            self._is_over, self._line_s = True, 0.0
+            self._resume()
             self._changed.notify_all()
 
     def wake(self) -> None:
@@ -96,18 +98,37 @@ class Pace:
             return not (is_step and self._is_paused)  # perhaps since a moment ago
         return False
 
+    def in_wait(self, thread: ProgramThread, line: int) -> None:
+        """Return when a thread may go on with a wait; raises Cancelled when the program ends."""
+        if self._is_paused and not thread.is_stepped and not thread.is_cancelled:
+            self._hold(thread, line)
+
+    def _pause(self) -> None:
+        """Pause, the waits of the program too."""
+        self._is_paused = True
+        CLOCK.pause()
+
+    def _resume(self) -> None:
+        self._is_paused = False
+        CLOCK.resume()
+
     def _step(self, name: str) -> None:
         if self._is_paused:
-            self._may_go |= {held for held in self._held if name in ("", held.name)}
+            may_go = {held for held in self._held if name in ("", held.name)}
+            self._may_go |= may_go
+            if not may_go:  # those that wait for something with a limit come to their next line
+                CLOCK.resume()
         else:
-            self._is_paused = self._is_first_pause_step = True
+            self._pause()
+            self._is_first_pause_step = True
 
     def _hold(self, thread: ProgramThread, line: int) -> None:
         with self._changed:
             is_breakpoint = line in self._breakpoints
             is_step = thread.is_stepped or self._is_first_pause_step
             why = "breakpoint" if is_breakpoint else "step" if is_step else "pause"
-            self._is_paused, thread.is_stepped = True, False
+            self._pause()
+            thread.is_stepped = False
             self._held.add(thread)
             try:
                 self._tell("paused", thread.name, line, why)
@@ -178,6 +199,7 @@ class Tracer:
 
     def begin(self) -> None:
         """Follow this thread and those that begin from now on."""
+        CLOCK.is_pausable, CLOCK.is_stepped, CLOCK.hold = True, self._is_stepped, self._hold
         self._teller.start()
         self._set_lines()
         self._watch.begin()
@@ -185,6 +207,7 @@ class Tracer:
     def end(self) -> None:
         """Follow no more; what is new is told first."""
         self._pace.end()
+        CLOCK.is_pausable, CLOCK.is_stepped, CLOCK.hold = False, lambda: False, lambda: None
         self._over.set()
         with self._lock:
             self._watch.end()
@@ -239,6 +262,16 @@ class Tracer:
         with self._sending:
             self._tell_lines(self._threads.lines())
         self._tell_values()
+
+    def _hold(self) -> None:
+        """Hold a thread that waits while the program is paused, at the line in which it waits."""
+        if (thread := self._threads.this()) is not None and thread.frames:
+            self._pace.in_wait(thread, thread.frames[-1].f_lineno or 0)
+
+    def _is_stepped(self) -> bool:
+        """Whether the thread that asks runs a line of a program that is paused."""
+        thread = self._threads.this()
+        return thread is not None and thread.is_stepped
 
     def _set_lines(self) -> None:
         with self._lock:

@@ -175,7 +175,7 @@ def test_a_recording_that_cannot_be_used_is_told(tmp_path: Path) -> None:
 
 
 def test_a_robot_that_does_not_answer_is_told_with_its_block(tmp_path: Path) -> None:
-    result = run("run", KARATE, "--robot", "NAO=127.0.0.1:9")
+    result = run("run", KARATE, "--robot", "NAO=127.0.0.1:9", "--seconds", "15")
 
     assert result.returncode == 1
     assert "127.0.0.1:9" in result.stderr
@@ -240,3 +240,33 @@ def test_who_stops_a_run_that_is_still_being_prepared_ends_it(monkeypatch) -> No
 
     assert not thread.is_alive()
     assert not play._network.is_open
+
+
+def test_a_rule_that_failed_while_others_went_on_is_in_the_exit_code(tmp_path: Path) -> None:
+    started = [
+        {"id": "b4", "type": "event.started"},
+        {"id": "b5", "type": "control.wait", "fields": {"seconds": 1}},
+        {"id": "b6", "type": "variable.change", "fields": {"variable": "v1", "amount": 5}},
+        {"id": "b7", "type": "event.human_state", "fields": {"state": "wave"}},
+    ]
+    behaviour = [
+        *ZERO["pages"]["behaviour"],
+        {"id": "s2", "x": 0, "y": 300, "body": ["b4", "b5", "b6"]},
+        {"id": "s3", "x": 0, "y": 600, "body": ["b7"]},
+    ]
+    project = {
+        **ZERO,
+        "blocks": [*ZERO["blocks"], *started],
+        "pages": {**ZERO["pages"], "behaviour": behaviour},
+    }
+    file = tmp_path / "fails.nep"
+    file.write_text(json.dumps(project), encoding="utf-8")
+
+    played = run("run", file, "--seconds", "3")
+
+    assert played.returncode == 1, played.stderr
+    assert "failed in line" in played.stdout and "divided by zero" in played.stdout
+    assert "A rule failed" in played.stderr and "change times by" in played.stderr
+    project["on_error"] = "end"
+    file.write_text(json.dumps(project), encoding="utf-8")
+    assert run("run", file).returncode == 1  # it ends by itself

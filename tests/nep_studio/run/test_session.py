@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import queue
 import socket
 import threading
+import time
 from collections.abc import Iterator
 from contextlib import closing, contextmanager
 from pathlib import Path
@@ -152,3 +154,37 @@ def test_a_free_place_is_taken_and_a_used_one_exchanged_for_its_neighbour(free_p
 
     assert found != wanted
     assert found.startswith("tcp://127.0.0.1:")
+
+
+HANGS = """
+from nep_core import Behavior, wait
+behavior = Behavior("Hangs")
+
+@behavior.when_started
+def patient():
+    wait(600)
+
+@behavior.when_started
+def hasty():
+    9 ** 9 ** 9
+
+behavior.run()
+"""
+
+
+def test_a_call_that_holds_up_the_program_is_told_with_its_line_and_can_be_stopped(
+    tmp_path: Path,
+) -> None:
+    told = queue.SimpleQueue[m.ProgramState]()
+
+    def hear(_topic: str, message: msgspec.Struct) -> None:
+        if isinstance(message, m.ProgramState) and message.event == "warning":
+            told.put(message)
+
+    with session(tmp_path, HANGS) as (running, _):
+        running.network.listen(hear)
+        warning = told.get(timeout=3 * WAIT_S)
+        begun_s = time.monotonic()
+
+    assert (warning.line, warning.fault.code) == (11, "busy")
+    assert time.monotonic() - begun_s < WAIT_S

@@ -194,7 +194,7 @@ def test_a_program_may_end_while_one_of_its_rules_is_paused(studio: Studio) -> N
     studio.open("""
         from nep_core import Behavior, wait_until, times_seen
 
-        behavior = Behavior("Two")
+        behavior = Behavior("Two", on_error="end")
 
         @behavior.when("gesture_karate")
         def karate():

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import threading
 from collections.abc import Callable
 
 import pytest
@@ -285,3 +286,45 @@ def test_a_condition_is_a_piece_of_its_line_and_is_never_held(follow: Follow) ->
 
     program.join()
     assert lines == [3, 4]
+
+
+WAITS = """
+    import time
+    from nep_core import wait, wait_until
+
+    def told(take):
+        begun_s = time.monotonic()
+        take()
+        return time.monotonic() - begun_s
+
+    waited = told(lambda: {take})
+    done = 1
+    """
+
+
+@pytest.mark.parametrize("take", ["wait(1)", "wait_until(lambda: False, 1)"])
+def test_a_wait_stands_still_while_the_program_is_paused(follow: Follow, take: str) -> None:
+    program = follow(WAITS.replace("{take}", take))
+    heard = program.start()
+    heard.lines(lambda lines: 9 in lines.get("program", []))
+
+    program.order("pause")
+    threading.Event().wait(1.5)
+    program.order("resume")
+    program.join()
+
+    waited_s = float(heard.until(lambda s: "waited" in s.values).values["waited"])
+    assert 2.3 < waited_s < 2.5 + 20
+
+
+def test_a_step_over_a_wait_takes_its_time(follow: Follow) -> None:
+    program = follow("from nep_core import wait\nx = 1\nwait(0.3)\ny = 2")
+    program.order("pause")
+    heard = program.start()
+    heard.paused()
+    program.order("step")
+    assert heard.paused() == (3, "step")
+
+    program.order("step")
+
+    assert heard.paused() == (4, "step")
