@@ -18,6 +18,7 @@ from nep_studio.blocks.definitions import Definition, Slot
 from nep_studio.blocks.errors import BlocksError, CodeRefused
 from nep_studio.blocks.generate.expressions import Body, Expressions, Function, Piece, show
 from nep_studio.blocks.generate.generators import REPORTERS, STATEMENTS
+from nep_studio.blocks.generate.kinds import ANY, LIST, NUMBER, TEXT, WHOLE, Kinds, note
 from nep_studio.blocks.generate.names import ProgramNames
 from nep_studio.blocks.generate.rules import HATS
 from nep_studio.blocks.language import Language
@@ -61,6 +62,22 @@ def word_pattern(text: str) -> tuple[re.Pattern[str], list[int]] | None:
     return re.compile("(.*)".join(parts), re.DOTALL), positions
 
 
+@dataclass(frozen=True, slots=True)
+class Known:
+    """What is known of the kinds of slots: where it is enough, the Python of a block is plain."""
+
+    is_plain: bool
+    number: int
+    value: int
+    items: int
+
+
+KNOWN = (
+    Known(True, WHOLE, TEXT, LIST),
+    Known(True, NUMBER, NUMBER, LIST),
+    Known(False, ANY, ANY, ANY),
+)
+
 # Makes the Python of a new block with markers in its slots.
 
 
@@ -77,15 +94,19 @@ class Learner(Expressions):
         keys: Sequence[str],
         typed: frozenset[str],
         plain: str,
+        known: Known,
     ) -> None:
-        super().__init__(Project("Learned"), language, ProgramNames({}, {}), REPORTERS)
+        super().__init__(Project("Learned"), language, ProgramNames({}, {}), REPORTERS, Kinds())
         self.asked: list[str] = []
         self.filled: set[str] = set()
         self._fields_chosen = fields
         self._positions = {key: position for position, key in enumerate(keys)}
         self._typed = typed
         self._plain = plain
+        self._known = known
         self._functions = 0
+        self.clear: set[str] = set()
+        """The slots that must show that they hold a text."""
 
     def nodes(self, definition: Definition, groups: Mapping[str, int]) -> tuple[ast.AST, ...]:
         """The Python of a new block of a definition."""
@@ -100,13 +121,38 @@ class Learner(Expressions):
 
     def slot(self, block: Block, key: str) -> ast.expr:
         """A marker for a slot; the text slots of a value that is no text are markers too."""
+        slot, node = self._slot(block, key), self.value_in(block, key)
+        if slot.kind.is_number and not isinstance(node, ast.Constant):
+            return note(node, self._known.number)
+        if slot.kind.name == "list":
+            return note(node, LIST)
+        return note(node, TEXT) if slot.kind.becomes_text else node
+
+    def value_in(self, block: Block, key: str) -> ast.expr:
+        """A marker for a slot, of the kinds that are known in this variant."""
         slot = self._slot(block, key)
         self.filled.add(key)
         if key == self._plain:
             return constant(self.definition(block).defaults[slot.name])
         if key in self._typed:
             return ast.Constant(_FIRST_NUMBER + _STEP * self._positions[key])
-        return ast.Name(mark(SLOT, key))
+        by_kind = {"any": self._known.value, "list": self._known.items}
+        known = self._known.number if slot.kind.is_number else by_kind.get(slot.kind.name, ANY)
+        return note(ast.Name(mark(SLOT, key)), known)
+
+    def shows_text(self, block: Block, key: str) -> bool:
+        """As this variant has it."""
+        if self._known.is_plain:
+            self.clear.add(key)
+        return self._known.is_plain
+
+    def may_swap(self, first: ast.expr, second: ast.expr) -> bool:
+        """As this variant has it."""
+        return self._known.is_plain
+
+    def kinds_at(self, key: str) -> int:
+        """As this variant has it."""
+        return self._known.value
 
     def choice(self, block: Block, key: str) -> str:
         """The choice that this variant is made with."""
@@ -118,9 +164,6 @@ class Learner(Expressions):
     def variable(self, block: Block) -> str:
         """A marker for the variable of a block."""
         return VARIABLE_NAME
-
-    def begins_as(self, block: Block, kind: str) -> None:
-        """Nothing begins in what is learned."""
 
     def part_name(self) -> str:
         """A marker for the name of a function."""
@@ -182,6 +225,8 @@ class Pattern:
     groups: Mapping[str, int]
     keys: tuple[str, ...]
     size: int
+    clear: frozenset[str] = frozenset()
+    """The slots where only a text is meant that shows itself as one."""
 
 
 @dataclass(slots=True)
@@ -257,8 +302,9 @@ def _patterns(definition: Definition, language: Language) -> Iterator[Pattern]:
     for groups in itertools.islice(_group_counts(definition), MOST_PATTERNS):
         for fields in _choices(definition, language, groups):
             keys = tuple(key for key, _ in definition.keys(groups))
-            for typed, plain in _variants(definition, keys):
-                learner = Learner(language, fields, keys, typed, plain)
+            variants = itertools.product(_variants(definition, keys), KNOWN)
+            for (typed, plain), known in variants:
+                learner = Learner(language, fields, keys, typed, plain, known)
                 try:
                     nodes = learner.nodes(definition, groups)
                 except _NOT_MADE:
@@ -267,7 +313,8 @@ def _patterns(definition: Definition, language: Language) -> Iterator[Pattern]:
                 if nodes and form not in (*seen, _MARKER):
                     seen.add(form)
                     size = sum(_says(inner) for node in nodes for inner in ast.walk(node))
-                    yield Pattern(definition, nodes, fields, groups, keys, size)
+                    clear = frozenset(learner.clear)
+                    yield Pattern(definition, nodes, fields, groups, keys, size, clear)
 
 
 def _group_counts(definition: Definition) -> Iterator[dict[str, int]]:
@@ -282,7 +329,7 @@ def _choices(
 ) -> list[dict[str, FieldValue]]:
     """The ways in which the choices can be made by which the Python differs in its form."""
     keys = tuple(key for key, _ in definition.keys(groups))
-    learner = Learner(language, {}, keys, frozenset(), "")
+    learner = Learner(language, {}, keys, frozenset(), "", KNOWN[0])
     with suppress(*_NOT_MADE):
         learner.nodes(definition, groups)
     asked = list(dict.fromkeys(learner.asked))

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import ast
-from collections.abc import Iterator, Sequence
+from collections.abc import Collection, Iterator, Sequence
 from dataclasses import dataclass, field
 from functools import partial
 
@@ -292,6 +292,18 @@ def _whole_slot(node: ast.Call) -> str:
     return ""
 
 
+_TOLD = ("as_text", "str")
+_CONVERTED = {"list": ("as_list",), "boolean": ("bool",)}
+
+
+def _within(node: ast.expr, names: Collection[str]) -> ast.expr:
+    """What is in a call of a function of one of these names; else the node itself."""
+    match node:
+        case ast.Call(func=ast.Name(id=name), args=[inner], keywords=[]) if name in names:
+            return inner
+    return node
+
+
 def _without_int(node: ast.expr) -> ast.expr:
     match node:
         case ast.Call(func=ast.Name(id="int"), args=[inner], keywords=[]):
@@ -334,8 +346,11 @@ class ValueReader:
         """The type of the block that a generator makes, or an empty text."""
         return self._types.get(generator, "")
 
-    def fill(self, made: Made, key: str, node: ast.expr) -> bool:
-        """Put an expression into a slot of a block; False when it does not go there."""
+    def fill(self, made: Made, key: str, node: ast.expr, *, is_clear: bool = False) -> bool:
+        """Put an expression into a slot of a block; False when it does not go there.
+
+        ``is_clear``: a text must show that it is one.
+        """
         slot = self.language.definitions[made.type].slots[split_slot(key)[0]]
         value = self.field(slot, node, made, key)
         if value is not None:
@@ -343,7 +358,7 @@ class ValueReader:
             return True
         if slot.kind.name == "list" and isinstance(node, ast.List) and not node.elts:
             return True
-        plugged = self.plugged(slot, node) if slot.kind.pluggable else None
+        plugged = self.plugged(slot, node, is_clear=is_clear) if slot.kind.pluggable else None
         if plugged is None:
             return False
         made.inputs[key] = plugged
@@ -359,20 +374,24 @@ class ValueReader:
             return value if is_known else None
         return value
 
-    def plugged(self, slot: Slot, node: ast.expr) -> Made | None:
-        """The block that makes this expression in a slot, or None."""
-        fits = slot.kind.fits
+    def plugged(self, slot: Slot, node: ast.expr, *, is_clear: bool = False) -> Made | None:
+        """The block that makes this expression in a slot, or None.
+
+        Where the block makes a number, a list or a text of a value, the value alone is in it.
+        """
+        fits, made_of = slot.kind.fits, _CONVERTED.get(slot.kind.name, ())
+        if slot.kind.is_number:
+            made_of = ("as_number",)
         if not slot.kind.becomes_text:
-            return next((made for made, result in self.blocks(node) if result in fits), None)
+            inner = _within(node, made_of)
+            return next((made for made, result in self.blocks(inner) if result in fits), None)
         for made, result in self.blocks(node):
             if result in TEXT_RESULTS:
                 return made
-        match node:
-            case ast.Call(func=ast.Name(id="str"), args=[inner], keywords=[]):
-                others = fits - TEXT_RESULTS
-                found = self.blocks(inner)
-                return next((made for made, result in found if result in others), None)
-        return None
+        inner, others = _within(node, _TOLD), fits - TEXT_RESULTS
+        if inner is node:
+            others = frozenset() if is_clear else frozenset({"any"})
+        return next((made for made, result in self.blocks(inner) if result in others), None)
 
     def blocks(self, node: ast.expr) -> list[tuple[Made, str]]:
         """The value blocks that make an expression, with their results, the best first."""
@@ -438,8 +457,10 @@ class ValueReader:
         """The block of a pattern with what was found in it but its bodies, or None."""
         made = Made(pattern.definition.id, dict(pattern.fields), groups=dict(pattern.groups))
         for key, node in found.slots.items():
-            if not self.fill(made, key, node):
+            if not self.fill(made, key, node, is_clear=key in pattern.clear):
                 return None
+        if pattern.definition.generator == "join" and not self._is_clear_join(made, found):
+            return None
         for key, word in found.words.items():
             if pattern.definition.slots[split_slot(key)[0]].why_not(word) is not None:
                 return None
@@ -449,6 +470,13 @@ class ValueReader:
                 return None
             made.fields["variable"] = self.names.variables[found.variable]
         return made if self._choose_masters(made) else None
+
+    def _is_clear_join(self, made: Made, found: Found) -> bool:
+        """Whether a part of a sum shows that it is a text: else it is a sum of numbers."""
+        typed = any(key not in made.inputs for key in found.slots)
+        results = (self.language.definitions[inner.type].result for inner in made.inputs.values())
+        told = any(_within(node, _TOLD) is not node for node in found.slots.values())
+        return typed or told or any(result in TEXT_RESULTS for result in results)
 
     def _choose_masters(self, made: Made) -> bool:
         """Choose what a choice depends on where Python does not say it: the arm of a joint."""

@@ -17,6 +17,7 @@ from nep_studio.blocks.slots import Setting, constant
 
 from .expressions import Expressions, call, literal, method_call, show
 from .generators import REPORTERS
+from .kinds import FactReader, Facts, Kinds, together
 from .names import NameTable, ProgramNames
 from .rules import HATS, Line, RuleWriter
 from .source_map import Code
@@ -31,7 +32,9 @@ class _Rule:
     api: frozenset[str]
     modules: frozenset[str]
     robots: frozenset[str]
-    variables: dict[str, frozenset[str]]
+    variables: frozenset[str]
+    kinds: dict[str, int]
+    """The kinds that it was written for."""
 
 
 class ProgramGenerator:
@@ -41,6 +44,9 @@ class ProgramGenerator:
         self._project = project
         self._language = language.of(project)
         self._rules: dict[str, _Rule] = {}
+        self._facts: dict[str, tuple[object, Facts]] = {}
+        self._kinds = Kinds()
+        self._kinds_for: object = None
         self._robots: dict[str, tuple[int, frozenset[str]]] = {}
         self._robot_slots = {
             definition.id: slot.name
@@ -63,6 +69,7 @@ class ProgramGenerator:
         self._robots = {s: known for s, known in self._robots.items() if s in written}
         headers = self._headers(written)
         names = yield from self._names(written, headers)
+        self._kinds = yield from self._kinds_in(written, names)
         functions = NameTable(names.taken())
         ordered = [*headers.values(), *(s for s in written if s not in set(headers.values()))]
         for stack in ordered:
@@ -87,21 +94,47 @@ class ProgramGenerator:
             found[procedure] = stack
         return {p: found[p] for p in self._project.procedures if p in found}
 
+    def _kinds_in(self, written: dict[str, list[str]], names: ProgramNames) -> Steps[Kinds]:
+        """The kinds of what the program keeps, as they were unless a stack does other things."""
+        known, changed = (
+            self._facts,
+            self._kinds_for != names or self._facts.keys() != written.keys(),
+        )
+        self._facts = {}
+        for stack, chain in written.items():
+            revision = (self._project.revisions.get(stack), self._project.procedure_revision)
+            before = known.get(stack)
+            if before is None or before[0] != revision:
+                yield
+                facts = FactReader(self._project, self._language).read(chain)
+                changed |= before is None or before[1] != facts
+                before = revision, facts
+            self._facts[stack] = before
+        if not changed:
+            return self._kinds
+        self._kinds_for = names
+        facts_of = {stack: facts for stack, (_, facts) in self._facts.items()}
+        return together(facts_of, self._project, names)
+
     def _rule(
         self, stack: str, chain: list[str], names: ProgramNames, functions: NameTable
     ) -> Steps[_Rule]:
         """Write the rule of a stack, unless it is written already."""
-        code = Expressions(self._project, self._language, names, REPORTERS)
+        code = Expressions(self._project, self._language, names, REPORTERS, self._kinds)
         hat_block = self._project.blocks[chain[0]]
         hat = HATS[code.definition(hat_block).generator](code, hat_block)
         if hat_block.type.startswith(DEFINE):
             code.procedure, function = procedure_of(hat_block.type), hat.name
+            gives_value = self._project.procedures[code.procedure].gives_value
+            code.gives_nothing = gives_value and self._facts[stack][1].is_open
         else:
             function = functions.give(hat.name, "when")
         revision = self._project.revisions.get(stack)
-        made_for = (revision, function, names, self._project.procedure_revision)
+        own = self._kinds.own.get(stack, frozenset())
+        code.own = frozenset(names.variables[variable] for variable in own)
+        made_for = (revision, function, names, self._project.procedure_revision, own)
         known = self._rules.get(stack)
-        if known is not None and known.made_for == made_for:
+        if known is not None and known.made_for == made_for and self._fits(known.kinds):
             return known
         writer = RuleWriter(code)
         yield from writer.write(function, hat, chain)
@@ -111,8 +144,13 @@ class ProgramGenerator:
             frozenset(code.api),
             frozenset(code.modules),
             frozenset(code.robots),
-            {variable: frozenset(kinds) for variable, kinds in code.variables.items()},
+            frozenset(code.variables - own),
+            code.written_for,
         )
+
+    def _fits(self, kinds: dict[str, int]) -> bool:
+        """Whether these are still the kinds of what is kept."""
+        return all(self._kinds.of(key) == kind for key, kind in kinds.items())
 
     def _names(self, written: dict[str, list[str]], headers: dict[str, str]) -> Steps[ProgramNames]:
         """Names for the robots of the Robots page, others that rules use, variables, own blocks."""
@@ -154,18 +192,15 @@ class ProgramGenerator:
         api = {"Behavior"}.union(*(rule.api for rule in rules))
         modules = set[str]().union(*(rule.modules for rule in rules))
         used = set[str]().union(*(rule.robots for rule in rules))
-        begins: dict[str, set[str]] = {}
-        for rule in rules:
-            for variable, kinds in rule.variables.items():
-                begins.setdefault(variable, set()).update(kinds)
+        begun = frozenset[str]().union(*(rule.variables for rule in rules))
         robots = self._robot_lines(names, used)
         if robots:
             api.add("Robot")
         head = [_docstring(self._project.name), *(f"import {name}" for name in sorted(modules))]
         head += [f"from nep_core import {', '.join(sorted(api))}", ""]
         behavior = show(call("Behavior", ast.Constant(self._project.name)))
-        variables = {name: begins[v] for v, name in names.variables.items() if v in begins}
-        globals_ = [f"{name} = {_first(kinds)}" for name, kinds in variables.items()]
+        first = self._kinds.first
+        globals_ = [f"{name} = {first[v]}" for v, name in names.variables.items() if v in begun]
         page = [*_unmade(head), *robots, *_unmade([f"behavior = {behavior}", *globals_])]
         gap = _code(_unmade(["", ""]))
         parts = [_code(page)]
@@ -205,11 +240,6 @@ def _unmade(lines: Sequence[str]) -> list[Line]:
 def _code(page: Sequence[Line]) -> Code:
     lines, blocks = zip(*page, strict=True)
     return Code("\n".join(lines) + "\n", blocks)
-
-
-def _first(kinds: set[str]) -> str:
-    """What a variable holds before anything is put into it."""
-    return "[]" if "list" in kinds else '""' if "text" in kinds else "0"
 
 
 def _docstring(name: str) -> str:
