@@ -13,7 +13,7 @@ from nep_studio.blocks.language import Language
 from nep_studio.blocks.program import Project
 
 PARTS_OF_PROGRAMS = {
-    *("str", "int", "range", "behavior", "_", "when", "run"),
+    *("str", "bool", "range", "from_end", "new", "part", "behavior", "_", "when", "run"),
     *("abs", "float", "len", "list", "map", "max", "min", "reversed", "round", "sorted", "sum"),
     *MODULES,
     *("choice", "randint", "random"),

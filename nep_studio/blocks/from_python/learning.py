@@ -273,7 +273,7 @@ def _learn(definitions: Sequence[Definition], language: Language) -> Learned:
     for definition in definitions:
         if definition.call is not None or definition.generator in _KEPT_AS_WRITTEN:
             continue
-        for pattern in _patterns(definition, language):
+        for pattern in (*_patterns(definition, language), *_old_patterns(definition)):
             if definition.shape == "hat":
                 found.hats.append(pattern)
             elif definition.is_value:
@@ -295,6 +295,74 @@ def _order(pattern: Pattern) -> tuple[bool, int, int, int]:
     slots = pattern.definition.slots.values()
     takes_more = sum(slot.kind.name in ("state", "text", "any") for slot in slots)
     return is_anybody, -pattern.size, fixed, takes_more
+
+
+# Python of earlier versions, and of people, that means what a block says. Where it would do
+# something else without a word, such as range(1, n + 1) for an n of 0, it stays Python.
+
+_OLD: dict[str, tuple[str, ...]] = {
+    "list_get": ("list[int(number) - 1]",),
+    "list_take": ("list.pop(int(number) - 1)",),
+    "list_set": ("list[int(number) - 1] = value",),
+    "list_remove": ("del list[int(number) - 1]",),
+    "list_insert": ("list.insert(int(number) - 1, value)",),
+    "list_filled": ("[item] * int(times)",),
+    "list_find": ("list.index(item) + 1 if item in list else 0",),
+    "list_contains": ("item in list",),
+    "list_joined": ("mark.join(map(str, list))", "mark.join(list)"),
+    "list_sorted": ("sorted(list)",),
+    "letter": ("text[int(number) - 1]",),
+    "random_integer": ("random.randint(int(low), int(high))",),
+    "text_replace": ("text.replace(part, new)",),
+    "text_case": ("text.title()",),
+    "text_number": ("float(text)",),
+    "arithmetic": ("a ** b",),
+    "round": ("round(number)",),
+    "repeat": ("for _ in range(int(times)):\n    BODY_do",),
+    "change_variable": ("VARIABLE_variable += amount",),
+    "append_text": ("VARIABLE_variable += text",),
+}
+_OLD_CHOICES: dict[str, dict[str, FieldValue]] = {
+    "text_case": {"case": "title"},
+    "arithmetic": {"operation": "power"},
+    "round": {"way": "nearest"},
+    "list_sorted": {"order": "up"},
+    "list_get": {"end": "start"},
+    "list_take": {"end": "start"},
+    "list_set": {"end": "start"},
+    "list_remove": {"end": "start"},
+    "list_insert": {"end": "start"},
+}
+_OLD_FROM_END = {
+    "list_get": "list[-int(number)]",
+    "list_take": "list.pop(-int(number))",
+    "list_set": "list[-int(number)] = value",
+    "list_remove": "del list[-int(number)]",
+}
+_MUST_BE_CLEAR = {"letter": frozenset({"text"}), "append_text": frozenset({"text"})}
+
+
+def _old_patterns(definition: Definition) -> Iterator[Pattern]:
+    generator = definition.generator
+    for text in _OLD.get(generator, ()):
+        yield _old_pattern(definition, text, _OLD_CHOICES.get(generator, {}))
+    if generator in _OLD_FROM_END:
+        yield _old_pattern(definition, _OLD_FROM_END[generator], {"end": "end"})
+
+
+def _old_pattern(definition: Definition, text: str, fields: Mapping[str, FieldValue]) -> Pattern:
+    tree = ast.parse(text)
+    names = {name for name, slot in definition.slots.items() if slot.kind.pluggable}
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Name) and node.id in names:
+            node.id = mark(SLOT, node.id)
+    nodes: tuple[ast.AST, ...] = tuple(tree.body)
+    if definition.is_value:
+        nodes = tuple(node.value for node in tree.body if isinstance(node, ast.Expr))
+    keys = tuple(key for key, _ in definition.keys({}))
+    size = sum(_says(inner) for node in nodes for inner in ast.walk(node))
+    clear = _MUST_BE_CLEAR.get(definition.generator, frozenset())
+    return Pattern(definition, nodes, fields, {}, keys, size, clear)
 
 
 def _patterns(definition: Definition, language: Language) -> Iterator[Pattern]:
@@ -347,16 +415,17 @@ def _choices(
 
 
 def _variants(definition: Definition, keys: Sequence[str]) -> Iterator[tuple[frozenset[str], str]]:
-    """With numbers typed or plugged in, and each time with one slot left as it is when new."""
+    """With numbers typed or plugged in; then each time with one slot left as it is when new."""
     numbers = [key for key in keys if definition.slots[split_slot(key)[0]].kind.is_number]
     if len(numbers) > MOST_MIXED:
         numbers = []
-    for count in range(len(numbers) + 1):
-        for typed in itertools.combinations(numbers, count):
-            yield frozenset(typed), ""
-            for key in keys:
-                if isinstance(definition.defaults.get(split_slot(key)[0]), int | float):
-                    yield frozenset(typed), key
+    counts = range(len(numbers) + 1)
+    ways = [frozenset(t) for n in counts for t in itertools.combinations(numbers, n)]
+    yield from ((typed, "") for typed in ways)
+    for typed in ways:
+        for key in keys:
+            if isinstance(definition.defaults.get(split_slot(key)[0]), int | float):
+                yield typed, key
 
 
 def _says(node: ast.AST) -> bool:

@@ -19,6 +19,7 @@ from nep_studio.blocks.slots import TEXT_RESULTS, FieldValue, constant
 from ..deployment import names_used, robot_entries
 from ..editor import Editor
 from ..generate.expressions import known_whole
+from ..generate.kinds import ANY, NUMBER, RESULT_KINDS, TEXT, kinds_of
 from ..generate.names import RESERVED, python_name
 from ..operations.fixes import append_entry
 from ..program import ALL_ROBOTS, ROBOT_BLOCK, Parameter, Procedure
@@ -45,18 +46,28 @@ HEADERS = ("Robot", "Behavior")
 class SourceNames:
     """What identifiers stand for: names of robots, ids of variables, own blocks.
 
-    ``parameters`` are the values of the own block that is being read, by identifier.
+    ``parameters`` are the values of the own block that is being read, by identifier. ``kinds`` are
+    those of the values that the text itself gives to variables, as far as their form tells.
     """
 
     robots: dict[str, str] = field(default_factory=dict)
     variables: dict[str, str] = field(default_factory=dict)
     procedures: dict[str, Procedure] = field(default_factory=dict)
     parameters: dict[str, str] = field(default_factory=dict)
+    kinds: dict[str, int] = field(default_factory=dict)
+
+    def may_be(self, node: ast.expr, kinds: int) -> bool:
+        """Whether a value can be of these kinds, as far as the text tells."""
+        if isinstance(node, ast.Name):
+            is_given = node.id in self.kinds and node.id not in self.parameters
+            return not is_given or bool(self.kinds[node.id] & kinds)
+        return bool(kinds_of(node) & kinds)
 
 
 def names_in(editor: Editor, tree: ast.Module) -> SourceNames:
     """Find what the names of a text stand for in a project, and make there what lacks."""
     names = _known(editor)
+    names.kinds = _kinds_given(tree, names)
     assigned: list[str] = []
     for node in tree.body:
         match node:
@@ -76,6 +87,20 @@ def names_in(editor: Editor, tree: ast.Module) -> SourceNames:
             names.variables[name] = editor.add_variable(name if name not in taken else f"{name}_")
     _require_variables(names, tree)
     return names
+
+
+def _kinds_given(tree: ast.Module, names: SourceNames) -> dict[str, int]:
+    """The kinds of what a text puts into the variables that it makes itself."""
+    found: dict[str, int] = {}
+    for node in ast.walk(tree):
+        match node:
+            case ast.Assign(targets=[ast.Name(id=name)], value=value):
+                found[name] = found.get(name, 0) | kinds_of(value)
+            case ast.Name(id=name, ctx=ast.Store()):
+                found.setdefault(name, 0)
+            case ast.AugAssign(target=ast.Name(id=name)) | ast.For(target=ast.Name(id=name)):
+                found[name] = ANY
+    return {name: kinds for name, kinds in found.items() if kinds and name not in names.variables}
 
 
 def _require_variables(names: SourceNames, tree: ast.Module) -> None:
@@ -293,7 +318,7 @@ def _whole_slot(node: ast.Call) -> str:
 
 
 _TOLD = ("as_text", "str")
-_CONVERTED = {"list": ("as_list",), "boolean": ("bool",)}
+_MADE = {"list": ("as_list",), "boolean": ("bool",)}
 
 
 def _within(node: ast.expr, names: Collection[str]) -> ast.expr:
@@ -379,18 +404,20 @@ class ValueReader:
 
         Where the block makes a number, a list or a text of a value, the value alone is in it.
         """
-        fits, made_of = slot.kind.fits, _CONVERTED.get(slot.kind.name, ())
-        if slot.kind.is_number:
-            made_of = ("as_number",)
-        if not slot.kind.becomes_text:
-            inner = _within(node, made_of)
-            return next((made for made, result in self.blocks(inner) if result in fits), None)
+        kind, may_be = slot.kind, self.names.may_be
+        if not kind.becomes_text:
+            inner = _within(node, ("as_number",) if kind.is_number else _MADE.get(kind.name, ()))
+            needed = NUMBER if kind.is_number else RESULT_KINDS.get(kind.name, ANY)
+            if inner is node and kind.name != "boolean" and not may_be(node, needed):
+                return None
+            return next((made for made, result in self.blocks(inner) if result in kind.fits), None)
         for made, result in self.blocks(node):
             if result in TEXT_RESULTS:
                 return made
-        inner, others = _within(node, _TOLD), fits - TEXT_RESULTS
+        inner, others = _within(node, _TOLD), kind.fits - TEXT_RESULTS
         if inner is node:
-            others = frozenset() if is_clear else frozenset({"any"})
+            is_shown = not is_clear or not may_be(node, ANY & ~TEXT)
+            others = frozenset({"any"}) if is_shown and may_be(node, TEXT) else frozenset()
         return next((made for made, result in self.blocks(inner) if result in others), None)
 
     def blocks(self, node: ast.expr) -> list[tuple[Made, str]]:
@@ -456,10 +483,12 @@ class ValueReader:
     def made_from(self, pattern: Pattern, found: Found) -> Made | None:
         """The block of a pattern with what was found in it but its bodies, or None."""
         made = Made(pattern.definition.id, dict(pattern.fields), groups=dict(pattern.groups))
+        is_join = pattern.definition.generator == "join"
+        clear = frozenset() if is_join else pattern.clear
         for key, node in found.slots.items():
-            if not self.fill(made, key, node, is_clear=key in pattern.clear):
+            if not self.fill(made, key, node, is_clear=key in clear):
                 return None
-        if pattern.definition.generator == "join" and not self._is_clear_join(made, found):
+        if is_join and not self._is_clear_join(made, found):
             return None
         for key, word in found.words.items():
             if pattern.definition.slots[split_slot(key)[0]].why_not(word) is not None:

@@ -50,6 +50,7 @@ from .kinds import (
     TRUTH,
     WHOLE,
     are,
+    are_mixed,
     kinds_of,
     kinds_of_code,
     note,
@@ -129,7 +130,6 @@ _LINES = {
     "list_is_empty": "len(list) == 0",
     "list_find": "place_of(item, list)",
     "list_reversed": "list(reversed(list))",
-    "list_joined": "join_items(list, mark)",
     "sees_face_of": 'robot.sees("face", name)',
     "sees_mark": 'robot.sees("mark", number)',
     "seen_face": 'robot.seen_name("face")',
@@ -192,17 +192,6 @@ _CHOSEN = {
             "negative": "number < 0",
         },
     ),
-    "of_list": (
-        "function",
-        {
-            "sum": "sum_of(list)",
-            "min": "smallest_of(list)",
-            "max": "largest_of(list)",
-            "mean": "mean_of(list)",
-            "median": "median_of(list)",
-            "stdev": "deviation_of(list)",
-        },
-    ),
     "truth": ("truth", {"true": "True", "false": "False"}),
     "text_case": (
         "case",
@@ -258,16 +247,10 @@ def _compare(code: Expressions, block: Block) -> ast.expr:
     is_equal = comparison == "equal"
     if are(first, TRUTH) and first and isinstance(b, ast.Constant) and type(b.value) is bool:
         return a if b.value is is_equal else ast.UnaryOp(ast.Not(), a)
-    may_mix = _are_mixed(first, second) or _are_mixed(second, first) or first & second & LIST
-    if not may_mix:
+    if not are_mixed(first, second):
         return compare(a, _SAME[comparison], b)
     same = code.api_call("is_same", a, b)
     return same if is_equal else ast.UnaryOp(ast.Not(), same)
-
-
-def _are_mixed(first: int, second: int) -> bool:
-    """Whether Python may take a truth for a number: True == 1."""
-    return bool(first & TRUTH and second & (NUMBER | OTHER))
 
 
 def _random_integer(code: Expressions, block: Block) -> ast.expr:
@@ -390,7 +373,8 @@ def _filled(code: Expressions, block: Block) -> ast.expr:
 
 def _list_contains(code: Expressions, block: Block) -> ast.expr:
     items, item = code.slot(block, "list"), code.slot(block, "item")
-    if are(kinds_of(item), TEXT) and code.may_swap(items, item):
+    is_plain = not are_mixed(kinds_of(item), code.kinds_at(ITEMS))
+    if is_plain and code.may_swap(items, item):
         return compare(item, ast.In(), items)
     return code.api_call("has_item", items, item)
 
@@ -402,6 +386,33 @@ def _sorted(code: Expressions, block: Block) -> ast.expr:
     if are(held, NUMBER) or are(held, TEXT):
         return call("sorted", items, **keywords)
     return code.api_call("sorted_items", items, **keywords)
+
+
+_OF_LIST = {
+    "sum": ("sum", "sum_of"),
+    "min": ("min", "smallest_of"),
+    "max": ("max", "largest_of"),
+    "mean": ("statistics.mean", "mean_of"),
+    "median": ("statistics.median", "median_of"),
+    "stdev": ("statistics.stdev", "deviation_of"),
+}
+"""The functions of lists of numbers, and those that look first whether all are numbers."""
+
+
+def _of_list(code: Expressions, block: Block) -> ast.expr:
+    plain, careful = _OF_LIST[code.choice(block, "function")]
+    if not are(code.kinds_at(ITEMS), NUMBER):
+        return code.api_call(careful, code.slot(block, "list"))
+    return _python(f"{plain}(list)")(code, block)
+
+
+def _joined(code: Expressions, block: Block) -> ast.expr:
+    items, mark = code.slot(block, "list"), code.slot(block, "mark")
+    held = code.kinds_at(ITEMS)
+    if (not are(held, WHOLE) and not are(held, TEXT)) or not code.may_swap(items, mark):
+        return code.api_call("join_items", items, mark)
+    texts = items if are(held, TEXT) else call("map", ast.Name("str"), items)
+    return method_call(mark, "join", [texts])
 
 
 def _split(code: Expressions, block: Block) -> ast.expr:
@@ -502,6 +513,8 @@ REPORTERS: dict[str, ValueGenerator] = {
     "list_contains": _list_contains,
     "list_sorted": _sorted,
     "list_split": _split,
+    "list_joined": _joined,
+    "of_list": _of_list,
     "own_call": _own_call,
     "own_parameter": _own_parameter,
     "code_value": _code_value,

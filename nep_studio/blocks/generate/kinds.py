@@ -126,11 +126,20 @@ def _of_constant(value: object) -> int:
 
 
 def _of_operation(op: ast.operator, left: int, right: int) -> int:
-    if isinstance(op, ast.Add) and (left | right) & TEXT:
+    if isinstance(op, ast.Add) and are(left | right, TEXT):
         return TEXT
+    if not are(left | right, NUMBER):
+        return ANY
     if isinstance(op, ast.Div):
         return FRACTION
-    return _counted(left | right) if not isinstance(op, ast.Pow) else NUMBER
+    return NUMBER if isinstance(op, ast.Pow) else _counted(left | right)
+
+
+def are_mixed(first: int, second: int) -> bool:
+    """Whether Python may take two values for equal that are not: True == 1, and in lists."""
+    truth, number = TRUTH | OTHER, NUMBER | OTHER
+    takes_truth = (first & truth and second & number) or (first & number and second & truth)
+    return bool(takes_truth or first & second & LIST)
 
 
 def _counted(kinds: int) -> int:
