@@ -227,6 +227,8 @@ class Pattern:
     size: int
     clear: frozenset[str] = frozenset()
     """The slots where only a text is meant that shows itself as one."""
+    is_range: bool = False
+    """Whether it counts with range(...), which ends before its end."""
 
 
 @dataclass(slots=True)
@@ -319,6 +321,11 @@ _OLD: dict[str, tuple[str, ...]] = {
     "arithmetic": ("a ** b",),
     "round": ("round(number)",),
     "repeat": ("for _ in range(int(times)):\n    BODY_do",),
+    "list_split": ("list(text)",),
+    "count": (
+        "for VARIABLE_variable in range(first, last):\n    BODY_do",
+        "for VARIABLE_variable in range(first, last, step):\n    BODY_do",
+    ),
     "change_variable": ("VARIABLE_variable += amount",),
     "append_text": ("VARIABLE_variable += text",),
 }
@@ -327,6 +334,8 @@ _OLD_CHOICES: dict[str, dict[str, FieldValue]] = {
     "arithmetic": {"operation": "power"},
     "round": {"way": "nearest"},
     "list_sorted": {"order": "up"},
+    "list_split": {"mark": ""},
+    "count": {"step": 1},
     "list_get": {"end": "start"},
     "list_take": {"end": "start"},
     "list_set": {"end": "start"},
@@ -339,7 +348,7 @@ _OLD_FROM_END = {
     "list_set": "list[-int(number)] = value",
     "list_remove": "del list[-int(number)]",
 }
-_MUST_BE_CLEAR = {"letter": frozenset({"text"}), "append_text": frozenset({"text"})}
+_MUST_BE_CLEAR = dict.fromkeys(("letter", "append_text", "list_split"), frozenset({"text"}))
 
 
 def _old_patterns(definition: Definition) -> Iterator[Pattern]:
@@ -362,7 +371,14 @@ def _old_pattern(definition: Definition, text: str, fields: Mapping[str, FieldVa
     keys = tuple(key for key, _ in definition.keys({}))
     size = sum(_says(inner) for node in nodes for inner in ast.walk(node))
     clear = _MUST_BE_CLEAR.get(definition.generator, frozenset())
-    return Pattern(definition, nodes, fields, {}, keys, size, clear)
+    return Pattern(definition, nodes, fields, {}, keys, size, clear, _is_range(nodes))
+
+
+def _is_range(nodes: Sequence[ast.AST]) -> bool:
+    match nodes:
+        case [ast.For(target=ast.Name(id=name), iter=ast.Call(func=ast.Name(id="range")))]:
+            return name == VARIABLE_NAME
+    return False
 
 
 def _patterns(definition: Definition, language: Language) -> Iterator[Pattern]:
@@ -378,7 +394,7 @@ def _patterns(definition: Definition, language: Language) -> Iterator[Pattern]:
                 except _NOT_MADE:
                     continue  # not made in this variant
                 form = _form(nodes)
-                if nodes and form not in (*seen, _MARKER):
+                if nodes and form not in (*seen, _MARKER) and not _is_range(nodes):
                     seen.add(form)
                     size = sum(_says(inner) for node in nodes for inner in ast.walk(node))
                     clear = frozenset(learner.clear)

@@ -311,7 +311,7 @@ def read_rules(
     is ``known`` is not read: its chain is empty. It may hold what blocks say but nobody can read.
     """
     left = Counter(known)
-    names = names_in(editor, source.tree)
+    names = names_in(editor, source.tree, as_code)
     reader = StatementReader(editor.language, names, source)
     rules, after = [], 0
     for node in source.tree.body:

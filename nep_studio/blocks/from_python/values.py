@@ -64,8 +64,12 @@ class SourceNames:
         return bool(kinds_of(node) & kinds)
 
 
-def names_in(editor: Editor, tree: ast.Module) -> SourceNames:
-    """Find what the names of a text stand for in a project, and make there what lacks."""
+def names_in(editor: Editor, tree: ast.Module, as_code: Collection[str] = ()) -> SourceNames:
+    """Find what the names of a text stand for in a project, and make there what lacks.
+
+    What an own block's function keeps to itself is a variable too, that only this block uses;
+    unless the function is named in ``as_code``: its lines stay Python.
+    """
     names = _known(editor)
     names.kinds = _kinds_given(tree, names)
     assigned: list[str] = []
@@ -77,6 +81,8 @@ def names_in(editor: Editor, tree: ast.Module) -> SourceNames:
                 _note(editor, names, name, made, node)
             case ast.FunctionDef(decorator_list=[]):
                 _note_procedure(editor, names, node)
+                if node.name not in as_code:
+                    assigned += _kept(node, tree)
             case ast.Assign(targets=[ast.Name(id=name)], value=ast.Constant() | ast.List()):
                 assigned.append(name)
     for name in [*assigned, *_shared(tree)]:
@@ -87,6 +93,21 @@ def names_in(editor: Editor, tree: ast.Module) -> SourceNames:
             names.variables[name] = editor.add_variable(name if name not in taken else f"{name}_")
     _require_variables(names, tree)
     return names
+
+
+def _kept(function: ast.FunctionDef, tree: ast.Module) -> list[str]:
+    """The names that a function gives values to, and that nothing else in a text has."""
+    elsewhere = {argument.arg for argument in function.args.args} | {"_"}
+    for other in tree.body:
+        named = ast.walk(other) if other is not function else iter(())
+        elsewhere.update(node.id for node in named if isinstance(node, ast.Name))
+    made: dict[str, None] = {}
+    for node in ast.walk(function):
+        if isinstance(node, ast.Global | ast.Nonlocal):
+            elsewhere |= set(node.names)
+        elif isinstance(node, ast.Name) and isinstance(node.ctx, ast.Store):
+            made[node.id] = None
+    return [name for name in made if name not in elsewhere]
 
 
 def _kinds_given(tree: ast.Module, names: SourceNames) -> dict[str, int]:
@@ -309,6 +330,19 @@ class Found:
         return True
 
 
+def _has_rounds(made: Made) -> bool:
+    """Put the last number of range(...) into a block that counts; False where it has no round.
+
+    The block would then count down, or it is not known.
+    """
+    first, end, step = (made.fields.get(key) for key in ("first", "last", "step"))
+    if made.inputs or not (type(first) is type(end) is type(step) is int) or not step:
+        return False
+    assert isinstance(first, int) and isinstance(end, int) and isinstance(step, int)
+    made.fields["last"] = last = end - (1 if step > 0 else -1)
+    return first <= last if step > 0 else first >= last
+
+
 def _whole_slot(node: ast.Call) -> str:
     """The slot in ``int(slot)``, which is written only where the slot may give a fraction."""
     match node:
@@ -327,6 +361,11 @@ def _within(node: ast.expr, names: Collection[str]) -> ast.expr:
         case ast.Call(func=ast.Name(id=name), args=[inner], keywords=[]) if name in names:
             return inner
     return node
+
+
+def _is_junction(node: ast.expr) -> bool:
+    """Whether it is a truth made of “and” or “or”: their blocks give one by themselves."""
+    return isinstance(_within(node, ("bool",)), ast.BoolOp)
 
 
 def _without_int(node: ast.expr) -> ast.expr:
@@ -407,6 +446,7 @@ class ValueReader:
         kind, may_be = slot.kind, self.names.may_be
         if not kind.becomes_text:
             inner = _within(node, ("as_number",) if kind.is_number else _MADE.get(kind.name, ()))
+            inner = _within(node, ("bool",)) if _is_junction(node) else inner
             needed = NUMBER if kind.is_number else RESULT_KINDS.get(kind.name, ANY)
             if inner is node and kind.name != "boolean" and not may_be(node, needed):
                 return None
@@ -489,6 +529,8 @@ class ValueReader:
             if not self.fill(made, key, node, is_clear=key in clear):
                 return None
         if is_join and not self._is_clear_join(made, found):
+            return None
+        if pattern.is_range and not _has_rounds(made):
             return None
         for key, word in found.words.items():
             if pattern.definition.slots[split_slot(key)[0]].why_not(word) is not None:

@@ -419,7 +419,9 @@ def _split(code: Expressions, block: Block) -> ast.expr:
     text, mark = code.slot(block, "text"), code.slot(block, "mark")
     if not isinstance(mark, ast.Constant):
         return code.api_call("parts_of", text, mark)
-    return method_call(text, "split", [mark]) if mark.value else call("list", text)
+    if mark.value:
+        return method_call(text, "split", [mark])
+    return call("list", code.clear_text(block, "text"))
 
 
 # The Python of own blocks and of code that a person wrote: calls, parameters, the names in it.

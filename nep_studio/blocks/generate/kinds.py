@@ -111,6 +111,8 @@ def kinds_of(node: ast.expr) -> int:
             return _all(map(kinds_of, values))
         case ast.IfExp(body=body, orelse=orelse):
             return kinds_of(body) | kinds_of(orelse)
+        case ast.Attribute(value=ast.Name(id="math")):
+            return FRACTION
         case ast.List():
             return LIST
         case ast.Call(func=ast.Name(id=name)):
