@@ -19,7 +19,7 @@ from nep_studio.blocks.errors import BlocksError, CodeRefused
 from nep_studio.blocks.generate.expressions import Body, Expressions, Function, Piece, show
 from nep_studio.blocks.generate.generators import REPORTERS, STATEMENTS
 from nep_studio.blocks.generate.kinds import ANY, LIST, NUMBER, TEXT, WHOLE, Kinds, note
-from nep_studio.blocks.generate.names import ProgramNames
+from nep_studio.blocks.generate.names import VALUES, ProgramNames
 from nep_studio.blocks.generate.rules import HATS
 from nep_studio.blocks.language import Language
 from nep_studio.blocks.procedures import procedure_of
@@ -107,6 +107,8 @@ class Learner(Expressions):
         self._functions = 0
         self.clear: set[str] = set()
         """The slots that must show that they hold a text."""
+        self.free: set[str] = set()
+        """The slots that take a value of any kind."""
 
     def nodes(self, definition: Definition, groups: Mapping[str, int]) -> tuple[ast.AST, ...]:
         """The Python of a new block of a definition."""
@@ -121,7 +123,7 @@ class Learner(Expressions):
 
     def slot(self, block: Block, key: str) -> ast.expr:
         """A marker for a slot; the text slots of a value that is no text are markers too."""
-        slot, node = self._slot(block, key), self.value_in(block, key)
+        slot, node = self._slot(block, key), self._marker(block, key)
         if slot.kind.is_number and not isinstance(node, ast.Constant):
             return note(node, self._known.number)
         if slot.kind.name == "list":
@@ -130,6 +132,10 @@ class Learner(Expressions):
 
     def value_in(self, block: Block, key: str) -> ast.expr:
         """A marker for a slot, of the kinds that are known in this variant."""
+        self.free.add(key)
+        return self._marker(block, key)
+
+    def _marker(self, block: Block, key: str) -> ast.expr:
         slot = self._slot(block, key)
         self.filled.add(key)
         if key == self._plain:
@@ -227,6 +233,8 @@ class Pattern:
     size: int
     clear: frozenset[str] = frozenset()
     """The slots where only a text is meant that shows itself as one."""
+    free: frozenset[str] = frozenset()
+    """The slots that take a value of any kind: what Python calls looks at it while it runs."""
     is_range: bool = False
     """Whether it counts with range(...), which ends before its end."""
 
@@ -302,61 +310,47 @@ def _order(pattern: Pattern) -> tuple[bool, int, int, int]:
 # Python of earlier versions, and of people, that means what a block says. Where it would do
 # something else without a word, such as range(1, n + 1) for an n of 0, it stays Python.
 
-_OLD: dict[str, tuple[str, ...]] = {
-    "list_get": ("list[int(number) - 1]",),
-    "list_take": ("list.pop(int(number) - 1)",),
-    "list_set": ("list[int(number) - 1] = value",),
-    "list_remove": ("del list[int(number) - 1]",),
-    "list_insert": ("list.insert(int(number) - 1, value)",),
-    "list_filled": ("[item] * int(times)",),
-    "list_find": ("list.index(item) + 1 if item in list else 0",),
-    "list_contains": ("item in list",),
-    "list_joined": ("mark.join(map(str, list))", "mark.join(list)"),
-    "list_sorted": ("sorted(list)",),
-    "letter": ("text[int(number) - 1]",),
-    "random_integer": ("random.randint(int(low), int(high))",),
-    "text_replace": ("text.replace(part, new)",),
-    "text_case": ("text.title()",),
-    "text_number": ("float(text)",),
-    "arithmetic": ("a ** b",),
-    "round": ("round(number)",),
-    "repeat": ("for _ in range(int(times)):\n    BODY_do",),
-    "list_split": ("list(text)",),
-    "count": (
-        "for VARIABLE_variable in range(first, last):\n    BODY_do",
-        "for VARIABLE_variable in range(first, last, step):\n    BODY_do",
+_START: dict[str, FieldValue] = {"end": "start"}
+_END: dict[str, FieldValue] = {"end": "end"}
+_Old = tuple[str, Mapping[str, FieldValue]]
+_OLD: dict[str, tuple[_Old, ...]] = {
+    "list_get": (("list[int(number) - 1]", _START), ("list[-int(number)]", _END)),
+    "list_take": (("list.pop(int(number) - 1)", _START), ("list.pop(-int(number))", _END)),
+    "list_set": (
+        ("list[int(number) - 1] = value", _START),
+        ("list[-int(number)] = value", _END),
     ),
-    "change_variable": ("VARIABLE_variable += amount",),
-    "append_text": ("VARIABLE_variable += text",),
+    "list_remove": (("del list[int(number) - 1]", _START), ("del list[-int(number)]", _END)),
+    "list_insert": (("list.insert(int(number) - 1, value)", _START),),
+    "list_filled": (("[item] * int(times)", {}),),
+    "list_find": (("list.index(item) + 1 if item in list else 0", {}),),
+    "list_contains": (("item in list", {}),),
+    "list_joined": (("mark.join(map(str, list))", {}), ("mark.join(list)", {})),
+    "list_sorted": (("sorted(list)", {"order": "up"}),),
+    "list_split": (("text.split(mark)", {}), ("list(text)", {"mark": ""})),
+    "letter": (("text[int(number) - 1]", {}),),
+    "random_integer": (("random.randint(int(low), int(high))", {}),),
+    "text_replace": (("text.replace(part, new)", {}),),
+    "text_case": (("text.title()", {"case": "title"}),),
+    "text_number": (("float(text)", {}),),
+    "arithmetic": (("a ** b", {"operation": "power"}),),
+    "round": (("round(number)", {"way": "nearest"}),),
+    "repeat": (("for _ in range(int(times)):\n    BODY_do", {}),),
+    "count": (
+        ("for VARIABLE_variable in range(first, last):\n    BODY_do", {"step": 1}),
+        ("for VARIABLE_variable in range(first, last, step):\n    BODY_do", {}),
+    ),
+    "change_variable": (("VARIABLE_variable += amount", {}),),
+    "append_text": (("VARIABLE_variable += text", {}),),
 }
-_OLD_CHOICES: dict[str, dict[str, FieldValue]] = {
-    "text_case": {"case": "title"},
-    "arithmetic": {"operation": "power"},
-    "round": {"way": "nearest"},
-    "list_sorted": {"order": "up"},
-    "list_split": {"mark": ""},
-    "count": {"step": 1},
-    "list_get": {"end": "start"},
-    "list_take": {"end": "start"},
-    "list_set": {"end": "start"},
-    "list_remove": {"end": "start"},
-    "list_insert": {"end": "start"},
-}
-_OLD_FROM_END = {
-    "list_get": "list[-int(number)]",
-    "list_take": "list.pop(-int(number))",
-    "list_set": "list[-int(number)] = value",
-    "list_remove": "del list[-int(number)]",
-}
-_MUST_BE_CLEAR = dict.fromkeys(("letter", "append_text", "list_split"), frozenset({"text"}))
+_MUST_BE_CLEAR = dict.fromkeys(
+    ("text[int(number) - 1]", "VARIABLE_variable += text", "list(text)"), frozenset({"text"})
+)
 
 
 def _old_patterns(definition: Definition) -> Iterator[Pattern]:
-    generator = definition.generator
-    for text in _OLD.get(generator, ()):
-        yield _old_pattern(definition, text, _OLD_CHOICES.get(generator, {}))
-    if generator in _OLD_FROM_END:
-        yield _old_pattern(definition, _OLD_FROM_END[generator], {"end": "end"})
+    for text, fields in _OLD.get(definition.generator, ()):
+        yield _old_pattern(definition, text, fields)
 
 
 def _old_pattern(definition: Definition, text: str, fields: Mapping[str, FieldValue]) -> Pattern:
@@ -370,8 +364,9 @@ def _old_pattern(definition: Definition, text: str, fields: Mapping[str, FieldVa
         nodes = tuple(node.value for node in tree.body if isinstance(node, ast.Expr))
     keys = tuple(key for key, _ in definition.keys({}))
     size = sum(_says(inner) for node in nodes for inner in ast.walk(node))
-    clear = _MUST_BE_CLEAR.get(definition.generator, frozenset())
-    return Pattern(definition, nodes, fields, {}, keys, size, clear, _is_range(nodes))
+    clear = _MUST_BE_CLEAR.get(text, frozenset())
+    is_range = _is_range(nodes)
+    return Pattern(definition, nodes, fields, {}, keys, size, clear, is_range=is_range)
 
 
 def _is_range(nodes: Sequence[ast.AST]) -> bool:
@@ -397,8 +392,9 @@ def _patterns(definition: Definition, language: Language) -> Iterator[Pattern]:
                 if nodes and form not in (*seen, _MARKER) and not _is_range(nodes):
                     seen.add(form)
                     size = sum(_says(inner) for node in nodes for inner in ast.walk(node))
+                    free = frozenset(learner.free if learner.api & VALUES else ())
                     clear = frozenset(learner.clear)
-                    yield Pattern(definition, nodes, fields, groups, keys, size, clear)
+                    yield Pattern(definition, nodes, fields, groups, keys, size, clear, free)
 
 
 def _group_counts(definition: Definition) -> Iterator[dict[str, int]]:

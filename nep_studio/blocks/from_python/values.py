@@ -80,7 +80,7 @@ def names_in(editor: Editor, tree: ast.Module, as_code: Collection[str] = ()) ->
             ) if made in HEADERS:
                 _note(editor, names, name, made, node)
             case ast.FunctionDef(decorator_list=[]):
-                _note_procedure(editor, names, node)
+                _note_procedure(editor, names, node, tree)
                 if node.name not in as_code:
                     assigned += _kept(node, tree)
             case ast.Assign(targets=[ast.Name(id=name)], value=ast.Constant() | ast.List()):
@@ -191,7 +191,9 @@ def _add_robot(editor: Editor, name: str) -> None:
         append_entry(editor, "robots", ROBOT_BLOCK, {"name": name})
 
 
-def _note_procedure(editor: Editor, names: SourceNames, node: ast.FunctionDef) -> None:
+def _note_procedure(
+    editor: Editor, names: SourceNames, node: ast.FunctionDef, tree: ast.Module
+) -> None:
     given = node.args
     if given.vararg or given.kwarg or given.kwonlyargs or given.posonlyargs or given.defaults:
         raise CodeUnread(
@@ -204,12 +206,30 @@ def _note_procedure(editor: Editor, names: SourceNames, node: ast.FunctionDef) -
     known = names.procedures.get(node.name)
     if known is not None and len(parameters(known)) == len(wanted):
         return
-    own = [Parameter(editor.project.new_id("a"), name.replace("_", " ")) for name in wanted]
+    own = [
+        Parameter(editor.project.new_id("a"), name.replace("_", " "), kind)
+        for name, kind in zip(wanted, _kinds_of_parameters(node, tree), strict=True)
+    ]
     procedure = Procedure(
         editor.project.new_id("p"), (node.name.replace("_", " ").strip(), *own), gives_value
     )
     editor.apply(AddProcedure(procedure, len(editor.project.procedures)))
     names.procedures[node.name] = procedure
+
+
+_MAKES = {"as_list": "list", "as_number": "number", "bool": "boolean"}
+
+
+def _kinds_of_parameters(function: ast.FunctionDef, tree: ast.Module) -> list[str]:
+    """The kinds of the values of an own block, where a call makes sure of one."""
+    kinds = ["any"] * len(function.args.args)
+    for node in ast.walk(tree):
+        if not isinstance(node, ast.Call) or getattr(node.func, "id", "") != function.name:
+            continue
+        for place, given in enumerate(node.args[: len(kinds)]):
+            if isinstance(given, ast.Call) and isinstance(given.func, ast.Name):
+                kinds[place] = _MAKES.get(given.func.id, kinds[place])
+    return kinds
 
 
 def _shared(tree: ast.Module) -> Iterator[str]:
@@ -410,10 +430,12 @@ class ValueReader:
         """The type of the block that a generator makes, or an empty text."""
         return self._types.get(generator, "")
 
-    def fill(self, made: Made, key: str, node: ast.expr, *, is_clear: bool = False) -> bool:
+    def fill(
+        self, made: Made, key: str, node: ast.expr, *, is_clear: bool = False, is_free: bool = False
+    ) -> bool:
         """Put an expression into a slot of a block; False when it does not go there.
 
-        ``is_clear``: a text must show that it is one.
+        ``is_clear``: a text must show that it is one; ``is_free``: a value of any kind will do.
         """
         slot = self.language.definitions[made.type].slots[split_slot(key)[0]]
         value = self.field(slot, node, made, key)
@@ -422,7 +444,12 @@ class ValueReader:
             return True
         if slot.kind.name == "list" and isinstance(node, ast.List) and not node.elts:
             return True
-        plugged = self.plugged(slot, node, is_clear=is_clear) if slot.kind.pluggable else None
+        plugged = None
+        if slot.kind.pluggable and is_free:
+            found = self.blocks(node)
+            plugged = next((made for made, result in found if result in slot.kind.fits), None)
+        elif slot.kind.pluggable:
+            plugged = self.plugged(slot, node, is_clear=is_clear)
         if plugged is None:
             return False
         made.inputs[key] = plugged
@@ -451,13 +478,13 @@ class ValueReader:
             if inner is node and kind.name != "boolean" and not may_be(node, needed):
                 return None
             return next((made for made, result in self.blocks(inner) if result in kind.fits), None)
-        for made, result in self.blocks(node):
-            if result in TEXT_RESULTS:
-                return made
         inner, others = _within(node, _TOLD), kind.fits - TEXT_RESULTS
         if inner is node:
             is_shown = not is_clear or not may_be(node, ANY & ~TEXT)
             others = frozenset({"any"}) if is_shown and may_be(node, TEXT) else frozenset()
+            others |= TEXT_RESULTS
+            found = sorted(self.blocks(node), key=lambda made: made[1] not in TEXT_RESULTS)
+            return next((made for made, result in found if result in others), None)
         return next((made for made, result in self.blocks(inner) if result in others), None)
 
     def blocks(self, node: ast.expr) -> list[tuple[Made, str]]:
@@ -526,7 +553,8 @@ class ValueReader:
         is_join = pattern.definition.generator == "join"
         clear = frozenset() if is_join else pattern.clear
         for key, node in found.slots.items():
-            if not self.fill(made, key, node, is_clear=key in clear):
+            is_free = key in pattern.free
+            if not self.fill(made, key, node, is_clear=key in clear, is_free=is_free):
                 return None
         if is_join and not self._is_clear_join(made, found):
             return None
@@ -579,9 +607,24 @@ class ValueReader:
             made_from = self.made_from(pattern, found) if found is not None else None
             if made_from is not None:
                 yield made_from, pattern.definition.result
+        if (converted := self._converted(node)) is not None:
+            yield converted
         code = self.type_of("code_value")
         if code and not isinstance(node, ast.Constant) and _is_code(node):
             yield Made(code, {"code": ast.unparse(node)}), definitions[code].result
+
+    def _converted(self, node: ast.expr) -> tuple[Made, str] | None:
+        """The block of a text or a number that is made of the value in it, and its result."""
+        for generator, names in (("text", _TOLD), ("number", ("as_number",))):
+            inner, block_type = _within(node, names), self.type_of(generator)
+            if inner is node or not block_type:
+                continue
+            definition = self.language.definitions[block_type]
+            fits = definition.slots[generator].kind.fits - TEXT_RESULTS
+            for made, result in self.blocks(inner):
+                if result in fits:
+                    return Made(block_type, inputs={generator: made}), definition.result
+        return None
 
     def _named(self, name: str) -> Iterator[tuple[Made, str]]:
         definitions = self.language.definitions

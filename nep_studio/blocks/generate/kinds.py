@@ -438,6 +438,8 @@ class FactReader:
         ends = [self._walk(chain, inner, depth + 1) for chain in block.bodies.values()]
         if generator == "if":
             return self._after_if(block, ends, known)
+        if generator == "code_lines" and gives_back(str(definition.value(block, "code"))):
+            return None
         if definition.shape == "cap" or generator == "forever":
             return None if not self._is_left(block) else known
         return known
@@ -489,6 +491,13 @@ def names_in_code(text: str) -> frozenset[str]:
     """The names in Python that a person wrote; none where it is refused when it is written."""
     tree = _tree(text)
     return frozenset(n.id for n in ast.walk(tree) if isinstance(n, ast.Name)) if tree else NO_NAMES
+
+
+@lru_cache(maxsize=1024)
+def gives_back(text: str) -> bool:
+    """Whether Python that a person wrote ends its function itself, at one place at least."""
+    tree = _tree(text)
+    return tree is not None and any(isinstance(node, ast.Return) for node in ast.walk(tree))
 
 
 @lru_cache(maxsize=1024)
