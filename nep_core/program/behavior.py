@@ -26,6 +26,7 @@ from nep_core.wire.pubsub import Publisher
 
 from .human import human_listener, state_of_thing, state_of_word, word_of_state
 from .tasks import POLL_S, PROGRAM, Part, Task, current_task
+from .values import speak
 
 Action = Callable[[], object]
 Condition = Callable[[], object]
@@ -56,10 +57,18 @@ class Rule:
 class Behavior:
     """The rules of a program; ``run`` returns when the program ends.
 
-    A behaviour without rules ends when all that was started at the start is done.
+    A behaviour without rules ends when all that was started at the start is done. ``language`` is
+    that in which values are told: the words for true, false and “and”, and the decimal mark.
     """
 
-    def __init__(self, name: str = "behaviour", *, network: Network | None = None) -> None:
+    def __init__(
+        self,
+        name: str = "behaviour",
+        *,
+        language: str = "en",
+        network: Network | None = None,
+    ) -> None:
+        speak(language)
         self.name = name
         self._network = network
         self._rules: list[Rule] = []

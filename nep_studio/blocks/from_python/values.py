@@ -9,7 +9,7 @@ from functools import partial
 
 from nep_studio.blocks.code_text import CodeTextRefused, read_value
 from nep_studio.blocks.definitions import Definition, Slot
-from nep_studio.blocks.edits.content import AddProcedure
+from nep_studio.blocks.edits.content import AddProcedure, SetExtra
 from nep_studio.blocks.edits.project import RenameProject
 from nep_studio.blocks.language import Language
 from nep_studio.blocks.procedures import CALL, PARAMETER, parameters, words
@@ -22,7 +22,7 @@ from ..generate.expressions import known_whole
 from ..generate.kinds import ANY, NUMBER, RESULT_KINDS, TEXT, kinds_of
 from ..generate.names import RESERVED, python_name
 from ..operations.fixes import append_entry
-from ..program import ALL_ROBOTS, ROBOT_BLOCK, Parameter, Procedure
+from ..program import ALL_ROBOTS, LANGUAGE, LANGUAGES, ROBOT_BLOCK, Parameter, Procedure
 from .learning import (
     BODY,
     PART,
@@ -168,6 +168,7 @@ def _note(editor: Editor, names: SourceNames, name: str, made: str, node: ast.As
         case [ast.Constant(value=str(text))] if made == "Behavior":
             if text != editor.project.name:
                 editor.apply(RenameProject(text))
+            _note_language(editor, call)
         case [ast.Constant(value=str(text))]:
             if text not in names.robots.values():
                 _add_robot(editor, text)
@@ -184,6 +185,14 @@ def _note(editor: Editor, names: SourceNames, name: str, made: str, node: ast.As
                 checklist=('Write the name in quotes, such as "NAO".',),
                 made=made,
             )
+
+
+def _note_language(editor: Editor, call: ast.Call) -> None:
+    """The language in which the program tells values; one that is not known stays as it was."""
+    given = {keyword.arg: getattr(keyword.value, "value", "") for keyword in call.keywords}
+    code = given.get(LANGUAGE, LANGUAGES[0])
+    if code in LANGUAGES and code != editor.project.spoken_language:
+        editor.apply(SetExtra(LANGUAGE, None if code == LANGUAGES[0] else code))
 
 
 def _add_robot(editor: Editor, name: str) -> None:

@@ -11,7 +11,7 @@ from nep_studio.blocks.deployment import RobotEntry, chains, node_entries, robot
 from nep_studio.blocks.errors import CodeRefused
 from nep_studio.blocks.language import Language
 from nep_studio.blocks.procedures import DEFINE, parameters, procedure_of, words
-from nep_studio.blocks.program import ALL_ROBOTS, Project
+from nep_studio.blocks.program import ALL_ROBOTS, LANGUAGES, Project
 from nep_studio.blocks.slices import Steps, at_once
 from nep_studio.blocks.slots import Setting, constant
 
@@ -198,7 +198,9 @@ class ProgramGenerator:
             api.add("Robot")
         head = [_docstring(self._project.name), *(f"import {name}" for name in sorted(modules))]
         head += [f"from nep_core import {', '.join(sorted(api))}", ""]
-        behavior = show(call("Behavior", ast.Constant(self._project.name)))
+        code = self._project.spoken_language
+        options = {} if code == LANGUAGES[0] else {"language": ast.Constant(code)}
+        behavior = show(call("Behavior", ast.Constant(self._project.name), **options))
         first = self._kinds.first
         globals_ = [f"{name} = {first[v]}" for v, name in names.variables.items() if v in begun]
         page = [*_unmade(head), *robots, *_unmade([f"behavior = {behavior}", *globals_])]
