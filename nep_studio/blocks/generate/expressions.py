@@ -168,8 +168,12 @@ class Expressions:
 
     def slot(self, block: Block, key: str) -> ast.expr:
         """What is in a slot, made what the slot needs: a number, a list or a text."""
-        kind = self.definition(block).slots[split_slot(key)[0]].kind
-        return self.fitting(self.value_in(block, key), kind)
+        plugged = self.plugged(block, key)
+        definition = self.definition(block)
+        kind = definition.slots[split_slot(key)[0]].kind
+        if plugged is None:  # what is typed fits
+            return self._field(block, key, kind, definition.value(block, key))
+        return self.fitting(self.value(plugged), kind)
 
     def value_in(self, block: Block, key: str) -> ast.expr:
         """What is in a slot, of whatever kind: the block plugged into it, else its field."""

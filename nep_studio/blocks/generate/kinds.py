@@ -233,6 +233,15 @@ NO_NAMES: frozenset[str] = frozenset()
 _HARMLESS = ("as_number(", "as_text(", "as_list(", "str(", "bool(")
 
 
+_LOOKED_AT = frozenset(
+    {
+        *(*_SETS, *_PUT_IN_LISTS, *_CODE),
+        *("variable", "count", "for_each", "list_create", "list_split", "own_return", "own_call"),
+    }
+)
+"""The blocks that put something somewhere, or name a variable."""
+
+
 class FactReader:
     """Reads the facts of one stack."""
 
@@ -254,7 +263,11 @@ class FactReader:
         self._procedure = procedure_of(hat.type) if hat.type.startswith(DEFINE) else ""
         for block in self._project.within(chain, enabled=True):
             definition = self._language.definitions.get(block.type)
-            if definition is not None:
+            if definition is None:
+                continue
+            if block.inputs:
+                self._inputs(block, definition)
+            if definition.generator in _LOOKED_AT:
                 self._block(block, definition)
         end = self._walk(chain[1:], frozenset(), 0)
         if self._procedure and end is not None:  # it ends without giving back: 0
@@ -273,7 +286,6 @@ class FactReader:
 
     def _block(self, block: Block, definition: Definition) -> None:
         generator = definition.generator
-        self._inputs(block, definition)
         if "variable" in definition.slots:
             self._variable_block(block, definition)
         if generator in _PUT_IN_LISTS:
@@ -425,7 +437,8 @@ class FactReader:
     def _step(
         self, block: Block, definition: Definition, known: frozenset[str], depth: int
     ) -> frozenset[str] | None:
-        self._reads(block, known)
+        if block.inputs:
+            self._reads(block, known)
         generator, variable = definition.generator, _variable(block)
         if generator == "set_variable":
             return known | {variable}
@@ -434,6 +447,8 @@ class FactReader:
         if "apart" in definition.flags:
             inside = [block_id for chain in block.bodies.values() for block_id in chain]
             self._apart.update(self._variables_in(inside))
+        if not block.bodies and definition.shape != "cap" and generator != "code_lines":
+            return known
         inner = known | {variable} if generator in ("count", "for_each") else known
         ends = [self._walk(chain, inner, depth + 1) for chain in block.bodies.values()]
         if generator == "if":

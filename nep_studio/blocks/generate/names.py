@@ -8,6 +8,7 @@ import re
 import unicodedata
 from collections.abc import Iterable
 from dataclasses import dataclass, field
+from functools import lru_cache
 
 VALUES = frozenset(
     {
@@ -68,6 +69,7 @@ RESERVED = frozenset(
 _LONGEST = 40
 
 
+@lru_cache(maxsize=4096)  # asked for each rule at every edit
 def python_name(text: str, fallback: str) -> str:
     """Turn any text into an identifier, as near to it as can be: “größe (cm)” to größe_cm.
 
