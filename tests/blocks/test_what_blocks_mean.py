@@ -9,9 +9,12 @@ from block_building import B, build
 
 from nep_core.errors import ValueRefused
 from nep_core.program import values
+from nep_core.program.behavior import Behavior
 from nep_studio.blocks.editor import Editor
+from nep_studio.blocks.edits.content import SetExtra
+from nep_studio.blocks.files import from_bytes, to_bytes
 from nep_studio.blocks.generate.program import generate_program
-from nep_studio.blocks.program import Project
+from nep_studio.blocks.program import LANGUAGE, Project
 from tests.blocks.block_building import read_program
 
 NAMES = ("out", "l", "w", "n", "i")
@@ -455,3 +458,33 @@ def test_many_powers_and_roundings_agree_with_what_they_are():
         if number != 0.49999999999999994:
             assert values.to_nearest(number) == away
     assert values.to_nearest(0.49999999999999994) == 0
+
+
+def test_the_language_of_a_program_is_kept_and_said_in_its_python(language):
+    editor = build(language, [B("event.started")])
+    editor.apply(SetExtra(LANGUAGE, "de"))
+    text = generate_program(editor.project, language).text
+
+    read = read_program(text, language)
+
+    assert 'behavior = Behavior("Test", language="de")\n' in text
+    assert read.spoken_language == "de" and generate_program(read, language).text == text
+    again = from_bytes(to_bytes(editor.project), "a.nep", language)
+    assert again.spoken_language == "de"
+    english = read_program(text.replace(', language="de"', ""), language, again)
+    assert english.spoken_language == "en" and LANGUAGE not in english.extra
+
+
+@pytest.mark.parametrize("kept", ["xx", 5, ["de"], None])
+def test_a_language_that_is_not_known_is_english(language, kept):
+    editor = build(language, [B("event.started")])
+    editor.project.extra[LANGUAGE] = kept
+
+    assert 'Behavior("Test")\n' in generate_program(editor.project, language).text
+
+
+def test_a_program_speaks_the_language_that_its_behaviour_was_given():
+    Behavior("T", language="fr")
+    assert values.as_text([0.5, True]) == "0,5 et vrai"
+    Behavior("T")
+    assert values.as_text([0.5, True]) == "0.5 and true"
