@@ -32,6 +32,7 @@ if TYPE_CHECKING:
     from .program.tasks import stop_program, together, wait, wait_until
     from .program.values import (
         add_item,
+        append_text,
         as_list,
         as_number,
         as_text,
@@ -85,10 +86,10 @@ _HOMES = {
         "was_seen",
         "program.robot": "Robot colour_from mix_colours",
         "program.tasks": "stop_program together wait wait_until",
-        "program.values": "add_item as_list as_number as_text count_from deviation_of has_item "
-        "has_part insert_item is_at_least is_at_most is_less is_more is_same item_of items_between "
-        "join_items largest_of length_of letter_of list_with mean_of median_of number_in "
-        "parts_of place_in_text place_of random_whole remove_item replace_part set_item "
+        "program.values": "add_item append_text as_list as_number as_text count_from deviation_of "
+        "has_item has_part insert_item is_at_least is_at_most is_less is_more is_same item_of "
+        "items_between join_items largest_of length_of letter_of list_with mean_of median_of "
+        "number_in parts_of place_in_text place_of random_whole remove_item replace_part set_item "
         "smallest_of sorted_items sum_of take_item title_case to_nearest to_power",
         "wire.pubsub": "Publisher Subscriber",
     }.items()
@@ -100,7 +101,8 @@ __all__ += ["NepError", "Node", "PeerNetwork", "Publisher", "Robot", "Subscriber
 __all__ += ["heard_word", "human_state", "in_turn", "is_remembered", "mix_colours", "one_of"]
 __all__ += ["remember", "stop_program", "times_seen", "together", "until_state", "wait"]
 __all__ += ["wait_until", "was_seen"]
-__all__ += ["add_item", "as_list", "as_number", "as_text", "count_from", "deviation_of"]
+__all__ += ["add_item", "append_text", "as_list", "as_number", "as_text", "count_from"]
+__all__ += ["deviation_of"]
 __all__ += ["has_item", "has_part", "insert_item", "is_at_least", "is_at_most", "is_less"]
 __all__ += ["is_more", "is_same", "item_of", "items_between", "join_items", "largest_of"]
 __all__ += ["length_of", "letter_of", "list_with", "mean_of", "median_of", "number_in"]

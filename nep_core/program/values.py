@@ -415,6 +415,11 @@ def title_case(text: str) -> str:
     return re.sub(r"\S+", lambda word: word[0][0].upper() + word[0][1:].lower(), text)
 
 
+def append_text(text: str, to: Any) -> str:
+    """A value told as a text, with a text behind it."""
+    return as_text(to) + text
+
+
 def parts_of(text: str, mark: str) -> list[str]:
     """The parts of a text between a mark; its letters where the mark is empty."""
     return text.split(mark) if mark else list(text)

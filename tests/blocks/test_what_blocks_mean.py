@@ -488,3 +488,26 @@ def test_a_program_speaks_the_language_that_its_behaviour_was_given():
     assert values.as_text([0.5, True]) == "0,5 et vrai"
     Behavior("T")
     assert values.as_text([0.5, True]) == "0.5 and true"
+
+
+def test_what_is_added_is_worked_out_before_the_variable_is_read(language):
+    editor = Editor(Project(), language)
+    n, w = editor.add_variable("n"), editor.add_variable("w")
+    own = editor.add_procedure(["bump"], gives_value=True)
+    append = B("text.append", {"variable": w, "text": "a"})
+    bump = [B("variable.change", {"variable": n}), append, with_slots("my.return", None, value=1)]
+    call = B(f"my.call.{own}")
+    change = with_slots("variable.change", {"variable": n}, amount=call)
+    behind = with_slots("text.append", {"variable": w}, text=call)
+    build(
+        language,
+        [B(f"my.define.{own}"), *bump],
+        [B("event.started"), change, behind],
+        editor=editor,
+    )
+    text = generate_program(editor.project, language).text
+
+    held = ran(text)
+
+    assert (held["n"], held["w"]) == (3, "aa1")
+    assert generate_program(read_program(text, language), language).text == text

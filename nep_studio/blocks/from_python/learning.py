@@ -105,7 +105,7 @@ class Learner(Expressions):
         self._plain = plain
         self._known = known
         self._functions = 0
-        self.clear: set[str] = set()
+        self.must_show: set[str] = set()
         """The slots that must show that they hold a text."""
         self.free: set[str] = set()
         """The slots that take a value of any kind."""
@@ -149,7 +149,7 @@ class Learner(Expressions):
     def shows_text(self, block: Block, key: str) -> bool:
         """As this variant has it."""
         if self._known.is_plain:
-            self.clear.add(key)
+            self.must_show.add(key)
         return self._known.is_plain
 
     def may_swap(self, first: ast.expr, second: ast.expr) -> bool:
@@ -393,7 +393,7 @@ def _patterns(definition: Definition, language: Language) -> Iterator[Pattern]:
                     seen.add(form)
                     size = sum(_says(inner) for node in nodes for inner in ast.walk(node))
                     free = frozenset(learner.free if learner.api & VALUES else ())
-                    clear = frozenset(learner.clear)
+                    clear = frozenset(learner.must_show)
                     yield Pattern(definition, nodes, fields, groups, keys, size, clear, free)
 
 

@@ -208,7 +208,10 @@ class Expressions:
 
         Elsewhere a variable that holds nothing but texts may stand by itself.
         """
-        node = self.slot(block, key)
+        return self.clear(block, key, self.slot(block, key))
+
+    def clear(self, block: Block, key: str, node: ast.expr) -> ast.expr:
+        """A text that is in a slot, so that Python shows that it is one."""
         if self.shows_text(block, key) or is_told(node):
             return node
         return self.api_call("as_text", node)

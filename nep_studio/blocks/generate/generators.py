@@ -37,6 +37,7 @@ from .expressions import (
     compare,
     is_told,
     known_whole,
+    may_swap,
     method_call,
     refusing,
     show,
@@ -421,7 +422,7 @@ def _split(code: Expressions, block: Block) -> ast.expr:
         return code.api_call("parts_of", text, mark)
     if mark.value:
         return method_call(text, "split", [mark])
-    return call("list", code.clear_text(block, "text"))
+    return call("list", code.clear(block, "text", text))
 
 
 # The Python of own blocks and of code that a person wrote: calls, parameters, the names in it.
@@ -580,19 +581,29 @@ def _assign(sign: str, slot: str) -> StatementGenerator:
 
 
 def _change(code: Expressions, block: Block) -> Sequence[Piece]:
-    if not code.kinds_of_variable(block) & TRUTH:
-        return _assign("+=", "amount")(code, block)  # a text or a list refuses a number
+    """What is added is worked out first, and only then what the variable holds by then."""
     name, amount = code.variable(block), code.slot(block, "amount")
-    changed = code.api_call("as_number", ast.Name(name)), amount
-    return [Assignment(name, f"{name} = {show(ast.BinOp(changed[0], ast.Add(), changed[1]))}")]
+    held: ast.expr = note(ast.Name(name), code.kinds_of_variable(block))
+    if may_swap(amount, held):
+        if not kinds_of(held) & TRUTH:  # a text or a list refuses a number
+            return [Assignment(name, f"{name} += {show(amount)}")]
+        held, amount = amount, code.api_call("as_number", held)
+    elif not are(kinds_of(held), NUMBER):
+        held = code.api_call("as_number", held)
+    return [Assignment(name, f"{name} = {show(ast.BinOp(amount, ast.Add(), held))}")]
 
 
 def _append(code: Expressions, block: Block) -> Sequence[Piece]:
-    name, text = code.variable(block), code.clear_text(block, "text")
-    if are(code.kinds_of_variable(block), TEXT):
-        return [Assignment(name, f"{name} += {show(text)}")]
-    told = code.api_call("as_text", ast.Name(name))
-    return [Assignment(name, f"{name} = {show(ast.BinOp(told, ast.Add(), text))}")]
+    name, text = code.variable(block), code.slot(block, "text")
+    held = note(ast.Name(name), code.kinds_of_variable(block))
+    if not code.may_swap(text, held):  # the text first, then what the variable holds by then
+        value: ast.expr = code.api_call("append_text", text, held)
+    elif are(kinds_of(held), TEXT):
+        return [Assignment(name, f"{name} += {show(code.clear(block, 'text', text))}")]
+    else:
+        shown = code.clear(block, "text", text)
+        value = ast.BinOp(code.api_call("as_text", held), ast.Add(), shown)
+    return [Assignment(name, f"{name} = {show(value)}")]
 
 
 def _if(code: Expressions, block: Block) -> list[Piece]:

@@ -70,7 +70,7 @@ _CALLS = {
     **dict.fromkeys(("len", "int", "length_of", "place_of", "place_in_text"), WHOLE),
     **dict.fromkeys(("to_nearest", "random_whole"), WHOLE),
     **dict.fromkeys(("str", "as_text", "title_case", "letter_of", "replace_part"), TEXT),
-    **dict.fromkeys(("join_items",), TEXT),
+    **dict.fromkeys(("join_items", "append_text"), TEXT),
     **dict.fromkeys(("bool", "has_item", "has_part", "is_same", "is_less", "is_more"), TRUTH),
     **dict.fromkeys(("is_at_most", "is_at_least"), TRUTH),
     **dict.fromkeys(("list", "sorted", "as_list", "items_between", "list_with"), LIST),

@@ -12,7 +12,15 @@ from functools import lru_cache
 
 VALUES = frozenset(
     {
-        *("add_item", "as_list", "as_number", "as_text", "count_from", "deviation_of"),
+        *(
+            "add_item",
+            "append_text",
+            "as_list",
+            "as_number",
+            "as_text",
+            "count_from",
+            "deviation_of",
+        ),
         *("has_item", "has_part", "insert_item", "is_at_least", "is_at_most", "is_less"),
         *("is_more", "is_same", "item_of", "items_between", "join_items", "largest_of"),
         *("length_of", "letter_of", "list_with", "mean_of", "median_of", "number_in"),
