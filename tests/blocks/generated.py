@@ -143,7 +143,8 @@ def made_by(node: ast.stmt, rule: ast.FunctionDef, language: Language) -> set[st
         case ast.If():
             return {"control.if", "robot_speech.ask"}
         case ast.Assign():
-            return {"variable.set", "list.set", "robot_speech.ask"}
+            sets = {"variable.set", "variable.change", "text.append"}
+            return {*sets, "list.set", "robot_speech.ask"}
         case ast.AugAssign():
             return {"variable.change", "text.append"}
         case ast.Delete():
@@ -153,7 +154,8 @@ def made_by(node: ast.stmt, rule: ast.FunctionDef, language: Language) -> set[st
         case ast.Continue():
             return {"control.next_round"}
         case ast.Return():
-            return {"control.stop_rule", "my.return"}
+            defines = {block_type for block_type in hats if block_type.startswith("my.define.")}
+            return {"control.stop_rule", "my.return", *defines}
         case ast.FunctionDef():
             return hats if node is rule else with_functions(language)
         case ast.Global():
