@@ -30,6 +30,47 @@ if TYPE_CHECKING:
     )
     from .program.robot import Robot, colour_from, mix_colours
     from .program.tasks import at_once, stop_program, stop_rule, together, wait, wait_until
+    from .program.values import (
+        add_item,
+        append_text,
+        as_list,
+        as_number,
+        as_text,
+        count_from,
+        deviation_of,
+        has_item,
+        has_part,
+        insert_item,
+        is_at_least,
+        is_at_most,
+        is_less,
+        is_more,
+        is_same,
+        item_of,
+        items_between,
+        join_items,
+        largest_of,
+        length_of,
+        letter_of,
+        list_with,
+        mean_of,
+        median_of,
+        number_in,
+        parts_of,
+        place_in_text,
+        place_of,
+        random_whole,
+        remove_item,
+        replace_part,
+        set_item,
+        smallest_of,
+        sorted_items,
+        sum_of,
+        take_item,
+        title_case,
+        to_nearest,
+        to_power,
+    )
     from .wire.pubsub import Publisher, Subscriber
 
 _HOMES = {
@@ -45,6 +86,11 @@ _HOMES = {
         "was_seen",
         "program.robot": "Robot colour_from mix_colours",
         "program.tasks": "at_once stop_program stop_rule together wait wait_until",
+        "program.values": "add_item append_text as_list as_number as_text count_from deviation_of "
+        "has_item has_part insert_item is_at_least is_at_most is_less is_more is_same item_of "
+        "items_between join_items largest_of length_of letter_of list_with mean_of median_of "
+        "number_in parts_of place_in_text place_of random_whole remove_item replace_part set_item "
+        "smallest_of sorted_items sum_of take_item title_case to_nearest to_power",
         "wire.pubsub": "Publisher Subscriber",
     }.items()
     for name in names.split()
@@ -55,6 +101,14 @@ __all__ += ["NepError", "Node", "PeerNetwork", "Publisher", "Robot", "Subscriber
 __all__ += ["colour_from", "heard_word", "human_state", "in_turn", "is_remembered", "mix_colours"]
 __all__ += ["one_of", "remember", "stop_program", "stop_rule", "times_seen", "together"]
 __all__ += ["until_state", "wait", "wait_until", "was_seen"]
+__all__ += ["add_item", "append_text", "as_list", "as_number", "as_text", "count_from"]
+__all__ += ["deviation_of"]
+__all__ += ["has_item", "has_part", "insert_item", "is_at_least", "is_at_most", "is_less"]
+__all__ += ["is_more", "is_same", "item_of", "items_between", "join_items", "largest_of"]
+__all__ += ["length_of", "letter_of", "list_with", "mean_of", "median_of", "number_in"]
+__all__ += ["parts_of", "place_in_text", "place_of", "random_whole", "remove_item"]
+__all__ += ["replace_part", "set_item", "smallest_of", "sorted_items", "sum_of", "take_item"]
+__all__ += ["title_case", "to_nearest", "to_power"]
 
 
 def __getattr__(name: str) -> Any:

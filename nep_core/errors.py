@@ -20,6 +20,7 @@ NepError
 ├── RobotError
 │   ├── RobotNotAnswering     no action node plays this robot
 │   └── ActionFailed          the robot could not do what it was asked
+├── ValueRefused              a value is of a kind or a size that a block cannot work with
 └── RecordingError            a recording or a model file that cannot be used
 """
 
@@ -106,6 +107,10 @@ class RobotNotAnswering(RobotError, title="The robot does not answer"):
 
 class ActionFailed(RobotError, title="The robot could not do it"):
     """The robot could not do what it was asked."""
+
+
+class ValueRefused(NepError, title="The program stopped with an error"):
+    """A value of a program is of a kind or a size that does not fit."""
 
 
 class RecordingError(NepError, title="A file cannot be used"):

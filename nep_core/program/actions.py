@@ -92,7 +92,7 @@ class ActionClient:
         for result in call.results.values():
             if result.state == "failed":
                 raise ActionFailed(
-                    "{robot} could not {action}: {description}",
+                    "{robot} could not do “{action}”: {description}",
                     checklist=(
                         "Change this block, or what comes before it.",
                         "Try the program on the virtual robot first.",

@@ -30,6 +30,7 @@ from nep_core.wire.pubsub import Publisher
 
 from .human import human_listener, state_of_thing, state_of_word, word_of_state
 from .tasks import CLOCK, POLL_S, PROGRAM, Cancelled, Part, RuleStopped, Task, current_task
+from .values import speak
 
 log = logging.getLogger(__name__)
 
@@ -86,7 +87,8 @@ class Behavior:
 
     A behaviour without rules ends when all that was started at the start is done. An error in a
     rule, goal or start ends that one, and what it had begun on robots; ``on_error`` says whether
-    the others "go_on", or whether the program shall "end" too.
+    the others "go_on", or whether the program shall "end" too. ``language`` is that in which
+    values are told: the words for true, false and “and”, and the decimal mark.
     """
 
     def __init__(
@@ -94,8 +96,10 @@ class Behavior:
         name: str = "behaviour",
         *,
         on_error: OnError = "go_on",
+        language: str = "en",
         network: Network | None = None,
     ) -> None:
+        speak(language)
         self.name = name
         self._ends_on_error = on_error == "end"
         self._network = network

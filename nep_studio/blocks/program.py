@@ -22,6 +22,9 @@ FARTHEST = 1e6
 
 ROBOT_BLOCK = "robots.robot"
 """The block of the Robots page that says which robot takes part."""
+LANGUAGE = "language"
+"""The key of a project's file for the language in which its program tells values."""
+LANGUAGES = ("en", "de", "es", "fr", "it", "ja")
 ALL_ROBOTS = "*"
 """The value of a robot field that means every robot of the Robots page."""
 
@@ -179,6 +182,12 @@ class Project:
     def ends_on_error(self) -> bool:
         """Whether an error of one rule ends the whole program; usually the others go on."""
         return self.extra.get(ON_ERROR) == "end"
+
+    @property
+    def spoken_language(self) -> str:
+        """The code of the language in which the program tells values; English when not known."""
+        code = self.extra.get(LANGUAGE)
+        return code if isinstance(code, str) and code in LANGUAGES else LANGUAGES[0]
 
     def new_id(self, prefix: str) -> str:
         """An id that nothing in this project has had: prefix and number."""

@@ -15,7 +15,7 @@ from nep_studio.blocks.edits.project import RenameProject
 from nep_studio.blocks.errors import BlocksError, ProjectFileError
 from nep_studio.blocks.files import from_bytes, load
 from nep_studio.blocks.language import Language
-from nep_studio.blocks.program import Block, Project
+from nep_studio.blocks.program import LANGUAGE, LANGUAGES, Block, Project
 from nep_studio.project.journal import Journal
 from nep_studio.project.picture_files import project_bytes_from
 from nep_studio.project.trust import Authorship, shared_approvals
@@ -24,7 +24,7 @@ from nep_studio.run.gate import keys_of
 from .background import Background
 from .document_files import PICTURES
 from .edits import edits_of
-from .words import tr
+from .words import language_code, tr
 
 log = logging.getLogger(__name__)
 
@@ -152,7 +152,10 @@ def new_name() -> str:
 
 def new_document(language: Language, parent: QObject | None = None) -> Document:
     """An empty project without a file."""
-    return Document(Editor(Project(new_name()), language), parent=parent)
+    project = Project(new_name())
+    if language_code() in LANGUAGES[1:]:  # its program tells values as the window does
+        project.extra[LANGUAGE] = language_code()
+    return Document(Editor(project, language), parent=parent)
 
 
 def _journal(editor: Editor, path: Path | None, is_unsaved: bool) -> Journal | None:

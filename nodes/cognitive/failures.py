@@ -103,7 +103,12 @@ def _place(items: ast.expr, index: ast.expr, frame: FrameType) -> dict[str, Word
     if not isinstance(held, list | tuple | str) or type(asked) is not int:
         raise _Unknown
     number = {"number": str(asked + 1)} if asked >= 0 else {"number_from_end": str(-asked)}
-    return {"name": ast.unparse(items), "count": str(len(held)), **number}
+    return {"name": _in_words(items), "count": str(len(held)), **number}
+
+
+def _in_words(node: ast.expr) -> str:
+    """What a list is called: a variable by the words of its name, as it has them in the blocks."""
+    return node.id.replace("_", " ").strip() if isinstance(node, ast.Name) else ast.unparse(node)
 
 
 def _value(node: ast.expr, frame: FrameType) -> object:
@@ -181,6 +186,9 @@ class Explanation:
     steps: tuple[str, ...]
 
 
+_FORMATS = r"format|not all arguments converted"
+"""What Python says of a text before %, which puts values into a text there."""
+
 _SUMS = r"unsupported operand|can only concatenate|can't multiply sequence"
 
 SENTENCES = (
@@ -197,6 +205,12 @@ SENTENCES = (
         IndexError,
         "string index out of range",
         "The text “{name}” has {count} letters, and letter {number} was asked for.",
+        (CHECK_NUMBER, ASK_LENGTH),
+    ),
+    Explanation(
+        IndexError,
+        "string index out of range",
+        "A letter was asked for that the text does not have.",
         (CHECK_NUMBER, ASK_LENGTH),
     ),
     Explanation(
@@ -233,6 +247,20 @@ SENTENCES = (
     Explanation(
         TypeError,
         _SUMS,
+        "This cannot be worked out: {left} {sign} {right}. On the left is {noun}, on the right "
+        "{result}.",
+        (LOOK, CONVERT),
+    ),
+    Explanation(
+        TypeError,
+        _FORMATS,
+        "This cannot be worked out: {left} {sign} {right}. On the left is {noun}, on the right "
+        "{result}.",
+        (LOOK, CONVERT),
+    ),
+    Explanation(
+        ValueError,
+        _FORMATS,
         "This cannot be worked out: {left} {sign} {right}. On the left is {noun}, on the right "
         "{result}.",
         (LOOK, CONVERT),
@@ -319,13 +347,19 @@ SENTENCES = (
     ),
     Explanation(
         ValueError,
+        "empty separator",
+        "A text is parted at a mark, and this mark is empty.",
+        (LOOK,),
+    ),
+    Explanation(
+        ValueError,
         "is not in list|not in tuple|x not in list",
         "The list does not have what was looked for.",
         ("Ask first whether the list has it.", CHECK_LIST),
     ),
     Explanation(
         ValueError,
-        "empty|at least (one|two)|no median",
+        r"empty (sequence|iterable|list|data|range)|is empty|at least (one|two)|no median",
         "There is no result for a list that has too few items.",
         (ASK_EMPTY, CHECK_LIST),
     ),

@@ -13,7 +13,7 @@ from nep_studio.blocks.language import Language
 from nep_studio.blocks.program import Project
 
 PARTS_OF_PROGRAMS = {
-    *("str", "int", "range", "behavior", "_", "when", "run"),
+    *("str", "bool", "range", "from_end", "new", "part", "behavior", "_", "when", "run"),
     *("abs", "float", "len", "list", "map", "max", "min", "reversed", "round", "sorted", "sum"),
     *MODULES,
     *("choice", "randint", "random"),
@@ -143,7 +143,8 @@ def made_by(node: ast.stmt, rule: ast.FunctionDef, language: Language) -> set[st
         case ast.If():
             return {"control.if", "robot_speech.ask"}
         case ast.Assign():
-            return {"variable.set", "list.set", "robot_speech.ask"}
+            sets = {"variable.set", "variable.change", "text.append"}
+            return {*sets, "list.set", "robot_speech.ask"}
         case ast.AugAssign():
             return {"variable.change", "text.append"}
         case ast.Delete():
@@ -153,7 +154,8 @@ def made_by(node: ast.stmt, rule: ast.FunctionDef, language: Language) -> set[st
         case ast.Continue():
             return {"control.next_round"}
         case ast.Return():
-            return {"control.stop_rule", "my.return"}
+            defines = {block_type for block_type in hats if block_type.startswith("my.define.")}
+            return {"control.stop_rule", "my.return", *defines}
         case ast.FunctionDef():
             return hats if node is rule else with_functions(language)
         case ast.Global():

@@ -61,10 +61,11 @@ def test_the_karate_greeting_is_a_program_that_a_teacher_would_show(language):
     assert generate_program(karate(language).project, language).text == KARATE
 
 
-CONTROL = '''\
+API = "Behavior, Robot, human_state, stop_program, to_nearest, to_power, wait, wait_until"
+CONTROL = f'''\
 """Test. Made with NEP Studio."""
 import random
-from nep_core import Behavior, Robot, human_state, stop_program, wait, wait_until
+from nep_core import {API}
 
 all_robots = Robot(["NAO", "Pepper 2"])
 behavior = Behavior("Test")
@@ -74,7 +75,7 @@ behavior = Behavior("Test")
 def when_touched_head():
     for _ in range(random.randint(1, 6)):
         wait(0.5)
-    for _ in range(int(2.5)):
+    for _ in range(to_nearest(2.5)):
         pass
     while not (True and human_state() == "x"):
         if 1 < 2:
@@ -82,7 +83,7 @@ def when_touched_head():
         elif False:
             pass
         else:
-            all_robots.turn((-1) ** -2 * (3 - (4 - 5)))
+            all_robots.turn(to_power(-1, -2) * (3 - (4 - 5)))
     wait_until(lambda: human_state() == "heard_hello")
     while True:
         all_robots.leds("FaceLeds", "#ff0000")

@@ -25,6 +25,7 @@ from nep_studio.blocks.edits.project import RenameProject, RenameVariable
 from nep_studio.blocks.errors import CodeRefused, EditRefused, ProjectFileError
 from nep_studio.blocks.files import from_bytes, to_bytes
 from nep_studio.blocks.generate.program import generate_launch, generate_program
+from nep_studio.blocks.generate.source_map import Code
 from nep_studio.blocks.program import Block
 from nep_studio.blocks.text import sentence
 from nep_studio.run.installation import load_language
@@ -81,7 +82,13 @@ def holder(block_type: str) -> tuple[Editor, Block, bytes]:
 def lines_before(block_type: str) -> list[bool]:
     """Which lines of the holder's program belong to no block."""
     project = from_bytes(holder(block_type)[2], "x.nep", LANGUAGE)
-    return [block == "" for block in generate_program(project, LANGUAGE).blocks]
+    return unmade_lines(generate_program(project, LANGUAGE))
+
+
+def unmade_lines(code: Code) -> list[bool]:
+    """Which lines belong to no block; what is imported changes with the values."""
+    lines = zip(code.text.splitlines(), code.blocks, strict=True)
+    return [block == "" for line, block in lines if not line.startswith("import ")]
 
 
 def typed(block_type: str, key: str, value: object) -> Editor | None:
@@ -136,7 +143,7 @@ def assert_safe(editor: Editor, block_type: str, key: str, value: object) -> Non
         tree = assert_tame(code.text, LANGUAGE)
         if is_calculated(block_type, key, value):
             return
-        assert [block == "" for block in code.blocks] == lines_before(block_type)
+        assert unmade_lines(code) == lines_before(block_type)
     definition = LANGUAGE.definitions[block_type]
     kind = definition.slots[key.partition(".")[0]].kind.name
     told = f"gesture_{value}" if kind == "gesture" else value

@@ -28,7 +28,7 @@ behavior = Behavior("Untitled")
 
 
 def greet_times(who, times):
-    for _ in range(int(times)):
+    for _ in range(times):
         nao.say("Hello " + who)
 
 

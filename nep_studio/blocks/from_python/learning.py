@@ -18,7 +18,8 @@ from nep_studio.blocks.definitions import Definition, Slot
 from nep_studio.blocks.errors import BlocksError, CodeRefused
 from nep_studio.blocks.generate.expressions import Body, Expressions, Function, Piece, show
 from nep_studio.blocks.generate.generators import REPORTERS, STATEMENTS
-from nep_studio.blocks.generate.names import ProgramNames
+from nep_studio.blocks.generate.kinds import ANY, LIST, NUMBER, TEXT, WHOLE, Kinds, note
+from nep_studio.blocks.generate.names import VALUES, ProgramNames
 from nep_studio.blocks.generate.rules import HATS
 from nep_studio.blocks.language import Language
 from nep_studio.blocks.procedures import procedure_of
@@ -61,6 +62,22 @@ def word_pattern(text: str) -> tuple[re.Pattern[str], list[int]] | None:
     return re.compile("(.*)".join(parts), re.DOTALL), positions
 
 
+@dataclass(frozen=True, slots=True)
+class Known:
+    """What is known of the kinds of slots: where it is enough, the Python of a block is plain."""
+
+    is_plain: bool
+    number: int
+    value: int
+    items: int
+
+
+KNOWN = (
+    Known(True, WHOLE, TEXT, LIST),
+    Known(True, NUMBER, NUMBER, LIST),
+    Known(False, ANY, ANY, ANY),
+)
+
 # Makes the Python of a new block with markers in its slots.
 
 
@@ -77,15 +94,21 @@ class Learner(Expressions):
         keys: Sequence[str],
         typed: frozenset[str],
         plain: str,
+        known: Known,
     ) -> None:
-        super().__init__(Project("Learned"), language, ProgramNames({}, {}), REPORTERS)
+        super().__init__(Project("Learned"), language, ProgramNames({}, {}), REPORTERS, Kinds())
         self.asked: list[str] = []
         self.filled: set[str] = set()
         self._fields_chosen = fields
         self._positions = {key: position for position, key in enumerate(keys)}
         self._typed = typed
         self._plain = plain
+        self._known = known
         self._functions = 0
+        self.must_show: set[str] = set()
+        """The slots that must show that they hold a text."""
+        self.free: set[str] = set()
+        """The slots that take a value of any kind."""
 
     def nodes(self, definition: Definition, groups: Mapping[str, int]) -> tuple[ast.AST, ...]:
         """The Python of a new block of a definition."""
@@ -100,13 +123,42 @@ class Learner(Expressions):
 
     def slot(self, block: Block, key: str) -> ast.expr:
         """A marker for a slot; the text slots of a value that is no text are markers too."""
+        slot, node = self._slot(block, key), self._marker(block, key)
+        if slot.kind.is_number and not isinstance(node, ast.Constant):
+            return note(node, self._known.number)
+        if slot.kind.name == "list":
+            return note(node, LIST)
+        return note(node, TEXT) if slot.kind.becomes_text else node
+
+    def value_in(self, block: Block, key: str) -> ast.expr:
+        """A marker for a slot, of the kinds that are known in this variant."""
+        self.free.add(key)
+        return self._marker(block, key)
+
+    def _marker(self, block: Block, key: str) -> ast.expr:
         slot = self._slot(block, key)
         self.filled.add(key)
         if key == self._plain:
             return constant(self.definition(block).defaults[slot.name])
         if key in self._typed:
             return ast.Constant(_FIRST_NUMBER + _STEP * self._positions[key])
-        return ast.Name(mark(SLOT, key))
+        by_kind = {"any": self._known.value, "list": self._known.items}
+        known = self._known.number if slot.kind.is_number else by_kind.get(slot.kind.name, ANY)
+        return note(ast.Name(mark(SLOT, key)), known)
+
+    def shows_text(self, block: Block, key: str) -> bool:
+        """As this variant has it."""
+        if self._known.is_plain:
+            self.must_show.add(key)
+        return self._known.is_plain
+
+    def may_swap(self, first: ast.expr, second: ast.expr) -> bool:
+        """As this variant has it."""
+        return self._known.is_plain
+
+    def kinds_at(self, key: str) -> int:
+        """As this variant has it."""
+        return self._known.value
 
     def choice(self, block: Block, key: str) -> str:
         """The choice that this variant is made with."""
@@ -118,9 +170,6 @@ class Learner(Expressions):
     def variable(self, block: Block) -> str:
         """A marker for the variable of a block."""
         return VARIABLE_NAME
-
-    def begins_as(self, block: Block, kind: str) -> None:
-        """Nothing begins in what is learned."""
 
     def part_name(self) -> str:
         """A marker for the name of a function."""
@@ -182,6 +231,12 @@ class Pattern:
     groups: Mapping[str, int]
     keys: tuple[str, ...]
     size: int
+    clear: frozenset[str] = frozenset()
+    """The slots where only a text is meant that shows itself as one."""
+    free: frozenset[str] = frozenset()
+    """The slots that take a value of any kind: what Python calls looks at it while it runs."""
+    is_range: bool = False
+    """Whether it counts with range(...), which ends before its end."""
 
 
 @dataclass(slots=True)
@@ -228,7 +283,7 @@ def _learn(definitions: Sequence[Definition], language: Language) -> Learned:
     for definition in definitions:
         if definition.call is not None or definition.generator in _KEPT_AS_WRITTEN:
             continue
-        for pattern in _patterns(definition, language):
+        for pattern in (*_patterns(definition, language), *_old_patterns(definition)):
             if definition.shape == "hat":
                 found.hats.append(pattern)
             elif definition.is_value:
@@ -252,22 +307,94 @@ def _order(pattern: Pattern) -> tuple[bool, int, int, int]:
     return is_anybody, -pattern.size, fixed, takes_more
 
 
+# Python of earlier versions, and of people, that means what a block says. Where it would do
+# something else without a word, such as range(1, n + 1) for an n of 0, it stays Python.
+
+_START: dict[str, FieldValue] = {"end": "start"}
+_END: dict[str, FieldValue] = {"end": "end"}
+_Old = tuple[str, Mapping[str, FieldValue]]
+_OLD: dict[str, tuple[_Old, ...]] = {
+    "list_get": (("list[int(number) - 1]", _START), ("list[-int(number)]", _END)),
+    "list_take": (("list.pop(int(number) - 1)", _START), ("list.pop(-int(number))", _END)),
+    "list_set": (
+        ("list[int(number) - 1] = value", _START),
+        ("list[-int(number)] = value", _END),
+    ),
+    "list_remove": (("del list[int(number) - 1]", _START), ("del list[-int(number)]", _END)),
+    "list_insert": (("list.insert(int(number) - 1, value)", _START),),
+    "list_filled": (("[item] * int(times)", {}),),
+    "list_find": (("list.index(item) + 1 if item in list else 0", {}),),
+    "list_contains": (("item in list", {}),),
+    "list_joined": (("mark.join(map(str, list))", {}), ("mark.join(list)", {})),
+    "list_sorted": (("sorted(list)", {"order": "up"}),),
+    "list_split": (("text.split(mark)", {}), ("list(text)", {"mark": ""})),
+    "letter": (("text[int(number) - 1]", {}),),
+    "random_integer": (("random.randint(int(low), int(high))", {}),),
+    "text_replace": (("text.replace(part, new)", {}),),
+    "text_case": (("text.title()", {"case": "title"}),),
+    "text_number": (("float(text)", {}),),
+    "arithmetic": (("a ** b", {"operation": "power"}),),
+    "round": (("round(number)", {"way": "nearest"}),),
+    "repeat": (("for _ in range(int(times)):\n    BODY_do", {}),),
+    "count": (
+        ("for VARIABLE_variable in range(first, last):\n    BODY_do", {"step": 1}),
+        ("for VARIABLE_variable in range(first, last, step):\n    BODY_do", {}),
+    ),
+    "change_variable": (("VARIABLE_variable += amount", {}),),
+    "append_text": (("VARIABLE_variable += text", {}),),
+}
+_MUST_BE_CLEAR = dict.fromkeys(
+    ("text[int(number) - 1]", "VARIABLE_variable += text", "list(text)"), frozenset({"text"})
+)
+
+
+def _old_patterns(definition: Definition) -> Iterator[Pattern]:
+    for text, fields in _OLD.get(definition.generator, ()):
+        yield _old_pattern(definition, text, fields)
+
+
+def _old_pattern(definition: Definition, text: str, fields: Mapping[str, FieldValue]) -> Pattern:
+    tree = ast.parse(text)
+    names = {name for name, slot in definition.slots.items() if slot.kind.pluggable}
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Name) and node.id in names:
+            node.id = mark(SLOT, node.id)
+    nodes: tuple[ast.AST, ...] = tuple(tree.body)
+    if definition.is_value:
+        nodes = tuple(node.value for node in tree.body if isinstance(node, ast.Expr))
+    keys = tuple(key for key, _ in definition.keys({}))
+    size = sum(_says(inner) for node in nodes for inner in ast.walk(node))
+    clear = _MUST_BE_CLEAR.get(text, frozenset())
+    is_range = _is_range(nodes)
+    return Pattern(definition, nodes, fields, {}, keys, size, clear, is_range=is_range)
+
+
+def _is_range(nodes: Sequence[ast.AST]) -> bool:
+    match nodes:
+        case [ast.For(target=ast.Name(id=name), iter=ast.Call(func=ast.Name(id="range")))]:
+            return name == VARIABLE_NAME
+    return False
+
+
 def _patterns(definition: Definition, language: Language) -> Iterator[Pattern]:
     seen: set[str] = set()
     for groups in itertools.islice(_group_counts(definition), MOST_PATTERNS):
         for fields in _choices(definition, language, groups):
             keys = tuple(key for key, _ in definition.keys(groups))
-            for typed, plain in _variants(definition, keys):
-                learner = Learner(language, fields, keys, typed, plain)
+            variants = itertools.product(_variants(definition, keys), KNOWN)
+            for (typed, plain), known in variants:
+                learner = Learner(language, fields, keys, typed, plain, known)
                 try:
                     nodes = learner.nodes(definition, groups)
                 except _NOT_MADE:
                     continue  # not made in this variant
                 form = _form(nodes)
-                if nodes and form not in (*seen, _MARKER):
+                if nodes and form not in (*seen, _MARKER) and not _is_range(nodes):
                     seen.add(form)
                     size = sum(_says(inner) for node in nodes for inner in ast.walk(node))
-                    yield Pattern(definition, nodes, fields, groups, keys, size)
+                    free = frozenset(learner.free if learner.api & VALUES else ())
+                    clear = frozenset(learner.must_show)
+                    yield Pattern(definition, nodes, fields, groups, keys, size, clear, free)
 
 
 def _group_counts(definition: Definition) -> Iterator[dict[str, int]]:
@@ -282,7 +409,7 @@ def _choices(
 ) -> list[dict[str, FieldValue]]:
     """The ways in which the choices can be made by which the Python differs in its form."""
     keys = tuple(key for key, _ in definition.keys(groups))
-    learner = Learner(language, {}, keys, frozenset(), "")
+    learner = Learner(language, {}, keys, frozenset(), "", KNOWN[0])
     with suppress(*_NOT_MADE):
         learner.nodes(definition, groups)
     asked = list(dict.fromkeys(learner.asked))
@@ -300,16 +427,17 @@ def _choices(
 
 
 def _variants(definition: Definition, keys: Sequence[str]) -> Iterator[tuple[frozenset[str], str]]:
-    """With numbers typed or plugged in, and each time with one slot left as it is when new."""
+    """With numbers typed or plugged in; then each time with one slot left as it is when new."""
     numbers = [key for key in keys if definition.slots[split_slot(key)[0]].kind.is_number]
     if len(numbers) > MOST_MIXED:
         numbers = []
-    for count in range(len(numbers) + 1):
-        for typed in itertools.combinations(numbers, count):
-            yield frozenset(typed), ""
-            for key in keys:
-                if isinstance(definition.defaults.get(split_slot(key)[0]), int | float):
-                    yield frozenset(typed), key
+    counts = range(len(numbers) + 1)
+    ways = [frozenset(t) for n in counts for t in itertools.combinations(numbers, n)]
+    yield from ((typed, "") for typed in ways)
+    for typed in ways:
+        for key in keys:
+            if isinstance(definition.defaults.get(split_slot(key)[0]), int | float):
+                yield typed, key
 
 
 def _says(node: ast.AST) -> bool:

@@ -49,7 +49,7 @@ def is_frame(node: ast.stmt) -> bool:
         case ast.Assign(targets=[ast.Name()], value=ast.Call(func=ast.Name(id=made))):
             return made in HEADERS
         case ast.Assign(targets=[ast.Name()], value=ast.Constant(value=first)):
-            return type(first) in (int, str) and first in (0, "")
+            return first is False or (type(first) in (int, str) and first in (0, ""))
         case ast.Assign(targets=[ast.Name()], value=ast.List(elts=[])):
             return True
     return is_run(node)

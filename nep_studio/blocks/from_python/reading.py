@@ -170,7 +170,7 @@ def as_block(node: ast.stmt) -> ast.stmt:
     match node:
         case ast.With(items=[ast.withitem(ast.Name("at_once"), None)], body=[inner]):
             return inner
-        case ast.For(iter=ast.Subscript(ast.Name() as items, ast.Slice(None, None, None))):
+        case ast.For(iter=ast.Subscript(items, ast.Slice(None, None, None))):
             plain = ast.For(node.target, items, node.body, node.orelse, node.type_comment)
             return ast.copy_location(plain, node)
         case ast.Expr(value=ast.Call(ast.Name("stop_rule"), [], [])):
@@ -226,7 +226,8 @@ def read_rules(
     """
     left = Counter(known)
     functions = [(p.function, p.line, p.text) for p in parts if p.function is not None]
-    names = names_in(editor, source.tree, [function for function, _, _ in functions])
+    as_code = {function.name for function, _, _ in functions if function.lineno in kept}
+    names = names_in(editor, source.tree, [function for function, _, _ in functions], as_code)
     reader = StatementReader(editor.language, names, source, kept)
     rules = []
     for node, after, above in functions:

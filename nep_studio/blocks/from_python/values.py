@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import ast
-from collections.abc import Iterator, Sequence
+from collections.abc import Collection, Iterator, Sequence
 from dataclasses import dataclass, field
 from functools import partial
 
@@ -24,9 +24,18 @@ from nep_studio.blocks.slots import TEXT_RESULTS, FieldValue, constant
 from ..deployment import names_used, robot_entries
 from ..editor import Editor
 from ..generate.expressions import known_whole
+from ..generate.kinds import ANY, NUMBER, RESULT_KINDS, TEXT, kinds_of
 from ..generate.names import RESERVED, python_name
 from ..operations.fixes import append_entry
-from ..program import ALL_ROBOTS, ON_ERROR, ROBOT_BLOCK, Parameter, Procedure
+from ..program import (
+    ALL_ROBOTS,
+    LANGUAGE,
+    LANGUAGES,
+    ON_ERROR,
+    ROBOT_BLOCK,
+    Parameter,
+    Procedure,
+)
 from .learning import (
     BODY,
     PART,
@@ -48,24 +57,41 @@ from .outside import HEADERS
 class SourceNames:
     """What identifiers stand for: names of robots, ids of variables, own blocks.
 
-    ``parameters`` are the values of the own block that is being read, by identifier.
+    ``parameters`` are the values of the own block that is being read, by identifier. ``kinds`` are
+    those of the values that the text itself gives to variables, as far as their form tells.
     """
 
     robots: dict[str, str] = field(default_factory=dict)
     variables: dict[str, str] = field(default_factory=dict)
     procedures: dict[str, Procedure] = field(default_factory=dict)
     parameters: dict[str, str] = field(default_factory=dict)
+    kinds: dict[str, int] = field(default_factory=dict)
+
+    def may_be(self, node: ast.expr, kinds: int) -> bool:
+        """Whether a value can be of these kinds, as far as the text tells."""
+        if isinstance(node, ast.Name):
+            is_given = node.id in self.kinds and node.id not in self.parameters
+            return not is_given or bool(self.kinds[node.id] & kinds)
+        return bool(kinds_of(node) & kinds)
 
 
 def names_in(
-    editor: Editor, tree: ast.Module, functions: Sequence[ast.FunctionDef], *, loose: bool = False
+    editor: Editor,
+    tree: ast.Module,
+    functions: Sequence[ast.FunctionDef],
+    as_code: Collection[str] = (),
+    *,
+    loose: bool = False,
 ) -> SourceNames:
     """Find what the names of a text stand for in a project, and make there what lacks.
 
-    ``functions`` are those that become blocks. Lines that are in no function are a program's own
-    when they are ``loose``: what they put values into becomes variables too.
+    ``functions`` are those that become blocks. What an own block's function keeps to itself is a
+    variable too, that only this block uses; unless the function is named in ``as_code``: its lines
+    stay Python. Lines that are in no function are a program's own when they are ``loose``: what
+    they put values into becomes variables too.
     """
     names = _known(editor)
+    names.kinds = _kinds_given(tree, names)
     for node in tree.body:
         match node:
             case ast.Assign(
@@ -76,9 +102,12 @@ def names_in(
     others = {n.name for n in tree.body if isinstance(n, ast.FunctionDef | ast.ClassDef)}
     for name in others - of_functions.keys():
         names.procedures.pop(name, None)
+    assigned: list[str] = []
     for node in of_functions.values():
-        _note_procedure(editor, names, node)
-    for name in [*_begun(tree), *_shared(tree, loose=loose)]:
+        _note_procedure(editor, names, node, tree)
+        if node.name not in as_code:
+            assigned += _kept(node, tree)
+    for name in [*assigned, *_begun(tree), *_shared(tree, loose=loose)]:
         if name not in names.robots and name not in names.variables and name not in RESERVED:
             # A name for a new variable that no other has; its Python name is the same
             project = editor.project
@@ -125,6 +154,35 @@ def names_made(body: Sequence[ast.stmt]) -> dict[str, int]:
             if name not in shared:
                 made.setdefault(name, getattr(node, "lineno", body[0].lineno))
     return made
+
+
+def _kept(function: ast.FunctionDef, tree: ast.Module) -> list[str]:
+    """The names that a function gives values to, and that nothing else in a text has."""
+    elsewhere = {argument.arg for argument in function.args.args} | {"_"}
+    for other in tree.body:
+        named = ast.walk(other) if other is not function else iter(())
+        elsewhere.update(node.id for node in named if isinstance(node, ast.Name))
+    made: dict[str, None] = {}
+    for node in ast.walk(function):
+        if isinstance(node, ast.Global | ast.Nonlocal):
+            elsewhere |= set(node.names)
+        elif isinstance(node, ast.Name) and isinstance(node.ctx, ast.Store):
+            made[node.id] = None
+    return [name for name in made if name not in elsewhere]
+
+
+def _kinds_given(tree: ast.Module, names: SourceNames) -> dict[str, int]:
+    """The kinds of what a text puts into the variables that it makes itself."""
+    found: dict[str, int] = {}
+    for node in ast.walk(tree):
+        match node:
+            case ast.Assign(targets=[ast.Name(id=name)], value=value):
+                found[name] = found.get(name, 0) | kinds_of(value)
+            case ast.Name(id=name, ctx=ast.Store()):
+                found.setdefault(name, 0)
+            case ast.AugAssign(target=ast.Name(id=name)) | ast.For(target=ast.Name(id=name)):
+                found[name] = ANY
+    return {name: kinds for name, kinds in found.items() if kinds and name not in names.variables}
 
 
 def _require_variables(names: SourceNames, tree: ast.Module) -> None:
@@ -174,6 +232,7 @@ def _note(editor: Editor, names: SourceNames, name: str, made: str, node: ast.As
             if text != editor.project.name:
                 editor.apply(RenameProject(text))
             _note_on_error(editor, call)
+            _note_language(editor, call)
             return
         case [ast.Constant(value=str(text))]:
             if text not in names.robots.values():
@@ -195,7 +254,7 @@ def _note(editor: Editor, names: SourceNames, name: str, made: str, node: ast.As
 
 def _is_known(call: ast.Call, made: str) -> bool:
     """Whether the program can keep all that a call names."""
-    return made == "Behavior" and {word.arg for word in call.keywords} <= {ON_ERROR}
+    return made == "Behavior" and {word.arg for word in call.keywords} <= {ON_ERROR, LANGUAGE}
 
 
 def _text_of(node: ast.expr) -> str:
@@ -211,23 +270,51 @@ def _note_on_error(editor: Editor, call: ast.Call) -> None:
         editor.apply(SetExtra(ON_ERROR, "end" if is_end else None))
 
 
+def _note_language(editor: Editor, call: ast.Call) -> None:
+    """The language in which the program tells values; one that is not known stays as it was."""
+    given = {keyword.arg: getattr(keyword.value, "value", "") for keyword in call.keywords}
+    code = given.get(LANGUAGE, LANGUAGES[0])
+    if code in LANGUAGES and code != editor.project.spoken_language:
+        editor.apply(SetExtra(LANGUAGE, None if code == LANGUAGES[0] else code))
+
+
 def _add_robot(editor: Editor, name: str) -> None:
     if all(e.name != name for e in robot_entries(editor.project, editor.language)):
         append_entry(editor, "robots", ROBOT_BLOCK, {"name": name})
 
 
-def _note_procedure(editor: Editor, names: SourceNames, node: ast.FunctionDef) -> None:
+def _note_procedure(
+    editor: Editor, names: SourceNames, node: ast.FunctionDef, tree: ast.Module
+) -> None:
     wanted = [argument.arg for argument in node.args.args]
     gives_value = any(isinstance(n, ast.Return) and n.value is not None for n in ast.walk(node))
     known = names.procedures.get(node.name)
     if known is not None and len(parameters(known)) == len(wanted):
         return
-    own = [Parameter(editor.project.new_id("a"), name.replace("_", " ")) for name in wanted]
+    own = [
+        Parameter(editor.project.new_id("a"), name.replace("_", " "), kind)
+        for name, kind in zip(wanted, _kinds_of_parameters(node, tree), strict=True)
+    ]
     procedure = Procedure(
         editor.project.new_id("p"), (node.name.replace("_", " ").strip(), *own), gives_value
     )
     editor.apply(AddProcedure(procedure, len(editor.project.procedures)))
     names.procedures[node.name] = procedure
+
+
+_MAKES = {"as_list": "list", "as_number": "number", "bool": "boolean"}
+
+
+def _kinds_of_parameters(function: ast.FunctionDef, tree: ast.Module) -> list[str]:
+    """The kinds of the values of an own block, where a call makes sure of one."""
+    kinds = ["any"] * len(function.args.args)
+    for node in ast.walk(tree):
+        if not isinstance(node, ast.Call) or getattr(node.func, "id", "") != function.name:
+            continue
+        for place, given in enumerate(node.args[: len(kinds)]):
+            if isinstance(given, ast.Call) and isinstance(given.func, ast.Name):
+                kinds[place] = _MAKES.get(given.func.id, kinds[place])
+    return kinds
 
 
 def _shared(tree: ast.Module, *, loose: bool) -> Iterator[str]:
@@ -348,12 +435,42 @@ class Found:
         return True
 
 
+def _has_rounds(made: Made) -> bool:
+    """Put the last number of range(...) into a block that counts; False where it has no round.
+
+    The block would then count down, or it is not known.
+    """
+    first, end, step = (made.fields.get(key) for key in ("first", "last", "step"))
+    if made.inputs or not (type(first) is type(end) is type(step) is int) or not step:
+        return False
+    assert isinstance(first, int) and isinstance(end, int) and isinstance(step, int)
+    made.fields["last"] = last = end - (1 if step > 0 else -1)
+    return first <= last if step > 0 else first >= last
+
+
 def _whole_slot(node: ast.Call) -> str:
     """The slot in ``int(slot)``, which is written only where the slot may give a fraction."""
     match node:
         case ast.Call(func=ast.Name(id="int"), args=[ast.Name(id=name)], keywords=[]):
             return marked(SLOT, name)
     return ""
+
+
+_TOLD = ("as_text", "str")
+_MADE = {"list": ("as_list",), "boolean": ("bool",)}
+
+
+def _within(node: ast.expr, names: Collection[str]) -> ast.expr:
+    """What is in a call of a function of one of these names; else the node itself."""
+    match node:
+        case ast.Call(func=ast.Name(id=name), args=[inner], keywords=[]) if name in names:
+            return inner
+    return node
+
+
+def _is_junction(node: ast.expr) -> bool:
+    """Whether it is a truth made of “and” or “or”: their blocks give one by themselves."""
+    return isinstance(_within(node, ("bool",)), ast.BoolOp)
 
 
 def _without_int(node: ast.expr) -> ast.expr:
@@ -398,8 +515,13 @@ class ValueReader:
         """The type of the block that a generator makes, or an empty text."""
         return self._types.get(generator, "")
 
-    def fill(self, made: Made, key: str, node: ast.expr) -> bool:
-        """Put an expression into a slot of a block; False when it does not go there."""
+    def fill(
+        self, made: Made, key: str, node: ast.expr, *, is_clear: bool = False, is_free: bool = False
+    ) -> bool:
+        """Put an expression into a slot of a block; False when it does not go there.
+
+        ``is_clear``: a text must show that it is one; ``is_free``: a value of any kind will do.
+        """
         slot = self.language.definitions[made.type].slots[split_slot(key)[0]]
         value = self.field(slot, node, made, key)
         if value is not None:
@@ -407,7 +529,12 @@ class ValueReader:
             return True
         if slot.kind.name == "list" and isinstance(node, ast.List) and not node.elts:
             return True
-        plugged = self.plugged(slot, node) if slot.kind.pluggable else None
+        plugged = None
+        if slot.kind.pluggable and is_free:
+            found = self.blocks(node)
+            plugged = next((made for made, result in found if result in slot.kind.fits), None)
+        elif slot.kind.pluggable:
+            plugged = self.plugged(slot, node, is_clear=is_clear)
         if plugged is None:
             return False
         made.inputs[key] = plugged
@@ -423,20 +550,27 @@ class ValueReader:
             return value if is_known else None
         return value
 
-    def plugged(self, slot: Slot, node: ast.expr) -> Made | None:
-        """The block that makes this expression in a slot, or None."""
-        fits = slot.kind.fits
-        if not slot.kind.becomes_text:
-            return next((made for made, result in self.blocks(node) if result in fits), None)
-        for made, result in self.blocks(node):
-            if result in TEXT_RESULTS:
-                return made
-        match node:
-            case ast.Call(func=ast.Name(id="str"), args=[inner], keywords=[]):
-                others = fits - TEXT_RESULTS
-                found = self.blocks(inner)
-                return next((made for made, result in found if result in others), None)
-        return None
+    def plugged(self, slot: Slot, node: ast.expr, *, is_clear: bool = False) -> Made | None:
+        """The block that makes this expression in a slot, or None.
+
+        Where the block makes a number, a list or a text of a value, the value alone is in it.
+        """
+        kind, may_be = slot.kind, self.names.may_be
+        if not kind.becomes_text:
+            inner = _within(node, ("as_number",) if kind.is_number else _MADE.get(kind.name, ()))
+            inner = _within(node, ("bool",)) if _is_junction(node) else inner
+            needed = NUMBER if kind.is_number else RESULT_KINDS.get(kind.name, ANY)
+            if inner is node and kind.name != "boolean" and not may_be(node, needed):
+                return None
+            return next((made for made, result in self.blocks(inner) if result in kind.fits), None)
+        inner, others = _within(node, _TOLD), kind.fits - TEXT_RESULTS
+        if inner is node:
+            is_shown = not is_clear or not may_be(node, ANY & ~TEXT)
+            others = frozenset({"any"}) if is_shown and may_be(node, TEXT) else frozenset()
+            others |= TEXT_RESULTS
+            found = sorted(self.blocks(node), key=lambda made: made[1] not in TEXT_RESULTS)
+            return next((made for made, result in found if result in others), None)
+        return next((made for made, result in self.blocks(inner) if result in others), None)
 
     def blocks(self, node: ast.expr) -> list[tuple[Made, str]]:
         """The value blocks that make an expression, with their results, the best first."""
@@ -501,9 +635,16 @@ class ValueReader:
     def made_from(self, pattern: Pattern, found: Found) -> Made | None:
         """The block of a pattern with what was found in it but its bodies, or None."""
         made = Made(pattern.definition.id, dict(pattern.fields), groups=dict(pattern.groups))
+        is_join = pattern.definition.generator == "join"
+        clear = frozenset() if is_join else pattern.clear
         for key, node in found.slots.items():
-            if not self.fill(made, key, node):
+            is_free = key in pattern.free
+            if not self.fill(made, key, node, is_clear=key in clear, is_free=is_free):
                 return None
+        if is_join and not self._is_clear_join(made, found):
+            return None
+        if pattern.is_range and not _has_rounds(made):
+            return None
         for key, word in found.words.items():
             if pattern.definition.slots[split_slot(key)[0]].why_not(word) is not None:
                 return None
@@ -513,6 +654,13 @@ class ValueReader:
                 return None
             made.fields["variable"] = self.names.variables[found.variable]
         return made if self._choose_masters(made) else None
+
+    def _is_clear_join(self, made: Made, found: Found) -> bool:
+        """Whether a part of a sum shows that it is a text: else it is a sum of numbers."""
+        typed = any(key not in made.inputs for key in found.slots)
+        results = (self.language.definitions[inner.type].result for inner in made.inputs.values())
+        told = any(_within(node, _TOLD) is not node for node in found.slots.values())
+        return typed or told or any(result in TEXT_RESULTS for result in results)
 
     def _choose_masters(self, made: Made) -> bool:
         """Choose what a choice depends on where Python does not say it: the arm of a joint."""
@@ -544,9 +692,24 @@ class ValueReader:
             made_from = self.made_from(pattern, found) if found is not None else None
             if made_from is not None:
                 yield made_from, pattern.definition.result
+        if (converted := self._converted(node)) is not None:
+            yield converted
         code = self.type_of("code_value")
         if code and not isinstance(node, ast.Constant) and _is_code(node):
             yield Made(code, {"code": ast.unparse(node)}), definitions[code].result
+
+    def _converted(self, node: ast.expr) -> tuple[Made, str] | None:
+        """The block of a text or a number that is made of the value in it, and its result."""
+        for generator, names in (("text", _TOLD), ("number", ("as_number",))):
+            inner, block_type = _within(node, names), self.type_of(generator)
+            if inner is node or not block_type:
+                continue
+            definition = self.language.definitions[block_type]
+            fits = definition.slots[generator].kind.fits - TEXT_RESULTS
+            for made, result in self.blocks(inner):
+                if result in fits:
+                    return Made(block_type, inputs={generator: made}), definition.result
+        return None
 
     def _named(self, name: str) -> Iterator[tuple[Made, str]]:
         definitions = self.language.definitions

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import ast
 import math
-from collections import defaultdict
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
@@ -18,7 +17,20 @@ from nep_studio.blocks.program import Block, Project, split_slot
 from nep_studio.blocks.sharing import Sharing
 from nep_studio.blocks.slots import TEXT_RESULTS, FieldValue, Kind, constant
 
-from .names import NameTable, ProgramNames
+from .kinds import (
+    LIST,
+    NUMBER,
+    RESULT_KINDS,
+    TEXT,
+    TRUTH,
+    WHOLE,
+    Kinds,
+    are,
+    kinds_of,
+    note,
+    variable_key,
+)
+from .names import VALUES, NameTable, ProgramNames
 
 # Expression trees that blocks make often: constants, calls, whole numbers.
 
@@ -40,29 +52,6 @@ def method_call(
     return ast.Call(ast.Attribute(target, method), arguments or [], named)
 
 
-def whole(node: ast.expr) -> ast.expr:
-    """Make sure that a number is whole: what is not known to be goes through int()."""
-    return node if is_whole(node) else call("int", node)
-
-
-def is_whole(node: ast.expr) -> bool:
-    """Whether an expression is known to give a whole number."""
-    match node:
-        case ast.Constant(value=value):
-            return type(value) is int
-        case ast.UnaryOp(op=ast.USub(), operand=operand):
-            return is_whole(operand)
-        case ast.BinOp(left=left, op=ast.Add() | ast.Sub() | ast.Mult(), right=right):
-            return is_whole(left) and is_whole(right)
-        case ast.Call(func=ast.Attribute(value=ast.Name(id="random"), attr="randint")):
-            return True
-        case ast.Call(func=ast.Attribute(value=ast.Name(id="math"), attr="floor" | "ceil")):
-            return True
-        case ast.Call(func=ast.Name(id="len" | "int" | "round"), args=[_]):
-            return True
-    return False
-
-
 def known_whole(node: ast.expr) -> int | None:
     """The whole number that an expression is, when it is written there as such."""
     match node:
@@ -73,13 +62,40 @@ def known_whole(node: ast.expr) -> int | None:
     return None
 
 
-def plus(node: ast.expr, number: int) -> ast.expr:
-    """A whole number with another added or taken away, as short as it can be."""
-    known = known_whole(node)
-    if known is not None:
-        return constant(known + number)
-    sign = ast.Add() if number > 0 else ast.Sub()
-    return ast.BinOp(node, sign, ast.Constant(abs(number))) if number else node
+_DRAWS = frozenset({"random", "randint", "choice", "pop", "random_whole", "take_item"})
+_HARMLESS = frozenset(
+    {
+        *("len", "str", "abs", "min", "max", "round", "sorted", "list", "reversed", "bool"),
+        *("floor", "ceil", "find", "upper", "lower", "replace", "split", "sqrt", "log", "log10"),
+        *("exp", "radians", "degrees", "sin", "cos", "tan", "asin", "acos", "atan"),
+        *VALUES - {"random_whole", "take_item"},
+    }
+)
+
+
+def _effects(node: ast.expr) -> int:
+    """What working out a value does besides: 0 nothing, 1 draws or takes, 2 perhaps anything."""
+    found = 0
+    for inner in ast.walk(node):
+        if isinstance(inner, Verbatim):
+            return 2
+        if isinstance(inner, ast.Call):
+            name = getattr(inner.func, "id", getattr(inner.func, "attr", ""))
+            if name in _DRAWS:
+                found = 1
+            elif name not in _HARMLESS:
+                return 2
+    return found
+
+
+def may_swap(first: ast.expr, second: ast.expr) -> bool:
+    """Whether two values may be worked out in the other order, and give the same."""
+    if isinstance(first, ast.Constant) or isinstance(second, ast.Constant):
+        return True
+    effects = _effects(first), _effects(second)
+    if max(effects) == 1:  # the name of a list stands for it, whatever is taken out of it
+        return isinstance(first, ast.Name) or isinstance(second, ast.Name)
+    return max(effects) == 0
 
 
 def compare(left: ast.expr, sign: ast.cmpop, right: ast.expr) -> ast.Compare:
@@ -91,9 +107,6 @@ VARIABLE_BLOCK = "variable.get"
 
 DEEPEST_VALUE = 60
 """How deep values may be nested: CPython takes 200 parentheses, a block makes up to three."""
-
-_COSTS = {"list.find": 10}
-"""Blocks whose Python says an inner value twice cost more: what doubles must not go deep."""
 
 ValueGenerator = Callable[["Expressions", Block], ast.expr]
 
@@ -118,6 +131,7 @@ class Expressions:
         language: Language,
         names: ProgramNames,
         reporters: Mapping[str, ValueGenerator],
+        kinds: Kinds,
     ) -> None:
         self.project = project
         self.language = language
@@ -126,12 +140,19 @@ class Expressions:
         self.api: set[str] = set()
         self.modules: set[str] = set()
         self.robots: set[str] = set()
-        self.variables: dict[str, set[str]] = defaultdict(set)
-        """The variables that are used, each with what it must begin as: "list", "text"."""
+        self.variables: set[str] = set()
+        """The ids of the variables that are used."""
         self.procedure = ""
         """The own block that is being written, or an empty text."""
         self.sharing = Sharing()
         """What other rules may change meanwhile."""
+        self.gives_nothing = False
+        """Whether it should give a value, but may come to its end without one: 0 then."""
+        self.own: frozenset[str] = frozenset()
+        """The Python names of the variables that belong to the calls of this own block."""
+        self.written_for: dict[str, int] = {}
+        """The kinds that this was written for, by what is kept there."""
+        self._kinds = kinds
         self._depth = 0
         self._parts = 0
         self._part_names: NameTable | None = None
@@ -149,18 +170,68 @@ class Expressions:
         return definition
 
     def slot(self, block: Block, key: str) -> ast.expr:
-        """What is in a slot: the block plugged into it, else its field."""
+        """What is in a slot, made what the slot needs: a number, a list or a text."""
+        plugged = self.plugged(block, key)
+        definition = self.definition(block)
+        kind = definition.slots[split_slot(key)[0]].kind
+        if plugged is None:  # what is typed fits
+            return self._field(block, key, kind, definition.value(block, key))
+        return self.fitting(self.value(plugged), kind)
+
+    def value_in(self, block: Block, key: str) -> ast.expr:
+        """What is in a slot, of whatever kind: the block plugged into it, else its field."""
+        plugged = self.plugged(block, key)
+        if plugged is not None:
+            return self.value(plugged)
         definition = self.definition(block)
         slot = definition.slots[split_slot(key)[0]]
-        plugged = self.plugged(block, key)
-        if plugged is None:
-            return self._field(block, key, slot.kind, definition.value(block, key))
-        node = self.value(plugged)
-        if slot.kind.becomes_text and self.definition(plugged).result not in TEXT_RESULTS:
-            return call("str", node)
-        if slot.kind.name == "list" and plugged.type == VARIABLE_BLOCK:
-            self.begins_as(plugged, "list")
+        return self._field(block, key, slot.kind, definition.value(block, key))
+
+    def fitting(self, node: ast.expr, kind: Kind) -> ast.expr:
+        """A value as a kind of slot needs it; what cannot be that is refused while it runs."""
+        kinds = kinds_of(node)
+        if kind.is_number:
+            return node if are(kinds, NUMBER) else self.api_call("as_number", node)
+        if kind.name == "list":
+            return node if are(kinds, LIST) else self.api_call("as_list", node)
+        if kind.becomes_text:
+            return node if are(kinds, TEXT) else self.told(node)
+        if isinstance(node, ast.BoolOp) and kind.name != "boolean" and not are(kinds, TRUTH):
+            return call("bool", node)
         return node
+
+    def told(self, node: ast.expr) -> ast.expr:
+        """A value as a text."""
+        kinds = kinds_of(node)
+        is_whole = bool(kinds) and are(kinds, WHOLE)
+        return call("str", node) if is_whole else self.api_call("as_text", node)
+
+    def clear_text(self, block: Block, key: str) -> ast.expr:
+        """What is in a slot as a text, where Python must show that it is one.
+
+        Elsewhere a variable that holds nothing but texts may stand by itself.
+        """
+        return self.clear(block, key, self.slot(block, key))
+
+    def clear(self, block: Block, key: str, node: ast.expr) -> ast.expr:
+        """A text that is in a slot, so that Python shows that it is one."""
+        if self.shows_text(block, key) or is_told(node):
+            return node
+        return self.api_call("as_text", node)
+
+    def shows_text(self, block: Block, key: str) -> bool:
+        """Whether everybody can see that a slot holds a text: it is typed, or a block of texts."""
+        plugged = self.plugged(block, key)
+        return plugged is None or is_clear_text(plugged, self.definition(plugged))
+
+    def may_swap(self, first: ast.expr, second: ast.expr) -> bool:
+        """Whether two values may be worked out in the other order, and give the same."""
+        return may_swap(first, second)
+
+    def kinds_at(self, key: str) -> int:
+        """The kinds of what is kept somewhere; what is written is written for these."""
+        kinds = self.written_for[key] = self._kinds.of(key)
+        return kinds
 
     def _field(self, block: Block, key: str, kind: Kind, value: FieldValue | None) -> ast.expr:
         if kind.name == "robot":
@@ -220,6 +291,10 @@ class Expressions:
         else:
             node = self.reporters[definition.generator](self, block)
         self._depth -= cost
+        if definition.generator not in _MAYBE_OTHERS and not isinstance(node, ast.BoolOp):
+            result = RESULT_KINDS[definition.result]
+            if not are(kinds_of(node), result):
+                note(node, result)
         return node
 
     def call(self, block: Block, made: Call) -> ast.Call:
@@ -249,13 +324,18 @@ class Expressions:
                 block=block.id,
                 checklist=("Choose a variable, or make a new one.",),
             )
-        self.variables[variable_id]  # a variable that is used is there
+        self.variables.add(variable_id)  # a variable that is used is there
         return self.names.variables[variable_id]
 
-    def begins_as(self, block: Block, kind: str) -> None:
-        """Note that the variable of a block must begin as an empty list or text."""
-        self.variable(block)
-        self.variables[str(block.fields["variable"])].add(kind)
+    def list_changes(self, variable: str) -> bool:
+        """Whether a list may change meanwhile; ``variable`` is "" for one without a name."""
+        if self._kinds.has_lists_twice:  # what is done to one name is done to the other
+            variable = ""
+        return self.sharing.changes(variable)
+
+    def kinds_of_variable(self, block: Block) -> int:
+        """The kinds of what the variable of a block holds."""
+        return self.kinds_at(variable_key(str(block.fields.get("variable", ""))))
 
     def part_name(self) -> str:
         """A name for a function inside the rule: part_1, part_2, and so on."""
@@ -267,7 +347,23 @@ class Expressions:
 
 def value_cost(block: Block) -> int:
     """How many levels a value block adds: the items of a join are in each other in Python."""
-    return _COSTS.get(block.type, 1) + sum(block.groups.values())
+    return 1 + sum(block.groups.values())
+
+
+_MAYBE_OTHERS = frozenset({"own_parameter", "code_value"})
+
+
+def is_clear_text(block: Block, definition: Definition) -> bool:
+    """Whether a block gives a text as everybody can see: its outline and its Python say so."""
+    return definition.result in TEXT_RESULTS and definition.generator not in _MAYBE_OTHERS
+
+
+def is_told(node: ast.expr) -> bool:
+    """Whether Python says itself that a value is told as a text."""
+    match node:
+        case ast.Call(func=ast.Name(id="str" | "as_text")):
+            return True
+    return False
 
 
 # Print an expression tree as one line of Python.

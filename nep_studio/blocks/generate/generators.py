@@ -9,13 +9,14 @@ from __future__ import annotations
 
 import ast
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
 from operator import itemgetter
 from typing import Any
 
 from nep_studio.blocks.code_text import CodeText, read_lines, read_value
 from nep_studio.blocks.errors import CodeRefused
 from nep_studio.blocks.procedures import parameter_of, parameters, procedure_of
-from nep_studio.blocks.program import Block
+from nep_studio.blocks.program import Block, Parameter
 from nep_studio.blocks.slots import constant
 
 from .expressions import (
@@ -35,12 +36,28 @@ from .expressions import (
     call,
     comment_lines,
     compare,
+    is_told,
     known_whole,
+    may_swap,
     method_call,
-    plus,
     refusing,
     show,
-    whole,
+)
+from .kinds import (
+    ITEMS,
+    LIST,
+    NUMBER,
+    OTHER,
+    TEXT,
+    TRUTH,
+    WHOLE,
+    are,
+    are_mixed,
+    kinds_of,
+    kinds_of_code,
+    note,
+    parameter_key,
+    result_key,
 )
 from .names import API, MODULES
 
@@ -50,8 +67,7 @@ from .names import API, MODULES
 def _python(text: str) -> ValueGenerator:
     """The generator of an expression in which the names of slots stand for what is in them.
 
-    What is in ``whole(...)`` becomes a whole number. Modules, and functions of nep_core, are
-    noted for the import.
+    Modules, and functions of nep_core, are noted for the import.
     """
     template = ast.parse(text, mode="eval").body
     named = [node for node in ast.walk(template) if isinstance(node, ast.Name)]
@@ -59,7 +75,7 @@ def _python(text: str) -> ValueGenerator:
     modules = MODULES.intersection(name.id for name in named)
     api = API.intersection(name.id for name in named)
     names = [node.id for node in named if node not in functions]
-    slots = list(dict.fromkeys(name for name in names if name not in (*MODULES, "str")))
+    slots = list(dict.fromkeys(name for name in names if name not in MODULES))
     make = _maker(template, slots)
 
     def generate(code: Expressions, block: Block) -> ast.expr:
@@ -88,8 +104,6 @@ def _maker(part: Any, slots: Sequence[str]) -> _Maker:
         return lambda _filled: part
     if isinstance(part, ast.Call) and isinstance(part.func, ast.Name):
         arguments, function = _maker(part.args, slots), part.func
-        if function.id == "whole":
-            return lambda filled: whole(*arguments(filled))
         return lambda filled: ast.Call(function, arguments(filled), [])
     kind, parts = type(part), [_maker(getattr(part, name), slots) for name in part._fields]
     return lambda filled: kind(*[make(filled) for make in parts])
@@ -103,31 +117,21 @@ def _by_choice(slot: str, texts: dict[str, str]) -> ValueGenerator:
 
 _LINES = {
     "number": "number",
-    "random_integer": "random.randint(whole(low), whole(high))",
     "random_fraction": "random.random()",
-    "random_item": "random.choice(list)",
     "constrain": "min(max(number, low), high)",
     "divisible": "number % divisor == 0",
     "choose": "a if condition else b",
     "not": "not a",
     "human_state_is": "human_state() == state",
     "text": "text",
-    "text_length": "len(text)",
-    "text_is_empty": 'text == ""',
-    "text_contains": "part in text",
-    "text_find": "text.find(part) + 1",
-    "text_replace": "text.replace(part, new)",
-    "text_number": "float(text)",
+    "text_number": "number_in(text)",
     "colour": "colour",
     "colour_from": "colour_from(red, green, blue)",
     "colour_mix": "mix_colours(first, second, percent)",
-    "list_filled": "[item] * whole(times)",
     "list_length": "len(list)",
     "list_is_empty": "len(list) == 0",
-    "list_contains": "item in list",
-    "list_find": "list.index(item) + 1 if item in list else 0",
+    "list_find": "place_of(item, list)",
     "list_reversed": "list(reversed(list))",
-    "list_joined": "mark.join(map(str, list))",
     "sees_face_of": 'robot.sees("face", name)',
     "sees_mark": 'robot.sees("mark", number)',
     "seen_face": 'robot.seen_name("face")',
@@ -141,20 +145,9 @@ _CHOSEN = {
             "subtract": "a - b",
             "multiply": "a * b",
             "divide": "a / b",
-            "power": "a ** b",
             "remainder": "a % b",
             "floor_divide": "a // b",
-        },
-    ),
-    "compare": (
-        "comparison",
-        {
-            "equal": "a == b",
-            "not_equal": "a != b",
-            "less": "a < b",
-            "less_or_equal": "a <= b",
-            "greater": "a > b",
-            "greater_or_equal": "a >= b",
+            "power": "to_power(a, b)",
         },
     ),
     "number_function": (
@@ -166,7 +159,7 @@ _CHOSEN = {
             "ln": "math.log(number)",
             "log10": "math.log10(number)",
             "exp": "math.exp(number)",
-            "pow10": "10 ** number",
+            "pow10": "to_power(10, number)",
         },
     ),
     "trigonometry": (
@@ -189,7 +182,7 @@ _CHOSEN = {
     ),
     "round": (
         "way",
-        {"nearest": "round(number)", "up": "math.ceil(number)", "down": "math.floor(number)"},
+        {"nearest": "to_nearest(number)", "up": "math.ceil(number)", "down": "math.floor(number)"},
     ),
     "number_is": (
         "property",
@@ -201,24 +194,31 @@ _CHOSEN = {
             "negative": "number < 0",
         },
     ),
-    "of_list": (
-        "function",
-        {name: f"{name}(list)" for name in ("sum", "min", "max")}
-        | {name: f"statistics.{name}(list)" for name in ("mean", "median", "stdev")},
-    ),
     "truth": ("truth", {"true": "True", "false": "False"}),
-    "text_case": ("case", {name: f"text.{name}()" for name in ("upper", "lower", "title")}),
+    "text_case": (
+        "case",
+        {"upper": "text.upper()", "lower": "text.lower()", "title": "title_case(text)"},
+    ),
 }
 
 
-# Other values.
+# Values whose Python depends on what is known of the kinds of what they get: plain Python where
+# it does what the block says, else a function of nep_core with the slots in the same order.
 
 
 def _join(code: Expressions, block: Block) -> ast.expr:
-    joined, *items = code.slots(block, "item", "item")
-    for item in items:
+    keys = [f"item.{number}" for number in range(1, block.groups.get("item", 0) + 1)]
+    items = [code.slot(block, key) for key in keys]
+    if not any(map(_is_clear, items)) and not any(code.shows_text(block, key) for key in keys):
+        items[0] = code.api_call("as_text", items[0])  # else it would be a sum of numbers
+    joined, *more = items
+    for item in more:
         joined = ast.BinOp(joined, ast.Add(), item)
     return joined
+
+
+def _is_clear(node: ast.expr) -> bool:
+    return is_told(node) or (isinstance(node, ast.Constant) and isinstance(node.value, str))
 
 
 def _junction(code: Expressions, block: Block) -> ast.expr:
@@ -227,11 +227,83 @@ def _junction(code: Expressions, block: Block) -> ast.expr:
     return ast.BoolOp(word, values)
 
 
+_SAME: dict[str, ast.cmpop] = {"equal": ast.Eq(), "not_equal": ast.NotEq()}
+_RANDOM_ITEM = _python("random.choice(list)")
+_ORDER: dict[str, tuple[ast.cmpop, str]] = {
+    "less": (ast.Lt(), "is_less"),
+    "less_or_equal": (ast.LtE(), "is_at_most"),
+    "greater": (ast.Gt(), "is_more"),
+    "greater_or_equal": (ast.GtE(), "is_at_least"),
+}
+
+
+def _compare(code: Expressions, block: Block) -> ast.expr:
+    comparison = code.choice(block, "comparison")
+    a, b = code.slot(block, "a"), code.slot(block, "b")
+    first, second = kinds_of(a), kinds_of(b)
+    if comparison in _ORDER:
+        sign, function = _ORDER[comparison]
+        if any(are(first, kind) and are(second, kind) for kind in (NUMBER, TEXT)):
+            return compare(a, sign, b)
+        return code.api_call(function, a, b)
+    is_equal = comparison == "equal"
+    if are(first, TRUTH) and first and isinstance(b, ast.Constant) and type(b.value) is bool:
+        return a if b.value is is_equal else ast.UnaryOp(ast.Not(), a)
+    if not are_mixed(first, second):
+        return compare(a, _SAME[comparison], b)
+    same = code.api_call("is_same", a, b)
+    return same if is_equal else ast.UnaryOp(ast.Not(), same)
+
+
+def _random_integer(code: Expressions, block: Block) -> ast.expr:
+    low, high = code.slot(block, "low"), code.slot(block, "high")
+    ends = known_whole(low), known_whole(high)
+    if ends[0] is None or ends[1] is None or ends[0] > ends[1]:
+        return code.api_call("random_whole", low, high)
+    code.modules.add("random")
+    return method_call(ast.Name("random"), "randint", [low, high])
+
+
+def _text_length(code: Expressions, block: Block) -> ast.expr:
+    if code.shows_text(block, "text"):
+        return call("len", code.slot(block, "text"))
+    return code.api_call("length_of", code.value_in(block, "text"))
+
+
+def _text_is_empty(code: Expressions, block: Block) -> ast.expr:
+    if code.shows_text(block, "text"):
+        return compare(code.slot(block, "text"), ast.Eq(), ast.Constant(""))
+    length = code.api_call("length_of", code.value_in(block, "text"))
+    return compare(length, ast.Eq(), ast.Constant(0))
+
+
+def _text_contains(code: Expressions, block: Block) -> ast.expr:
+    text, part = code.clear_text(block, "text"), code.slot(block, "part")
+    if code.may_swap(text, part):
+        return compare(part, ast.In(), text)
+    return code.api_call("has_part", text, part)
+
+
+def _text_find(code: Expressions, block: Block) -> ast.expr:
+    part, text = code.slot(block, "part"), code.slot(block, "text")
+    if code.may_swap(part, text):
+        return ast.BinOp(method_call(text, "find", [part]), ast.Add(), ast.Constant(1))
+    return code.api_call("place_in_text", part, text)
+
+
+def _text_replace(code: Expressions, block: Block) -> ast.expr:
+    text, new, part = (code.slot(block, key) for key in ("text", "new", "part"))
+    if isinstance(part, ast.Constant) and part.value:
+        return method_call(text, "replace", [part, new])
+    return code.api_call("replace_part", text, new=new, part=part)
+
+
 def _letter(code: Expressions, block: Block) -> ast.expr:
-    index = plus(whole(code.slot(block, "number")), -1)
-    if (known := known_whole(index)) is not None and known < 0:
-        index = ast.Constant(0)
-    return ast.Subscript(code.slot(block, "text"), index)
+    number = code.value_in(block, "number")
+    place = known_whole(number)
+    if place is not None and place > 0 and code.shows_text(block, "text"):
+        return note(ast.Subscript(code.slot(block, "text"), constant(place - 1)), TEXT)
+    return code.api_call("letter_of", number, code.slot(block, "text"))
 
 
 def _emotion(code: Expressions, block: Block) -> ast.expr:
@@ -243,43 +315,115 @@ EMOTION_S = 3
 """How long a person looks so after a node has told it."""
 
 
+@dataclass(frozen=True, slots=True)
+class _Place:
+    """The number of an item, and the list: ``index`` is where Python has it, if that is plain."""
+
+    number: ast.expr
+    items: ast.expr
+    index: ast.expr | None
+    options: dict[str, ast.expr]
+
+
+def _place(code: Expressions, block: Block) -> _Place:
+    """Item 1 from the start is item 0 of Python, item 1 from the end is item -1."""
+    number, items = code.value_in(block, "number"), code.value_in(block, "list")
+    is_from_end = code.choice(block, "end") == "end"
+    options: dict[str, ast.expr] = {"from_end": ast.Constant(True)} if is_from_end else {}
+    place, index = known_whole(number), None
+    if place is not None and place > 0 and are(kinds_of(items), LIST):
+        index = constant(-place if is_from_end else place - 1)
+    return _Place(number, items, index, options)
+
+
 def _get(code: Expressions, block: Block) -> ast.expr:
-    return ast.Subscript(code.slot(block, "list"), _index(code, block))
+    at = _place(code, block)
+    if at.index is not None:
+        return note(ast.Subscript(at.items, at.index), code.kinds_at(ITEMS))
+    got = code.api_call("item_of", at.number, at.items, **at.options)
+    return note(got, code.kinds_at(ITEMS))
 
 
 def _take(code: Expressions, block: Block) -> ast.expr:
-    return method_call(code.slot(block, "list"), "pop", [_index(code, block)])
+    at = _place(code, block)
+    if at.index is not None:
+        return note(method_call(at.items, "pop", [at.index]), code.kinds_at(ITEMS))
+    taken = code.api_call("take_item", at.number, at.items, **at.options)
+    return note(taken, code.kinds_at(ITEMS))
+
+
+def _random_item(code: Expressions, block: Block) -> ast.expr:
+    return note(_RANDOM_ITEM(code, block), code.kinds_at(ITEMS))
 
 
 def _part(code: Expressions, block: Block) -> ast.expr:
-    low = plus(whole(code.slot(block, "first")), -1)
-    high = whole(code.slot(block, "last"))
-    first = None if known_whole(low) == 0 else low
-    return ast.Subscript(code.slot(block, "list"), ast.Slice(first, high))
+    first, last, items = (code.value_in(block, key) for key in ("first", "last", "list"))
+    low, high = known_whole(first), known_whole(last)
+    is_plain = low is not None and low > 0 and high is not None and high >= 0
+    if low is None or not is_plain or not are(kinds_of(items), LIST):
+        return code.api_call("items_between", first, last, items)
+    begin = constant(low - 1) if low > 1 else None
+    return note(ast.Subscript(items, ast.Slice(begin, last)), LIST)
+
+
+def _filled(code: Expressions, block: Block) -> ast.expr:
+    item, times = code.slot(block, "item"), code.value_in(block, "times")
+    if are(kinds_of(times), WHOLE) and not kinds_of(item) & (LIST | OTHER):
+        return note(ast.BinOp(ast.List([item]), ast.Mult(), times), LIST)
+    return code.api_call("list_with", item, times)
+
+
+def _list_contains(code: Expressions, block: Block) -> ast.expr:
+    items, item = code.slot(block, "list"), code.slot(block, "item")
+    is_plain = not are_mixed(kinds_of(item), code.kinds_at(ITEMS))
+    if is_plain and code.may_swap(items, item):
+        return compare(item, ast.In(), items)
+    return code.api_call("has_item", items, item)
 
 
 def _sorted(code: Expressions, block: Block) -> ast.expr:
-    is_down = code.choice(block, "order") == "down"
+    items, is_down = code.slot(block, "list"), code.choice(block, "order") == "down"
     keywords: dict[str, ast.expr] = {"reverse": ast.Constant(True)} if is_down else {}
-    return call("sorted", code.slot(block, "list"), **keywords)
+    held = code.kinds_at(ITEMS)
+    if are(held, NUMBER) or are(held, TEXT):
+        return call("sorted", items, **keywords)
+    return code.api_call("sorted_items", items, **keywords)
+
+
+_OF_LIST = {
+    "sum": ("sum", "sum_of"),
+    "min": ("min", "smallest_of"),
+    "max": ("max", "largest_of"),
+    "mean": ("statistics.mean", "mean_of"),
+    "median": ("statistics.median", "median_of"),
+    "stdev": ("statistics.stdev", "deviation_of"),
+}
+"""The functions of lists of numbers, and those that look first whether all are numbers."""
+
+
+def _of_list(code: Expressions, block: Block) -> ast.expr:
+    plain, careful = _OF_LIST[code.choice(block, "function")]
+    if not are(code.kinds_at(ITEMS), NUMBER):
+        return code.api_call(careful, code.slot(block, "list"))
+    return _python(f"{plain}(list)")(code, block)
+
+
+def _joined(code: Expressions, block: Block) -> ast.expr:
+    items, mark = code.slot(block, "list"), code.slot(block, "mark")
+    held = code.kinds_at(ITEMS)
+    if (not are(held, WHOLE) and not are(held, TEXT)) or not code.may_swap(items, mark):
+        return code.api_call("join_items", items, mark)
+    texts = items if are(held, TEXT) else call("map", ast.Name("str"), items)
+    return method_call(mark, "join", [texts])
 
 
 def _split(code: Expressions, block: Block) -> ast.expr:
     text, mark = code.slot(block, "text"), code.slot(block, "mark")
-    if isinstance(mark, ast.Constant) and mark.value == "":
-        return call("list", text)
-    return method_call(text, "split", [mark])
-
-
-def _index(code: Expressions, block: Block) -> ast.expr:
-    """Item 1 from the start is item 0 of Python, item 1 from the end is item -1."""
-    number = whole(code.slot(block, "number"))
-    return plus(number, -1) if code.choice(block, "end") == "start" else _minus(number)
-
-
-def _minus(number: ast.expr) -> ast.expr:
-    known = known_whole(number)
-    return ast.UnaryOp(ast.USub(), number) if known is None else constant(-known)
+    if not isinstance(mark, ast.Constant):
+        return code.api_call("parts_of", text, mark)
+    if mark.value:
+        return method_call(text, "split", [mark])
+    return call("list", code.clear(block, "text", text))
 
 
 # The Python of own blocks and of code that a person wrote: calls, parameters, the names in it.
@@ -294,8 +438,16 @@ def _own_call(code: Expressions, block: Block) -> ast.expr:
             checklist=("Put its “define” block onto a page again.", "Or take this block out."),
         )
     procedure = code.project.procedures[procedure_id]
-    arguments = [code.slot(block, parameter.id) for parameter in parameters(procedure)]
-    return call(code.names.procedures[procedure_id], *arguments)
+    arguments = [_argument(code, block, parameter) for parameter in parameters(procedure)]
+    made = call(code.names.procedures[procedure_id], *arguments)
+    return note(made, code.kinds_at(result_key(procedure_id)))
+
+
+def _argument(code: Expressions, block: Block, parameter: Parameter) -> ast.expr:
+    """A value for an own block: its slot needs its kind, also where it is yes or no."""
+    value = code.slot(block, parameter.id)
+    is_truth = parameter.kind != "boolean" or are(kinds_of(value), TRUTH)
+    return value if is_truth else call("bool", value)
 
 
 def _own_parameter(code: Expressions, block: Block) -> ast.expr:
@@ -305,14 +457,20 @@ def _own_parameter(code: Expressions, block: Block) -> ast.expr:
             block=block.id,
             checklist=("Move it under the “define” block that it comes from.",),
         )
-    return ast.Name(code.names.parameters[f"{code.procedure}.{parameter_of(block.type)}"])
+    parameter = parameter_of(block.type)
+    name = ast.Name(code.names.parameters[f"{code.procedure}.{parameter}"])
+    return note(name, code.kinds_at(parameter_key(code.procedure, parameter)))
+
+
+def _variable(code: Expressions, block: Block) -> ast.expr:
+    return note(ast.Name(code.variable(block)), code.kinds_of_variable(block))
 
 
 def _code_value(code: Expressions, block: Block) -> ast.expr:
     with refusing(block):
         read = read_value(code.text(block, "code"))
     note_names(code, read)
-    return Verbatim(read.lines[0], is_closed=read.is_closed)
+    return note(Verbatim(read.lines[0], is_closed=read.is_closed), kinds_of_code(read.lines[0]))
 
 
 def _code_lines(code: Expressions, block: Block) -> list[Piece]:
@@ -329,7 +487,7 @@ def note_names(code: Expressions, read: CodeText) -> None:
     named = read.read | read.made
     for variable_id, name in code.names.variables.items():
         if name in named:
-            code.variables[variable_id]  # a variable that is used is there
+            code.variables.add(variable_id)  # a variable that is used is there
     code.robots.update(robot for robot, name in code.names.robots.items() if name in read.read)
     code.api.update(API & read.read - read.made)
     code.modules.update(MODULES & read.read - read.made)
@@ -338,17 +496,29 @@ def note_names(code: Expressions, read: CodeText) -> None:
 REPORTERS: dict[str, ValueGenerator] = {
     **{name: _python(text) for name, text in _LINES.items()},
     **{name: _by_choice(slot, texts) for name, (slot, texts) in _CHOSEN.items()},
-    "variable": lambda code, block: ast.Name(code.variable(block)),
+    "variable": _variable,
     "join": _join,
     "junction": _junction,
+    "compare": _compare,
+    "random_integer": _random_integer,
+    "random_item": _random_item,
+    "text_length": _text_length,
+    "text_is_empty": _text_is_empty,
+    "text_contains": _text_contains,
+    "text_find": _text_find,
+    "text_replace": _text_replace,
     "letter": _letter,
     "emotion": _emotion,
     "list_create": lambda code, block: ast.List(code.slots(block, "item", "item")),
     "list_get": _get,
     "list_take": _take,
     "list_part": _part,
+    "list_filled": _filled,
+    "list_contains": _list_contains,
     "list_sorted": _sorted,
     "list_split": _split,
+    "list_joined": _joined,
+    "of_list": _of_list,
     "own_call": _own_call,
     "own_parameter": _own_parameter,
     "code_value": _code_value,
@@ -369,20 +539,29 @@ def _loop(word: str, text: str) -> StatementGenerator:
     return lambda code, block: [f"{word} {show(value(code, block))}:", Body("do", loop=True)]
 
 
+def _repeat(code: Expressions, block: Block) -> list[Piece]:
+    times = code.slot(block, "times")
+    if not are(kinds_of(times), WHOLE):
+        times = code.api_call("to_nearest", times)
+    return [f"for _ in {show(call('range', times))}:", Body("do", loop=True)]
+
+
 def _count(code: Expressions, block: Block) -> list[Piece]:
-    first, last = whole(code.slot(block, "first")), whole(code.slot(block, "last"))
-    step = whole(code.slot(block, "step"))
-    ends, by = (known_whole(first), known_whole(last)), known_whole(step)
+    first, last, step = (code.slot(block, key) for key in ("first", "last", "step"))
+    low, high, by = known_whole(first), known_whole(last), known_whole(step)
     if by == 0:
         raise CodeRefused(
             "Counting in steps of 0 never ends.",
             block=block.id,
             checklist=("Make the step 1, or any number that is not zero.",),
         )
-    if by is not None and by > 0 and None not in ends and ends[0] > ends[1]:  # type: ignore[operator]
-        by, step = -by, constant(-by)  # from 10 to 1: down
-    arguments = [first, plus(last, -1 if by is not None and by < 0 else 1)]
-    counted = call("range", *arguments, *([] if by == 1 else [step]))
+    if low is None or high is None or by is None:
+        ends = (first, last) if by == 1 else (first, last, step)
+        counted = code.api_call("count_from", *ends)
+    else:  # the sign of the step does not matter: from 10 to 1 is down
+        by = abs(by) if low <= high else -abs(by)
+        beyond = constant(high + (1 if by > 0 else -1))
+        counted = call("range", first, beyond, *([] if by == 1 else [constant(by)]))
     name = code.variable(block)
     return [Assignment(name, f"for {name} in {show(counted)}:"), Body("do", loop=True)]
 
@@ -390,23 +569,62 @@ def _count(code: Expressions, block: Block) -> list[Piece]:
 def _for_each(code: Expressions, block: Block) -> list[Piece]:
     items, name = code.slot(block, "list"), code.variable(block)
     held = code.plugged(block, "list")
-    if held is not None and isinstance(items, ast.Name):
+    if held is not None and not _is_new_list(items):
         variable = str(held.fields.get("variable", ""))
-        if code.sharing.changes(variable):  # the items that it had when the loop began
+        if code.list_changes(variable):  # the items that it had when the loop began
             items = ast.Subscript(items, ast.Slice())
     return [Assignment(name, f"for {name} in {show(items)}:"), Body("do", loop=True)]
 
 
-def _assign(sign: str, slot: str, *, begins_as: str = "") -> StatementGenerator:
+_NEW_LISTS = frozenset(
+    {"sorted", "sorted_items", "list", "split", "list_with", "items_between", "parts_of"}
+)
+
+
+def _is_new_list(items: ast.expr) -> bool:
+    """Whether a list was made just now, so that nobody else can change it."""
+    match items:
+        case ast.List() | ast.Subscript(slice=ast.Slice()):
+            return True
+        case ast.Call(func=ast.Name(id=name)) | ast.Call(func=ast.Attribute(attr=name)):
+            return name in _NEW_LISTS
+    return False
+
+
+def _assign(sign: str, slot: str) -> StatementGenerator:
     """The generator of what puts a value into a variable, or adds it there."""
 
     def generate(code: Expressions, block: Block) -> list[Piece]:
-        if begins_as:
-            code.begins_as(block, begins_as)
         name = code.variable(block)
         return [Assignment(name, f"{name} {sign} {show(code.slot(block, slot))}")]
 
     return generate
+
+
+def _change(code: Expressions, block: Block) -> Sequence[Piece]:
+    """What is added is worked out first, and only then what the variable holds by then."""
+    name, amount = code.variable(block), code.slot(block, "amount")
+    held: ast.expr = note(ast.Name(name), code.kinds_of_variable(block))
+    if may_swap(amount, held):
+        if not kinds_of(held) & TRUTH:  # a text or a list refuses a number
+            return [Assignment(name, f"{name} += {show(amount)}")]
+        held, amount = amount, code.api_call("as_number", held)
+    elif not are(kinds_of(held), NUMBER):
+        held = code.api_call("as_number", held)
+    return [Assignment(name, f"{name} = {show(ast.BinOp(amount, ast.Add(), held))}")]
+
+
+def _append(code: Expressions, block: Block) -> Sequence[Piece]:
+    name, text = code.variable(block), code.slot(block, "text")
+    held = note(ast.Name(name), code.kinds_of_variable(block))
+    if not code.may_swap(text, held):  # the text first, then what the variable holds by then
+        value: ast.expr = code.api_call("append_text", text, held)
+    elif are(kinds_of(held), TEXT):
+        return [Assignment(name, f"{name} += {show(code.clear(block, 'text', text))}")]
+    else:
+        shown = code.clear(block, "text", text)
+        value = ast.BinOp(code.api_call("as_text", held), ast.Add(), shown)
+    return [Assignment(name, f"{name} = {show(value)}")]
 
 
 def _if(code: Expressions, block: Block) -> list[Piece]:
@@ -437,18 +655,34 @@ def _wait_until(code: Expressions, block: Block) -> list[Piece]:
     return [show(code.api_call("wait_until", condition, *limit))]
 
 
+def _add(code: Expressions, block: Block) -> list[Piece]:
+    value, items = code.slot(block, "value"), code.value_in(block, "list")
+    if are(kinds_of(items), LIST) and code.may_swap(value, items):
+        return [show(method_call(items, "append", [value]))]
+    return [show(code.api_call("add_item", value, items))]
+
+
 def _set_item(code: Expressions, block: Block) -> list[Piece]:
-    return [f"{show(_get(code, block))} = {show(code.slot(block, 'value'))}"]
+    at, value = _place(code, block), code.slot(block, "value")
+    if at.index is not None and code.may_swap(at.items, value):
+        return [f"{show(ast.Subscript(at.items, at.index))} = {show(value)}"]
+    return [show(code.api_call("set_item", at.number, at.items, value, **at.options))]
 
 
 def _insert(code: Expressions, block: Block) -> list[Piece]:
-    items, value = code.slot(block, "list"), code.slot(block, "value")
-    number = whole(code.slot(block, "number"))
-    if code.choice(block, "end") == "start":
-        return [show(method_call(items, "insert", [plus(number, -1), value]))]
-    if known_whole(number) == 1:
-        return [show(method_call(items, "append", [value]))]
-    return [show(method_call(items, "insert", [plus(_minus(number), 1), value]))]
+    value, at = code.slot(block, "value"), _place(code, block)
+    if known_whole(at.number) == 1 and at.index is not None and code.may_swap(value, at.items):
+        first = [] if at.options else [ast.Constant(0)]
+        method = "insert" if first else "append"
+        return [show(method_call(at.items, method, [*first, value]))]
+    return [show(code.api_call("insert_item", value, at.number, at.items, **at.options))]
+
+
+def _remove(code: Expressions, block: Block) -> list[Piece]:
+    at = _place(code, block)
+    if at.index is not None:
+        return [f"del {show(ast.Subscript(at.items, at.index))}"]
+    return [show(code.api_call("remove_item", at.number, at.items, **at.options))]
 
 
 def _ask(code: Expressions, block: Block) -> list[Piece]:
@@ -472,10 +706,8 @@ def _wait_for_word(code: Expressions, block: Block) -> list[Piece]:
     return [show(method_call(code.slot(block, "robot"), "wait_for_word", arguments, seconds))]
 
 
-_ADD = _python("list.append(value)")
-
 STATEMENTS: dict[str, StatementGenerator] = {
-    "repeat": _loop("for _ in", "range(whole(times))"),
+    "repeat": _repeat,
     "forever": _loop("while", "True"),
     "while": _loop("while", "condition"),
     "repeat_until": _loop("while", "not condition"),
@@ -492,12 +724,12 @@ STATEMENTS: dict[str, StatementGenerator] = {
     "in_turn": _parts("in_turn"),
     "wait_until": _wait_until,
     "set_variable": _assign("=", "value"),
-    "change_variable": _assign("+=", "amount"),
-    "append_text": _assign("+=", "text", begins_as="text"),
-    "list_add": lambda code, block: [show(_ADD(code, block))],
+    "change_variable": _change,
+    "append_text": _append,
+    "list_add": _add,
     "list_set": _set_item,
     "list_insert": _insert,
-    "list_remove": lambda code, block: [f"del {show(_get(code, block))}"],
+    "list_remove": _remove,
     "ask": _ask,
     "wait_for_word": _wait_for_word,
     "note": lambda code, block: [*comment_lines(code.text(block, "text"))],

@@ -8,8 +8,30 @@ import re
 import unicodedata
 from collections.abc import Iterable
 from dataclasses import dataclass, field
+from functools import lru_cache
 
-API = frozenset(
+VALUES = frozenset(
+    {
+        *(
+            "add_item",
+            "append_text",
+            "as_list",
+            "as_number",
+            "as_text",
+            "count_from",
+            "deviation_of",
+        ),
+        *("has_item", "has_part", "insert_item", "is_at_least", "is_at_most", "is_less"),
+        *("is_more", "is_same", "item_of", "items_between", "join_items", "largest_of"),
+        *("length_of", "letter_of", "list_with", "mean_of", "median_of", "number_in"),
+        *("parts_of", "place_in_text", "place_of", "random_whole", "remove_item"),
+        *("replace_part", "set_item", "smallest_of", "sorted_items", "sum_of"),
+        *("take_item", "title_case", "to_nearest", "to_power"),
+    }
+)
+"""What nep_core does with values where plain Python does something else."""
+
+API = VALUES | frozenset(
     {
         "Behavior",
         "Launcher",
@@ -60,6 +82,7 @@ RESERVED = frozenset(
 _LONGEST = 40
 
 
+@lru_cache(maxsize=4096)  # asked for each rule at every edit
 def python_name(text: str, fallback: str) -> str:
     """Turn any text into an identifier, as near to it as can be: “größe (cm)” to größe_cm.
 

@@ -20,13 +20,14 @@ from nep_studio.blocks.deployment import (
 from nep_studio.blocks.errors import CodeRefused
 from nep_studio.blocks.language import Language
 from nep_studio.blocks.procedures import DEFINE, parameters, procedure_of, words
-from nep_studio.blocks.program import ALL_ROBOTS, Block, Project
+from nep_studio.blocks.program import ALL_ROBOTS, LANGUAGES, Block, Project
 from nep_studio.blocks.sharing import Chain, Sharing, look_at, sharing_of
 from nep_studio.blocks.slices import Steps, at_once
 from nep_studio.blocks.slots import Setting, constant
 
 from .expressions import Expressions, call, literal, method_call, refusing, show
 from .generators import REPORTERS
+from .kinds import FactReader, Facts, Kinds, together
 from .names import MODULES, NameTable, ProgramNames
 from .rules import HATS, Line, RuleWriter
 from .source_map import Code
@@ -41,7 +42,9 @@ class _Rule:
     api: frozenset[str]
     modules: frozenset[str]
     robots: frozenset[str]
-    variables: dict[str, frozenset[str]]
+    variables: frozenset[str]
+    kinds: dict[str, int]
+    """The kinds that it was written for."""
 
 
 PLACES = ("top", "here", "end")
@@ -86,6 +89,9 @@ class ProgramGenerator:
         self._project = project
         self._language = language.of(project)
         self._rules: dict[str, _Rule] = {}
+        self._facts: dict[str, tuple[object, Facts]] = {}
+        self._kinds = Kinds()
+        self._kinds_for: object = None
         self._robots: dict[str, tuple[int, frozenset[str]]] = {}
         self._chains: dict[str, tuple[object, Chain]] = {}
         self._robot_slots = {
@@ -111,6 +117,7 @@ class ProgramGenerator:
         outside = self._outside(written)
         names = yield from self._names(written, headers, outside)
         sharing = yield from self._sharing(written, names)
+        self._kinds = yield from self._kinds_in(written, names)
         functions = NameTable(names.taken())
         ordered = self._in_order(written, set(headers.values()), headers, outside)
         for stack in ordered:
@@ -186,6 +193,28 @@ class ProgramGenerator:
                         self._chains[stack] = state, found
         return sharing_of((chain for _, chain in self._chains.values()), names.variables)
 
+    def _kinds_in(self, written: dict[str, list[str]], names: ProgramNames) -> Steps[Kinds]:
+        """The kinds of what the program keeps, as they were unless a stack does other things."""
+        known, changed = (
+            self._facts,
+            self._kinds_for != names or self._facts.keys() != written.keys(),
+        )
+        self._facts = {}
+        for stack, chain in written.items():
+            revision = (self._project.revisions.get(stack), self._project.procedure_revision)
+            before = known.get(stack)
+            if before is None or before[0] != revision:
+                yield
+                facts = FactReader(self._project, self._language).read(chain)
+                changed |= before is None or before[1] != facts
+                before = revision, facts
+            self._facts[stack] = before
+        if not changed:
+            return self._kinds
+        self._kinds_for = names
+        facts_of = {stack: facts for stack, (_, facts) in self._facts.items()}
+        return together(facts_of, self._project, names)
+
     def _rule(
         self,
         stack: str,
@@ -195,20 +224,27 @@ class ProgramGenerator:
         sharing: Sharing,
     ) -> Steps[_Rule]:
         """Write the rule of a stack, unless it is written already."""
-        code = Expressions(self._project, self._language, names, REPORTERS)
+        code = Expressions(self._project, self._language, names, REPORTERS, self._kinds)
         code.sharing = sharing
         hat_block = self._project.blocks[chain[0]]
         hat = HATS[code.definition(hat_block).generator](code, hat_block)
         if hat_block.type.startswith(DEFINE):
             code.procedure, function = procedure_of(hat_block.type), hat.name
+            gives_value = self._project.procedures[code.procedure].gives_value
+            code.gives_nothing = gives_value and self._facts[stack][1].is_open
         elif hat.outside is not None:
             function = ""
         else:
             function = functions.give(hat.name, "when")
         revision = self._project.revisions.get(stack)
-        made_for = (revision, function, names, self._project.procedure_revision, sharing)
+        own = self._kinds.own.get(stack, frozenset())
+        code.own = frozenset(names.variables[variable] for variable in own)
+        made_for = (
+            *(revision, function, names, self._project.procedure_revision),
+            *(sharing, own, self._kinds.has_lists_twice),
+        )
         known = self._rules.get(stack)
-        if known is not None and known.made_for == made_for:
+        if known is not None and known.made_for == made_for and self._fits(known.kinds):
             return known
         writer = RuleWriter(code)
         yield from writer.write(function, hat, chain)
@@ -218,8 +254,13 @@ class ProgramGenerator:
             frozenset(code.api),
             frozenset(code.modules),
             frozenset(code.robots),
-            {variable: frozenset(kinds) for variable, kinds in code.variables.items()},
+            frozenset(code.variables - own),
+            code.written_for,
         )
+
+    def _fits(self, kinds: dict[str, int]) -> bool:
+        """Whether these are still the kinds of what is kept."""
+        return all(self._kinds.of(key) == kind for key, kind in kinds.items())
 
     def _names(
         self, written: dict[str, list[str]], headers: dict[str, str], outside: dict[str, Outside]
@@ -297,7 +338,11 @@ class ProgramGenerator:
             api.add("Robot")
         head = [*(f"import {name}" for name in sorted(modules))]
         head += [f"from nep_core import {', '.join(sorted(api))}", ""]
-        options = {"on_error": ast.Constant("end")} if self._project.ends_on_error else {}
+        options: dict[str, ast.expr] = {}
+        if self._project.ends_on_error:
+            options["on_error"] = ast.Constant("end")
+        if self._project.spoken_language != LANGUAGES[0]:
+            options["language"] = ast.Constant(self._project.spoken_language)
         behavior = show(call("Behavior", ast.Constant(self._project.name), **options))
         begun = {name for own in outside.values() if own.place != "end" for name in own.begins()}
         page = [*_with_docstring(self._project.name, [self._rules[s].code for s in top])]
@@ -310,13 +355,10 @@ class ProgramGenerator:
 
     def _variables(self, names: ProgramNames) -> Iterator[tuple[str, str]]:
         """The variables that are used, each with the line that begins it."""
-        begins: dict[str, set[str]] = {}
-        for rule in self._rules.values():
-            for variable, kinds in rule.variables.items():
-                begins.setdefault(variable, set()).update(kinds)
+        used = frozenset[str]().union(*(rule.variables for rule in self._rules.values()))
         for variable, name in names.variables.items():
-            if variable in begins:
-                yield name, f"{name} = {_first(begins[variable])}"
+            if variable in used:
+                yield name, f"{name} = {self._kinds.first[variable]}"
 
     def _robot_lines(self, names: ProgramNames, used: set[str]) -> list[tuple[str, str]]:
         """A line for each robot that the rules use, with its block on the Robots page."""
@@ -359,11 +401,6 @@ def _with_docstring(name: str, own: Sequence[Code]) -> list[Line]:
     is_comment = [not text or text.startswith("#") for text, _ in lines]
     above = next((n for n, one in enumerate(is_comment) if not one), len(lines))
     return [*lines[:above], (_docstring(name), ""), *lines[above:]]
-
-
-def _first(kinds: set[str]) -> str:
-    """What a variable holds before anything is put into it."""
-    return "[]" if "list" in kinds else '""' if "text" in kinds else "0"
 
 
 def _docstring(name: str) -> str:

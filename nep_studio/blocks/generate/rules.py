@@ -243,9 +243,14 @@ class RuleWriter:
             item = next(frame.left, None)
             if item is None:
                 scope = frames.pop().scope
-                if frame.opens and scope.assigned:  # at the end of a function
-                    line = f"{_MARGINS[scope.indent]}global {', '.join(sorted(scope.assigned))}"
+                shared = scope.assigned - self._code.own
+                if frame.opens and shared:  # at the end of a function
+                    line = f"{_MARGINS[scope.indent]}global {', '.join(sorted(shared))}"
                     self.lines.insert(scope.line, (line, scope.block))
+                if not frames and self._code.gives_nothing:
+                    if self.lines[-1][0] == f"{_MARGINS[1]}pass":
+                        self.lines.pop()
+                    self._line(f"{_MARGINS[1]}return 0", hat_block.id)
             elif isinstance(item, Block):
                 yield
                 frames.append(self._block(frame, item))

@@ -27,6 +27,7 @@ from .menus import (
     add_edit_menu,
     add_file_menu,
     add_help_menu,
+    add_language_of_program,
     add_menu,
     add_toolbar,
     add_view_menu,
@@ -269,6 +270,7 @@ class MainWindow(QMainWindow):
             "robots": add_menu(self, "R&obots"),
         }
         fill_run_menu(self.menus["run"], self.host)
+        add_language_of_program(self.menus["run"], self)
         self.menus["help"] = add_help_menu(self)
         self.toolbar: QToolBar = add_toolbar(self)
         fit_icons(self.pages)

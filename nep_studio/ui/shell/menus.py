@@ -11,6 +11,8 @@ from PySide6.QtGui import QAction, QActionGroup, QGuiApplication, QKeySequence, 
 from PySide6.QtWidgets import QApplication, QLineEdit, QMenu, QPlainTextEdit, QToolBar, QToolButton
 
 from faults import Words, verbatim
+from nep_studio.blocks.edits.content import SetExtra
+from nep_studio.blocks.program import LANGUAGE, LANGUAGES
 from nep_studio.project.examples import examples
 from nep_studio.settings import SYSTEM
 from nep_studio.ui.labels import labelled
@@ -267,6 +269,25 @@ def _add_looks(menu: QMenu, window: MainWindow) -> None:
         lambda: f"{settings.text_scale:g}",
         lambda scale: studio.choose_text_scale(float(scale)),
     )
+
+
+def add_language_of_program(menu: QMenu, window: MainWindow) -> None:
+    """Let a person choose in which language a program tells numbers, truths and lists."""
+
+    def choose(code: str) -> None:
+        document = window.host.services.document
+        if document is not None:
+            kept = None if code == LANGUAGES[0] else code
+            document.editor.apply(SetExtra(LANGUAGE, kept))
+
+    def chosen() -> str:
+        document = window.host.services.document
+        return document.project.spoken_language if document is not None else ""
+
+    choices = _submenu(menu, window, "languages", "Language of the program")
+    names = available_languages()
+    known = [(code, verbatim(names[code])) for code in LANGUAGES if code in names]
+    _add_choices(choices, known, chosen, choose)
 
 
 def _fill_panels(menu: QMenu, window: MainWindow) -> None:

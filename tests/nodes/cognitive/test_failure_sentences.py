@@ -26,6 +26,19 @@ CASES = {
         "The list “names” has 1 items, and item 3 from the end was asked for."
     ),
     'word = "ab"\nword[7]': "The text “word” has 2 letters, and letter 8 was asked for.",
+    '"abc"[9]': "The text “'abc'” has 3 letters, and letter 10 was asked for.",
+    '"abc"[int(9.5)]': "The text “'abc'” has 3 letters, and letter 10 was asked for.",
+    '"abc".lower()[9]': "A letter was asked for that the text does not have.",
+    "list_of_names = []\nlist_of_names[0]": (
+        "The list “list of names” has 0 items, and item 1 was asked for."
+    ),
+    '"50%" % 3': (
+        'This cannot be worked out: "50%" % 3. On the left is a text, on the right a number.'
+    ),
+    '"50" % 3': (
+        'This cannot be worked out: "50" % 3. On the left is a text, on the right a number.'
+    ),
+    '"a b".split("")': "A text is parted at a mark, and this mark is empty.",
     "import random\nrandom.choice([])": "Something was taken from an empty list.",
     "[].pop()": "Something was taken from an empty list.",
     '{}["age"]': "Nothing is kept under the name 'age'.",

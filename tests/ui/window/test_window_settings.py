@@ -34,6 +34,21 @@ def test_a_theme_is_in_force_at_once(karate: MainWindow, words: str, name: str) 
     assert karate.settings.theme == name
 
 
+def test_the_language_of_the_program_is_chosen_and_taken_back(karate: MainWindow) -> None:
+    editor = karate.files.document.editor
+    menu = next(
+        a.menu() for a in karate.menus["run"].actions() if a.text() == "Language of the program"
+    )
+
+    next(a for a in menu.actions() if a.text() == "Deutsch").trigger()
+
+    assert editor.project.spoken_language == "de"
+    menu.aboutToShow.emit()
+    assert [a.text() for a in menu.actions() if a.isChecked()] == ["Deutsch"]
+    editor.history.undo()
+    assert editor.project.spoken_language == "en"
+
+
 def test_larger_text_makes_blocks_larger_but_moves_none(karate: MainWindow) -> None:
     canvas = karate.workbench.canvas
     block = karate.files.document.project.pages["behaviour"][1].body[0]

@@ -1,0 +1,630 @@
+"""Of which kinds the values of a program can be, so that its Python stays plain where it may.
+
+``Facts`` say of one stack what it puts where; ``Kinds`` puts those of all stacks together: the
+kinds of variables, of the values of own blocks and of what these give back, and of the items of
+lists. Where nothing is ever put the set is empty, and any Python will do.
+"""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+from functools import lru_cache
+from typing import NamedTuple
+
+from nep_studio.blocks.arithmetic import ArithmeticRefused, calculate
+from nep_studio.blocks.definitions import Definition
+from nep_studio.blocks.language import Language
+from nep_studio.blocks.procedures import DEFINE, parameter_of, parameters, procedure_of
+from nep_studio.blocks.program import Block, Project, split_slot
+from nep_studio.blocks.slots import TEXT_RESULTS
+
+from .names import ProgramNames
+
+WHOLE, FRACTION, TEXT, TRUTH, LIST, OTHER = 1, 2, 4, 8, 16, 32
+NUMBER = WHOLE | FRACTION
+ANY = NUMBER | TEXT | TRUTH | LIST | OTHER
+
+ITEMS = "items"
+"""What the items of all lists can be: lists have many names, so that none is told apart."""
+
+RESULT_KINDS = {
+    "number": NUMBER,
+    "text": TEXT,
+    "colour": TEXT,
+    "boolean": TRUTH,
+    "list": LIST,
+    "any": ANY,
+}
+
+_FIRST = {LIST: "[]", TEXT: '""', TRUTH: "False", WHOLE: "0"}
+
+_DEEPEST = 100
+"""Deeper blocks are refused when they are written."""
+
+
+def are(kinds: int, wanted: int) -> bool:
+    """Whether a value of these kinds is always one of the wanted."""
+    return not kinds & ~wanted
+
+
+def variable_key(variable_id: str) -> str:
+    """What a variable is called among the kinds."""
+    return f"{_VARIABLE}{variable_id}"
+
+
+_VARIABLE = "variable "
+
+
+def parameter_key(procedure_id: str, parameter_id: str) -> str:
+    """What a value of an own block is called among the kinds."""
+    return f"value {procedure_id}.{parameter_id}"
+
+
+def result_key(procedure_id: str) -> str:
+    """What is given back by an own block is called so among the kinds."""
+    return f"result {procedure_id}"
+
+
+# The kinds of an expression of Python, from its form; blocks note what they know as ``kinds``.
+
+_CALLS = {
+    **dict.fromkeys(("len", "int", "length_of", "place_of", "place_in_text"), WHOLE),
+    **dict.fromkeys(("to_nearest", "random_whole"), WHOLE),
+    **dict.fromkeys(("str", "as_text", "title_case", "letter_of", "replace_part"), TEXT),
+    **dict.fromkeys(("join_items", "append_text"), TEXT),
+    **dict.fromkeys(("bool", "has_item", "has_part", "is_same", "is_less", "is_more"), TRUTH),
+    **dict.fromkeys(("is_at_most", "is_at_least"), TRUTH),
+    **dict.fromkeys(("list", "sorted", "as_list", "items_between", "list_with"), LIST),
+    **dict.fromkeys(("parts_of", "sorted_items"), LIST),
+    **dict.fromkeys(("as_number", "to_power", "number_in", "sum_of", "mean_of"), NUMBER),
+    **dict.fromkeys(("median_of", "deviation_of", "smallest_of", "largest_of"), NUMBER),
+}
+_METHODS = {
+    **dict.fromkeys(("randint", "floor", "ceil", "find"), WHOLE),
+    **dict.fromkeys(("upper", "lower", "title", "replace", "join"), TEXT),
+    **dict.fromkeys(("sqrt", "log", "log10", "exp", "radians", "degrees", "random"), FRACTION),
+    **dict.fromkeys(("sin", "cos", "tan", "asin", "acos", "atan"), FRACTION),
+    "split": LIST,
+}
+
+
+def note(node: ast.expr, kinds: int) -> ast.expr:
+    """Note at an expression of which kinds its value is."""
+    node.kinds = kinds  # type: ignore[attr-defined]
+    return node
+
+
+def kinds_of(node: ast.expr) -> int:
+    """The kinds of what an expression gives, as far as its form tells or a block has noted."""
+    noted: int | None = getattr(node, "kinds", None)
+    if noted is not None:
+        return noted
+    match node:
+        case ast.Constant(value=value):
+            return _of_constant(value)
+        case ast.UnaryOp(op=ast.Not()) | ast.Compare():
+            return TRUTH
+        case ast.UnaryOp(operand=operand):
+            return _counted(kinds_of(operand))
+        case ast.BinOp(left=left, op=op, right=right):
+            return _of_operation(op, kinds_of(left), kinds_of(right))
+        case ast.BoolOp(values=values):
+            return _all(map(kinds_of, values))
+        case ast.IfExp(body=body, orelse=orelse):
+            return kinds_of(body) | kinds_of(orelse)
+        case ast.Attribute(value=ast.Name(id="math")):
+            return FRACTION
+        case ast.List():
+            return LIST
+        case ast.Call(func=ast.Name(id=name)):
+            return _CALLS.get(name, NUMBER if name in ("abs", "min", "max", "round") else ANY)
+        case ast.Call(func=ast.Attribute(attr=name)):
+            return _METHODS.get(name, ANY)
+    return ANY
+
+
+def _of_constant(value: object) -> int:
+    kinds = {bool: TRUTH, int: WHOLE, float: FRACTION, str: TEXT}
+    return kinds.get(type(value), OTHER)
+
+
+def _of_operation(op: ast.operator, left: int, right: int) -> int:
+    if isinstance(op, ast.Add) and are(left | right, TEXT):
+        return TEXT
+    if not are(left | right, NUMBER):
+        return ANY
+    if isinstance(op, ast.Div):
+        return FRACTION
+    return NUMBER if isinstance(op, ast.Pow) else _counted(left | right)
+
+
+def are_mixed(first: int, second: int) -> bool:
+    """Whether Python may take two values for equal that are not: True == 1, and in lists."""
+    truth, number = TRUTH | OTHER, NUMBER | OTHER
+    takes_truth = (first & truth and second & number) or (first & number and second & truth)
+    return bool(takes_truth or first & second & LIST)
+
+
+def _counted(kinds: int) -> int:
+    """What arithmetic makes of numbers: whole of whole ones."""
+    return WHOLE if are(kinds, WHOLE) else NUMBER
+
+
+def _all(kinds: Iterable[int]) -> int:
+    together = 0
+    for one in kinds:
+        together |= one
+    return together
+
+
+# What a stack does with values.
+
+
+class Given(NamedTuple):
+    """The kinds of a value: some that are known, and those of others by their keys.
+
+    ``counted`` are the keys of what is in arithmetic: it gives whole numbers if they are whole.
+    """
+
+    kinds: int = 0
+    same: frozenset[str] = frozenset()
+    counted: frozenset[str] = frozenset()
+
+    def within(self, known: Mapping[str, int]) -> int:
+        """The kinds with what is known of the others."""
+        kinds = self.kinds | _all(known.get(key, 0) for key in self.same)
+        if self.counted:
+            kinds |= _counted(_all(known.get(key, 0) for key in self.counted))
+        return kinds
+
+    def or_else(self, other: Given) -> Given:
+        """The kinds of one of two values."""
+        return Given(self.kinds | other.kinds, self.same | other.same, self.counted | other.counted)
+
+    def calculated(self) -> Given:
+        """The kinds of what arithmetic makes of the value, which must be a number then."""
+        return Given(self.kinds & NUMBER, frozenset(), self.same | self.counted)
+
+
+@dataclass(frozen=True, slots=True)
+class Facts:
+    """What a stack does with values, wherever it stands.
+
+    ``put`` are values with the keys of where they are put, ``taken`` the variables that are taken
+    for a list (LIST) or to which a text is appended (TEXT), ``set_to`` the kinds to which blocks
+    set variables, by how these look. ``used`` are the variables that it uses: ``early`` those that
+    may be read there before they are set there, ``apart`` those in functions of their own.
+    ``written`` is what Python in it names.
+    """
+
+    put: frozenset[tuple[str, Given]] = frozenset()
+    taken: frozenset[tuple[str, int]] = frozenset()
+    set_to: frozenset[tuple[str, int]] = frozenset()
+    used: frozenset[str] = frozenset()
+    early: frozenset[str] = frozenset()
+    apart: frozenset[str] = frozenset()
+    written: frozenset[str] = frozenset()
+    is_own: bool = False
+    """Whether it defines an own block."""
+    is_open: bool = True
+    """Whether it may come to its end without giving something back."""
+
+
+_WHOLE_RESULTS = frozenset(
+    {"round", "random_integer", "text_length", "list_length", "text_find", "list_find"}
+)
+_COUNTED = {
+    "arithmetic": ("a", "b"),
+    "number_function": ("number",),
+    "constrain": ("number", "low", "high"),
+    "number": ("number",),
+}
+_FRACTIONS = {"divide": FRACTION, "power": NUMBER}
+_ROOTS = frozenset({"root", "ln", "log10", "exp", "pow10"})
+_ITEMS_OF = frozenset({"list_get", "list_take", "random_item"})
+_PUT_IN_LISTS = {
+    "list_add": "value",
+    "list_set": "value",
+    "list_insert": "value",
+    "list_filled": "item",
+}
+_SETS = {"set_variable": "value", "change_variable": "amount", "append_text": "text"}
+_CODE = frozenset({"code_lines", "code_value", "program_lines"})
+NO_NAMES: frozenset[str] = frozenset()
+_HARMLESS = ("as_number(", "as_text(", "as_list(", "str(", "bool(")
+
+
+_LOOKED_AT = frozenset(
+    {
+        *(*_SETS, *_PUT_IN_LISTS, *_CODE),
+        *("variable", "count", "for_each", "list_create", "list_split", "own_return", "own_call"),
+    }
+)
+"""The blocks that put something somewhere, or name a variable."""
+
+
+class FactReader:
+    """Reads the facts of one stack."""
+
+    def __init__(self, project: Project, language: Language) -> None:
+        self._project = project
+        self._language = language
+        self._put: set[tuple[str, Given]] = set()
+        self._taken: set[tuple[str, int]] = set()
+        self._set_to: set[tuple[str, int]] = set()
+        self._used: set[str] = set()
+        self._early: set[str] = set()
+        self._apart: set[str] = set()
+        self._written: set[str] = set()
+        self._procedure = ""
+
+    def read(self, chain: Sequence[str]) -> Facts:
+        """The facts of the stack of a chain of blocks; its first is the hat."""
+        hat = self._project.blocks[chain[0]]
+        self._procedure = procedure_of(hat.type) if hat.type.startswith(DEFINE) else ""
+        for block in self._project.within(chain, enabled=True):
+            definition = self._language.definitions.get(block.type)
+            if definition is None:
+                continue
+            if block.inputs:
+                self._inputs(block, definition)
+            if definition.generator in _LOOKED_AT:
+                self._block(block, definition)
+        end = self._walk(chain[1:], frozenset(), 0)
+        if self._procedure and end is not None:  # it ends without giving back: 0
+            self._put.add((result_key(self._procedure), Given(WHOLE)))
+        return Facts(
+            frozenset(self._put),
+            frozenset(self._taken),
+            frozenset(self._set_to),
+            frozenset(self._used),
+            frozenset(self._early),
+            frozenset(self._apart),
+            frozenset(self._written),
+            bool(self._procedure),
+            end is not None,
+        )
+
+    def _block(self, block: Block, definition: Definition) -> None:
+        generator = definition.generator
+        if "variable" in definition.slots:
+            self._variable_block(block, definition)
+        if generator in _PUT_IN_LISTS:
+            self._put.add((ITEMS, self._slot(block, _PUT_IN_LISTS[generator])))
+        elif generator == "list_create":
+            for number in range(1, block.groups.get("item", 0) + 1):
+                self._put.add((ITEMS, self._slot(block, f"item.{number}")))
+        elif generator == "list_split":
+            self._put.add((ITEMS, Given(TEXT)))
+        elif generator == "own_return" and self._procedure:
+            self._put.add((result_key(self._procedure), self._slot(block, "value")))
+        elif generator == "own_call":
+            self._call(block)
+        elif generator in _CODE:
+            text = str(definition.value(block, "code"))
+            if not text.startswith(_HARMLESS):
+                self._written |= names_in_code(text)
+
+    def _inputs(self, block: Block, definition: Definition) -> None:
+        for key in block.inputs:
+            slot = definition.slots.get(split_slot(key)[0])
+            plugged = self._plugged(block, key)
+            if plugged is None or slot is None or slot.kind.name != "list":
+                continue
+            inner = self._language.definitions.get(plugged.type)
+            if inner is not None and inner.generator == "variable":
+                self._taken.add((_variable(plugged), LIST))
+
+    def _variable_block(self, block: Block, definition: Definition) -> None:
+        variable, generator = _variable(block), definition.generator
+        self._used.add(variable)
+        key = variable_key(variable)
+        if generator in _SETS:
+            value = self._slot(block, _SETS[generator])
+            looks = WHOLE
+            if generator == "append_text":
+                value = Given(TEXT)
+                self._taken.add((variable, TEXT))
+            elif generator == "change_variable":
+                value = value.or_else(Given(same=frozenset({key}))).calculated()
+            else:
+                looks = self._looks(block, "value")
+            self._put.add((key, value))
+            self._set_to.add((variable, looks))
+        elif generator == "count":
+            first, step = self._slot(block, "first"), self._slot(block, "step")
+            self._put.add((key, first.or_else(step).calculated()))
+            self._set_to.add((variable, WHOLE))
+        elif generator == "for_each":
+            self._put.add((key, Given(same=frozenset({ITEMS}))))
+            self._set_to.add((variable, WHOLE))
+
+    def _looks(self, block: Block, key: str) -> int:
+        """The kind of a value as a person sees it: by what is typed, or the block's outline."""
+        plugged = self._plugged(block, key)
+        definition = self._language.definitions[block.type]
+        if plugged is None:
+            return TEXT if isinstance(definition.value(block, key), str) else WHOLE
+        inner = self._language.definitions.get(plugged.type)
+        result = inner.result if inner is not None else ""
+        if result in TEXT_RESULTS:
+            return TEXT
+        return TRUTH if result == "boolean" else WHOLE
+
+    def _call(self, block: Block) -> None:
+        procedure = self._project.procedures.get(procedure_of(block.type))
+        if procedure is not None:
+            for parameter in parameters(procedure):
+                key = parameter_key(procedure.id, parameter.id)
+                self._put.add((key, self._slot(block, parameter.id)))
+
+    def _plugged(self, block: Block, key: str) -> Block | None:
+        block_id = block.inputs.get(key)
+        plugged = self._project.blocks[block_id] if block_id else None
+        return None if plugged is None or plugged.disabled else plugged
+
+    def _slot(self, block: Block, key: str, depth: int = 0) -> Given:
+        """The kinds of what a slot gives, after it was made what the slot needs."""
+        definition = self._language.definitions[block.type]
+        kind = definition.slots[split_slot(key)[0]].kind
+        plugged = self._plugged(block, key)
+        if plugged is not None:
+            given = self._value(plugged, depth + 1)
+        elif kind.is_number or kind.name == "any":
+            given = _typed(definition.value(block, key), is_number=kind.is_number)
+        else:
+            given = Given(RESULT_KINDS.get(kind.name, TEXT))
+        if kind.is_number:
+            return given.calculated()
+        if kind.name in ("text", "lines", "boolean", "list"):
+            return Given(RESULT_KINDS.get(kind.name, TEXT))
+        return given
+
+    def _value(self, block: Block, depth: int) -> Given:
+        definition = self._language.definitions.get(block.type)
+        if definition is None or depth > _DEEPEST:
+            return Given(ANY)
+        generator = definition.generator
+        if generator == "variable":
+            return Given(same=frozenset({variable_key(_variable(block))}))
+        if generator in _COUNTED:
+            return self._arithmetic(block, definition, depth)
+        if generator in _WHOLE_RESULTS:
+            return Given(WHOLE)
+        if generator in _ITEMS_OF:
+            return Given(same=frozenset({ITEMS}))
+        if generator == "choose":
+            return self._slot(block, "a", depth).or_else(self._slot(block, "b", depth))
+        if generator == "own_call":
+            return Given(same=frozenset({result_key(procedure_of(block.type))}))
+        if generator == "own_parameter":
+            key = parameter_key(procedure_of(block.type), parameter_of(block.type))
+            return Given(same=frozenset({key}))
+        if generator == "code_value":
+            return Given(kinds_of_code(str(definition.value(block, "code"))))
+        return Given(RESULT_KINDS.get(definition.result, ANY))
+
+    def _arithmetic(self, block: Block, definition: Definition, depth: int) -> Given:
+        operation = definition.value(block, "operation") if "operation" in definition.slots else ""
+        if kinds := _FRACTIONS.get(str(operation)):
+            return Given(kinds)
+        function = definition.value(block, "function") if "function" in definition.slots else ""
+        if function in _ROOTS:
+            return Given(NUMBER)
+        given = Given()
+        for key in _COUNTED[definition.generator]:
+            given = given.or_else(self._slot(block, key, depth))
+        return given
+
+    # Which variables are always set before they are read: blocks in the order in which they run.
+
+    def _walk(
+        self, chain: Sequence[str], known: frozenset[str], depth: int
+    ) -> frozenset[str] | None:
+        """What is set after a chain, given what is before; None where nothing comes after it."""
+        if depth > _DEEPEST:
+            return known
+        after: frozenset[str] | None = known
+        for block_id in chain:
+            block = self._project.blocks[block_id]
+            definition = self._language.definitions.get(block.type)
+            if block.disabled or definition is None:
+                continue
+            if after is None:
+                return None
+            after = self._step(block, definition, after, depth)
+        return after
+
+    def _step(
+        self, block: Block, definition: Definition, known: frozenset[str], depth: int
+    ) -> frozenset[str] | None:
+        if block.inputs:
+            self._reads(block, known)
+        generator, variable = definition.generator, _variable(block)
+        if generator == "set_variable":
+            return known | {variable}
+        if generator in ("change_variable", "append_text") and variable not in known:
+            self._early.add(variable)
+        if "apart" in definition.flags:
+            inside = [block_id for chain in block.bodies.values() for block_id in chain]
+            self._apart.update(self._variables_in(inside))
+        if not block.bodies and definition.shape != "cap" and generator != "code_lines":
+            return known
+        inner = known | {variable} if generator in ("count", "for_each") else known
+        ends = [self._walk(chain, inner, depth + 1) for chain in block.bodies.values()]
+        if generator == "if":
+            return self._after_if(block, ends, known)
+        if generator == "code_lines" and gives_back(str(definition.value(block, "code"))):
+            return None
+        if definition.shape == "cap" or generator == "forever":
+            return None if not self._is_left(block) else known
+        return known
+
+    def _after_if(
+        self, block: Block, ends: list[frozenset[str] | None], known: frozenset[str]
+    ) -> frozenset[str] | None:
+        branches = 1 + block.groups.get("also", 0) + block.groups.get("otherwise", 0)
+        if len(ends) < branches or not block.groups.get("otherwise"):
+            ends = [*ends, known]
+        reached = [end for end in ends if end is not None]
+        return frozenset.intersection(*reached) if reached else None
+
+    def _is_left(self, block: Block) -> bool:
+        """Whether there is a block in a loop that leaves it (or another one inside)."""
+        inside = [block_id for chain in block.bodies.values() for block_id in chain]
+        found = self._project.within(inside, enabled=True)
+        definitions = (self._language.definitions.get(one.type) for one in found)
+        return any(one is not None and one.generator == "leave_loop" for one in definitions)
+
+    def _reads(self, block: Block, known: frozenset[str]) -> None:
+        inputs = [i for i in block.inputs.values() if not self._project.blocks[i].disabled]
+        if inputs:
+            self._early |= set(self._variables_in(inputs)) - known
+
+    def _variables_in(self, roots: Sequence[str]) -> Iterator[str]:
+        for block in self._project.within(roots, enabled=True):
+            if variable := _variable(block):
+                yield variable
+
+
+def _variable(block: Block) -> str:
+    return str(block.fields.get("variable", ""))
+
+
+def _typed(value: object, *, is_number: bool) -> Given:
+    if not isinstance(value, str):
+        return Given(_of_constant(value))
+    if not is_number:
+        return Given(TEXT)
+    try:
+        return Given(kinds_of(calculate(value).node) & NUMBER or NUMBER)
+    except ArithmeticRefused:
+        return Given(NUMBER)
+
+
+@lru_cache(maxsize=1024)
+def names_in_code(text: str) -> frozenset[str]:
+    """The names in Python that a person wrote; none where it is refused when it is written."""
+    tree = _tree(text)
+    return frozenset(n.id for n in ast.walk(tree) if isinstance(n, ast.Name)) if tree else NO_NAMES
+
+
+@lru_cache(maxsize=1024)
+def gives_back(text: str) -> bool:
+    """Whether Python that a person wrote ends its function itself, at one place at least."""
+    tree = _tree(text)
+    return tree is not None and any(isinstance(node, ast.Return) for node in ast.walk(tree))
+
+
+@lru_cache(maxsize=1024)
+def kinds_of_code(text: str) -> int:
+    """The kinds of a value that a person wrote as Python, as far as its form tells."""
+    match _tree(text):
+        case ast.Module(body=[ast.Expr(value=value)]):
+            return kinds_of(value)
+    return ANY
+
+
+def _tree(text: str) -> ast.Module | None:
+    try:
+        return ast.parse(text.strip())
+    except (SyntaxError, ValueError, RecursionError, MemoryError):
+        return None
+
+
+# All stacks together.
+
+
+@dataclass(slots=True)
+class Kinds:
+    """The kinds of what a program's values are kept in, by their keys.
+
+    ``first`` is what a variable holds before it is set, as Python, by its id; ``own`` are the
+    variables that belong to the calls of one own block, by the stack of its definition. When
+    ``has_lists_twice``, a variable may hold a list that is kept elsewhere too.
+    """
+
+    known: dict[str, int] = field(default_factory=dict)
+    first: dict[str, str] = field(default_factory=dict)
+    own: dict[str, frozenset[str]] = field(default_factory=dict)
+    has_lists_twice: bool = False
+
+    def of(self, key: str) -> int:
+        """The kinds of the values that are kept there."""
+        return self.known.get(key, 0)
+
+
+def together(facts: Mapping[str, Facts], project: Project, names: ProgramNames) -> Kinds:
+    """The kinds in a program, from the facts of its stacks."""
+    kinds = Kinds(own=_own(facts, names))
+    early = frozenset().union(*(one.early for one in facts.values()))
+    put = frozenset().union(*(one.put for one in facts.values()))
+    taken = frozenset().union(*(one.taken for one in facts.values()))
+    set_to: dict[str, set[int]] = {}
+    for one in facts.values():
+        for variable, looks in one.set_to:
+            set_to.setdefault(variable, set()).add(looks)
+    known = kinds.known
+    for variable in names.variables:
+        first = _first(variable, taken, set_to.get(variable, set()))
+        kinds.first[variable] = _FIRST[first]
+        known[variable_key(variable)] = first if variable in early else 0
+    written = frozenset().union(*(one.written for one in facts.values()))
+    if written:
+        known.update(_written(written, project, names))
+    has_changed = True
+    while has_changed:
+        has_changed = False
+        for key, given in put:
+            before = known.get(key, 0)
+            after = before | given.within(known)
+            if after != before:
+                known[key], has_changed = after, True
+    kinds.has_lists_twice = any(
+        LIST & known.get(source, 0)
+        for key, given in put
+        if key.startswith(_VARIABLE)
+        for source in given.same
+    )
+    return kinds
+
+
+def _first(variable: str, taken: frozenset[tuple[str, int]], set_to: set[int]) -> int:
+    """The kind of what a variable holds before it is set."""
+    if (variable, LIST) in taken:
+        return LIST
+    if (variable, TEXT) in taken or set_to == {TEXT}:
+        return TEXT
+    return TRUTH if set_to == {TRUTH} else WHOLE
+
+
+def _written(
+    written: frozenset[str], project: Project, names: ProgramNames
+) -> Iterator[tuple[str, int]]:
+    """What Python that a person wrote may put anything into: all that it names, and lists."""
+    named = [key for key, name in names.variables.items() if name in written]
+    yield from ((variable_key(variable), ANY) for variable in named)
+    called = [key for key, name in names.procedures.items() if name in written]
+    for procedure in called:
+        for parameter in parameters(project.procedures[procedure]):
+            yield parameter_key(procedure, parameter.id), ANY
+    if named or called:
+        yield ITEMS, ANY
+
+
+def _own(facts: Mapping[str, Facts], names: ProgramNames) -> dict[str, frozenset[str]]:
+    """The variables that belong to the calls of an own block, by the stack of its definition."""
+    users: dict[str, list[str]] = {}
+    for stack, one in facts.items():
+        for variable in one.used:
+            users.setdefault(variable, []).append(stack)
+    written = frozenset().union(*(one.written for one in facts.values()))
+    found: dict[str, set[str]] = {}
+    for variable, stacks in users.items():
+        one = facts[stacks[0]]
+        is_free = variable in one.early or variable in one.apart or len(stacks) > 1
+        if one.is_own and not is_free and names.variables.get(variable, "") not in written:
+            found.setdefault(stacks[0], set()).add(variable)
+    return {stack: frozenset(variables) for stack, variables in found.items()}
