@@ -337,18 +337,17 @@ class Interpreter:
 
     def _first(self, variable: str) -> Value:
         """What a variable holds before it is set."""
-        blocks, text = self._blocks(), False
-        for block in blocks:
-            definition = self.language.definitions[block.type]
-            for key, slot in definition.keys(block.groups):
-                plugged = self._plugged(block, key)
-                takes = slot.kind.name == "list" and plugged is not None
-                if takes and plugged.type == "variable.get":  # type: ignore[union-attr]
-                    if plugged.fields.get("variable") == variable:  # type: ignore[union-attr]
-                        return []
-            if block.type == "text.append" and block.fields.get("variable") == variable:
-                text = True
-        return "" if text else 0
+        blocks = self._blocks()
+        if any(variable in self._taken_for_lists(block) for block in blocks):
+            return []
+        appended = [b.fields.get("variable") for b in blocks if b.type == "text.append"]
+        return "" if variable in appended else 0
+
+    def _taken_for_lists(self, block: Block) -> set[str]:
+        """The variables that stand in the places for lists of a block."""
+        keys = self.language.definitions[block.type].keys(block.groups)
+        plugged = [self._plugged(block, key) for key, slot in keys if slot.kind.name == "list"]
+        return {str(b.fields.get("variable")) for b in plugged if b and b.type == "variable.get"}
 
     def _variables_of_calls(self) -> dict[str, set[str]]:
         """The variables that belong to the calls of own blocks, by the own block."""
@@ -367,23 +366,42 @@ class Interpreter:
         return found
 
     def _is_set(self, variable: str, procedure: str) -> bool:
-        """Whether the definition always sets a variable before it reads it.
+        """Whether the definition of an own block always sets a variable before it reads it."""
+        header = header_of(self.project, procedure)
+        body = self.project.stack_of(header).body[1:]
+        try:
+            self._sets(body, variable, False)
+        except Wrong:
+            return False
+        return True
 
-        Plainly: its first blocks that have the variable in them set it, outside of loops and ifs.
-        """
-        header = self.project.blocks[header_of(self.project, procedure)]
-        for block_id in self.project.stack_of(header.id).body[1:]:
+    def _sets(self, chain: list[str], variable: str, known: bool) -> bool:
+        """Whether a variable is set after a chain; raises Wrong where it is read before that."""
+        for block_id in chain:
             block = self.project.blocks[block_id]
-            if block.disabled:
-                continue
-            inside = [
-                b
-                for b in self.project.within([block_id], enabled=True)
-                if b.fields.get("variable") == variable
-            ]
-            if inside:
-                return inside == [block] and block.type == "variable.set"
-        return False
+            if not block.disabled:
+                known = self._sets_it(block, variable, known)
+        return known
+
+    def _sets_it(self, block: Block, variable: str, known: bool) -> bool:
+        plugged = [self.project.blocks[b] for b in block.inputs.values()]
+        reads = any(
+            b.fields.get("variable") == variable
+            for value in plugged
+            for b in self.project.within([value.id], enabled=True)
+        )
+        is_it = block.fields.get("variable") == variable
+        reads = reads or (is_it and block.type in ("variable.change", "text.append"))
+        if reads and not known:
+            raise Wrong("read before it is set")
+        if block.type == "variable.set" and is_it:
+            return True
+        loops = is_it and block.type in ("control.count", "control.for_each")
+        ends = [self._sets(c, variable, known or loops) for c in block.bodies.values()]
+        if block.type == "control.if" and block.groups.get("otherwise"):
+            slots = 2 + block.groups.get("also", 0)
+            return known or (len(ends) == slots and all(ends))
+        return known
 
     def _place_of_variable(self, variable: str) -> dict[str, Value]:
         if self._own and variable in self._own[-1]:

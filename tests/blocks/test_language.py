@@ -99,7 +99,8 @@ def difference(seed: int, language: Language) -> str | None:
     found = played(text)
     if found == expected:
         return None
-    at = next((n for n, (a, b) in enumerate(zip(found, expected)) if a != b), len(expected))
+    pairs = enumerate(zip(found, expected, strict=False))
+    at = next((n for n, (one, other) in pairs if one != other), min(len(found), len(expected)))
     return f"program {seed}: says {found[at : at + 1]}, not {expected[at : at + 1]}:\n{text}"
 
 
