@@ -1,0 +1,891 @@
+"""The language of docs/language.md, run block by block: a judge of the Python that blocks make.
+
+Written from that page alone, and to be kept so: it shares no code with the generator, nor with what
+generated Python calls. It is slow and plain. What it cannot judge in finite time it gives up.
+"""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Callable
+from fractions import Fraction
+
+from nep_studio.blocks.arithmetic import number_of
+from nep_studio.blocks.language import Language
+from nep_studio.blocks.procedures import header_of, parameter_of, parameters, procedure_of
+from nep_studio.blocks.program import Block, Project
+
+Value = int | float | str | bool | list
+
+MOST_STEPS = 4_000
+MOST_CALLS = 40
+LARGEST = 1e290
+CLOSE = 1e-9
+
+
+class Wrong(Exception):
+    """What the page calls an error."""
+
+
+class GivenUp(Exception):
+    """The program takes too long, or its numbers get too large, to be judged."""
+
+
+class RuleEnded(Exception):
+    """Stop this rule."""
+
+
+class LoopLeft(Exception):
+    """Leave the loop."""
+
+
+class RoundLeft(Exception):
+    """Go on with the next round."""
+
+
+class GivenBack(Exception):
+    """An own block gives a value back."""
+
+    def __init__(self, value: Value) -> None:
+        super().__init__()
+        self.value = value
+
+
+# Values
+
+WORDS = {
+    "en": ("true", "false", " and ", ", ", "."),
+    "de": ("wahr", "falsch", " und ", ", ", ","),
+    "es": ("verdadero", "falso", " y ", ", ", ","),
+    "fr": ("vrai", "faux", " et ", ", ", ","),
+    "it": ("vero", "falso", " e ", ", ", ","),
+    "ja": ("真", "偽", "、", "、", "."),
+}
+
+
+def told(value: Value, language: str = "en") -> str:
+    """A value as a text."""
+    true, false, last, between, mark = WORDS[language]
+    if isinstance(value, bool):
+        return true if value else false
+    if isinstance(value, str):
+        return value
+    if isinstance(value, list):
+        items = [told(item, language) for item in value]
+        return last.join([between.join(items[:-1]), items[-1]]) if items[1:] else "".join(items)
+    return _digits(value).replace(".", mark)
+
+
+def _digits(value: float) -> str:
+    if isinstance(value, int) or value == int(value):
+        return str(int(value))
+    rounded = float(f"{value:.11e}")
+    if not 1e-6 <= abs(rounded) < 1e15:
+        mantissa, exponent = f"{rounded:.11e}".split("e")
+        mantissa = mantissa.rstrip("0").rstrip(".")
+        return f"{mantissa}e{exponent}"
+    places = max(0, 11 - math.floor(math.log10(abs(rounded))))
+    text = f"{rounded:.{places}f}"
+    return text.rstrip("0").rstrip(".") if "." in text else text
+
+
+def is_yes(value: Value) -> bool:
+    """Whether a value counts as yes in a condition."""
+    if isinstance(value, bool):
+        return value
+    return len(value) > 0 if isinstance(value, str | list) else value != 0
+
+
+def kind(value: Value) -> str:
+    if isinstance(value, bool):
+        return "truth"
+    return {str: "text", list: "list"}.get(type(value), "number")
+
+
+def equal(one: Value, other: Value) -> bool:
+    if kind(one) != kind(other):
+        return False
+    if isinstance(one, list) and isinstance(other, list):
+        return len(one) == len(other) and all(map(equal, one, other))
+    return one == other
+
+
+def number(value: Value) -> int | float:
+    if kind(value) != "number":
+        raise Wrong("a number is needed")
+    if isinstance(value, float) and not math.isfinite(value):
+        raise GivenUp
+    if abs(value) > LARGEST:  # type: ignore[arg-type]
+        raise GivenUp
+    return value  # type: ignore[return-value]
+
+
+def whole(value: Value) -> int:
+    if number(value) != math.floor(number(value)):
+        raise Wrong("a whole number is needed")
+    return int(number(value))
+
+
+def rounded(value: Value) -> int:
+    """The nearest whole number; a half goes away from zero."""
+    exact = Fraction(number(value))
+    nearest = math.floor(abs(exact) + Fraction(1, 2))
+    return nearest if exact >= 0 else -nearest
+
+
+def items_of(value: Value) -> list:
+    if not isinstance(value, list):
+        raise Wrong("a list is needed")
+    return value
+
+
+def numbers_of(value: Value) -> list[int | float]:
+    return [number(item) for item in items_of(value)]
+
+
+def place(value: Value, end: str, length: int) -> int:
+    """The index of a place that must be there."""
+    wanted = whole(value)
+    if not 1 <= wanted <= length:
+        raise Wrong("no such place")
+    return wanted - 1 if end == "start" else length - wanted
+
+
+# Operations
+
+
+def _power(a: int | float, b: int | float) -> int | float:
+    if a == 0 and b < 0:
+        raise Wrong("divided by zero")
+    if a < 0 and b != math.floor(b):
+        raise Wrong("no real number")
+    if isinstance(a, int) and isinstance(b, int) and b >= 0:
+        if abs(a) > 1 and b * math.log10(abs(a)) >= 1000:
+            raise Wrong("too many digits")
+        return a**b
+    try:
+        return float(a) ** float(b) if b != math.floor(b) or isinstance(b, float) else a**b
+    except OverflowError:
+        raise Wrong("too large") from None
+
+
+def _divisor(b: int | float) -> int | float:
+    if b == 0:
+        raise Wrong("divided by zero")
+    return b
+
+
+ARITHMETIC: dict[str, Callable[[int | float, int | float], int | float]] = {
+    "add": lambda a, b: a + b,
+    "subtract": lambda a, b: a - b,
+    "multiply": lambda a, b: a * b,
+    "divide": lambda a, b: a / _divisor(b),
+    "power": _power,
+    "remainder": lambda a, b: a % _divisor(b),
+    "floor_divide": lambda a, b: a // _divisor(b),
+}
+PROPERTIES: dict[str, Callable[[int | float], bool]] = {
+    "even": lambda n: n % 2 == 0,
+    "odd": lambda n: n % 2 == 1,
+    "whole": lambda n: n == math.floor(n),
+    "positive": lambda n: n > 0,
+    "negative": lambda n: n < 0,
+}
+
+
+def _logarithm(function: Callable[[float], float]) -> Callable[[int | float], float]:
+    def logarithm(n: int | float) -> float:
+        if n <= 0:
+            raise Wrong("no logarithm")
+        return function(n)
+
+    return logarithm
+
+
+def _root(n: int | float) -> float:
+    if n < 0:
+        raise Wrong("no root")
+    return math.sqrt(n)
+
+
+def _exponential(n: int | float) -> float:
+    if n > 700:
+        raise GivenUp
+    return math.exp(n)
+
+
+FUNCTIONS: dict[str, Callable[[int | float], int | float]] = {
+    "absolute": abs,
+    "root": _root,
+    "minus": lambda n: -n,
+    "ln": _logarithm(math.log),
+    "log10": _logarithm(math.log10),
+    "exp": _exponential,
+    "pow10": lambda n: _power(10, n),
+}
+
+
+def _mean(items: list[int | float]) -> int | float:
+    if not items:
+        raise Wrong("no items")
+    mean = sum(map(Fraction, items), Fraction(0)) / len(items)
+    return int(mean) if mean.denominator == 1 else float(mean)
+
+
+def _median(items: list[int | float]) -> int | float:
+    if not items:
+        raise Wrong("no items")
+    ordered = sorted(items)
+    middle = len(ordered) // 2
+    return ordered[middle] if len(ordered) % 2 else (ordered[middle - 1] + ordered[middle]) / 2
+
+
+def _deviation(items: list[int | float]) -> float:
+    if len(items) < 2:
+        raise Wrong("too few items")
+    mean = sum(map(Fraction, items), Fraction(0)) / len(items)
+    squares = sum(((Fraction(item) - mean) ** 2 for item in items), Fraction(0))
+    return math.sqrt(squares / (len(items) - 1))
+
+
+def _extreme(choose: Callable[[list[int | float]], int | float]) -> Callable[..., int | float]:
+    def extreme(items: list[int | float]) -> int | float:
+        if not items:
+            raise Wrong("no items")
+        return choose(items)
+
+    return extreme
+
+
+OF_LIST: dict[str, Callable[[list[int | float]], int | float]] = {
+    "sum": sum,
+    "min": _extreme(min),
+    "max": _extreme(max),
+    "mean": _mean,
+    "median": _median,
+    "stdev": _deviation,
+}
+
+_NUMBER = re.compile(r"[+-]?(\d+([.,]\d*)?|[.,]\d+)([eE][+-]?\d+)?")
+
+
+def number_in(text: str) -> int | float:
+    written = text.strip()
+    if _NUMBER.fullmatch(written) is None:
+        raise Wrong("no number")
+    if written.lstrip("+-").isdigit():
+        return int(written)
+    found = float(written.replace(",", "."))
+    if not math.isfinite(found):
+        raise GivenUp
+    return int(found) if found == int(found) else found
+
+
+def less(a: Value, b: Value) -> bool:
+    if kind(a) != kind(b) or kind(a) not in ("number", "text"):
+        raise Wrong("not to be compared")
+    return a < b  # type: ignore[operator]
+
+
+COMPARISONS: dict[str, Callable[[Value, Value], bool]] = {
+    "equal": equal,
+    "not_equal": lambda a, b: not equal(a, b),
+    "less": less,
+    "less_or_equal": lambda a, b: less(a, b) or a == b,
+    "greater": lambda a, b: less(b, a),
+    "greater_or_equal": lambda a, b: less(b, a) or a == b,
+}
+
+
+class Interpreter:
+    """Runs the rule that begins at the start, and keeps what robots say."""
+
+    def __init__(self, project: Project, language: Language) -> None:
+        self.project = project
+        self.language = language.of(project)
+        self.said: list[str] = []
+        self._steps = self._calls = 0
+        self._turns: dict[str, int] = {}
+        self._parameters: list[dict[str, Value]] = []
+        self._own: list[dict[str, Value]] = []
+        self._locals = self._variables_of_calls()
+        self.variables: dict[str, Value] = {v.id: self._first(v.id) for v in project.variables}
+
+    def run(self) -> list[str]:
+        """What is said; ends with “error” where the rule ends by one."""
+        start = next(
+            stack
+            for stack in self.project.pages["behaviour"]
+            if self.project.blocks[stack.body[0]].type == "event.started"
+        )
+        try:
+            self._chain(start.body[1:])
+        except Wrong:
+            self.said.append("error")
+        except RuleEnded:
+            pass
+        except RecursionError:
+            raise GivenUp from None
+        return self.said
+
+    # Variables
+
+    def _blocks(self) -> list[Block]:
+        stacks = self.project.pages["behaviour"]
+        return [b for s in stacks for b in self.project.within(s.body, enabled=True)]
+
+    def _first(self, variable: str) -> Value:
+        """What a variable holds before it is set."""
+        blocks = self._blocks()
+        if any(variable in self._taken_for_lists(block) for block in blocks):
+            return []
+        appended = [b.fields.get("variable") for b in blocks if b.type == "text.append"]
+        if variable in appended:
+            return ""
+        users = [b for b in blocks if _is_set_by(b, variable)]
+        looks = {self._looks(b) if b.type == "variable.set" else "number" for b in users}
+        return "" if looks == {"text"} else False if looks == {"truth"} else 0
+
+    def _looks(self, block: Block) -> str:
+        """The kind of what a *set* block holds, as a person sees it."""
+        plugged = self._plugged(block, "value")
+        if plugged is None:
+            return kind(self.slot(block, "value"))
+        result = self.language.definitions[plugged.type].result
+        return {"text": "text", "colour": "text", "boolean": "truth"}.get(result, "number")
+
+    def _taken_for_lists(self, block: Block) -> set[str]:
+        """The variables that stand in the places for lists of a block."""
+        keys = self.language.definitions[block.type].keys(block.groups)
+        plugged = [self._plugged(block, key) for key, slot in keys if slot.kind.name == "list"]
+        return {str(b.fields.get("variable")) for b in plugged if b and b.type == "variable.get"}
+
+    def _variables_of_calls(self) -> dict[str, set[str]]:
+        """The variables that belong to the calls of own blocks, by the own block."""
+        users: dict[str, set[str]] = {}
+        for stack in self.project.pages["behaviour"]:
+            head = self.project.blocks[stack.body[0]].type
+            for block in self.project.within(stack.body, enabled=True):
+                if variable := block.fields.get("variable"):
+                    users.setdefault(str(variable), set()).add(
+                        procedure_of(head) if head.startswith("my.define.") else ""
+                    )
+        found: dict[str, set[str]] = {}
+        for variable, places in users.items():
+            if len(places) == 1 and (owner := next(iter(places))) and self._is_set(variable, owner):
+                found.setdefault(owner, set()).add(variable)
+        return found
+
+    def _is_set(self, variable: str, procedure: str) -> bool:
+        """Whether the definition of an own block always sets a variable before it reads it."""
+        header = header_of(self.project, procedure)
+        body = self.project.stack_of(header).body[1:]
+        try:
+            self._sets(body, variable, False)
+        except Wrong:
+            return False
+        return True
+
+    def _sets(self, chain: list[str], variable: str, known: bool) -> bool:
+        """Whether a variable is set after a chain; raises Wrong where it is read before that."""
+        for block_id in chain:
+            block = self.project.blocks[block_id]
+            if not block.disabled:
+                known = self._sets_it(block, variable, known)
+        return known
+
+    def _sets_it(self, block: Block, variable: str, known: bool) -> bool:
+        plugged = [self.project.blocks[b] for b in block.inputs.values()]
+        reads = any(
+            b.fields.get("variable") == variable
+            for value in plugged
+            for b in self.project.within([value.id], enabled=True)
+        )
+        is_it = block.fields.get("variable") == variable
+        reads = reads or (is_it and block.type in ("variable.change", "text.append"))
+        if reads and not known:
+            raise Wrong("read before it is set")
+        if block.type == "variable.set" and is_it:
+            return True
+        loops = is_it and block.type in ("control.count", "control.for_each")
+        ends = [self._sets(c, variable, known or loops) for c in block.bodies.values()]
+        if block.type == "control.if" and block.groups.get("otherwise"):
+            slots = 2 + block.groups.get("also", 0)
+            return known or (len(ends) == slots and all(ends))
+        return known
+
+    def _place_of_variable(self, variable: str) -> dict[str, Value]:
+        if self._own and variable in self._own[-1]:
+            return self._own[-1]
+        return self.variables
+
+    def get(self, variable: str) -> Value:
+        return self._place_of_variable(variable)[variable]
+
+    def set(self, variable: str, value: Value) -> None:
+        if isinstance(value, int) and abs(value) > 10**300:
+            raise GivenUp
+        if isinstance(value, str | list) and len(value) > 2_000:
+            raise GivenUp
+        self._place_of_variable(variable)[variable] = value
+
+    # Slots
+
+    def _plugged(self, block: Block, key: str) -> Block | None:
+        block_id = block.inputs.get(key)
+        plugged = self.project.blocks[block_id] if block_id else None
+        return None if plugged is None or plugged.disabled else plugged
+
+    def slot(self, block: Block, key: str) -> Value:
+        """What is in a slot."""
+        plugged = self._plugged(block, key)
+        definition = self.language.definitions[block.type]
+        slot = definition.slots[key.partition(".")[0]]
+        if plugged is not None:
+            value = self.value(plugged)
+            return told(value) if slot.kind.becomes_text and block.type not in _AS_IT_IS else value
+        if slot.kind.name == "boolean":
+            return False
+        if slot.kind.name == "list":
+            return []
+        field = definition.value(block, key)
+        if slot.kind.is_number:
+            return number_of(field)  # type: ignore[arg-type]
+        return "" if field is None else field  # type: ignore[return-value]
+
+    def _choice(self, block: Block, key: str) -> str:
+        return str(self.language.definitions[block.type].value(block, key))
+
+    def _step(self) -> None:
+        self._steps += 1
+        if self._steps > MOST_STEPS:
+            raise GivenUp
+
+    # Reporters
+
+    def value(self, block: Block) -> Value:
+        """What a reporter gives."""
+        self._step()
+        if block.type.startswith("my.parameter."):
+            return self._parameters[-1][parameter_of(block.type)]
+        if block.type.startswith("my.call."):
+            return self._call(block)
+        value = REPORTERS[block.type](self, block)
+        if isinstance(value, float) and not (math.isfinite(value) and abs(value) < LARGEST):
+            raise GivenUp
+        if isinstance(value, int) and abs(value) > 10**300:
+            raise GivenUp
+        return value
+
+    def _call(self, block: Block) -> Value:
+        procedure = self.project.procedures[procedure_of(block.type)]
+        values = {p.id: self.slot(block, p.id) for p in parameters(procedure)}
+        for parameter in parameters(procedure):
+            values[parameter.id] = _AS_KIND[parameter.kind](values[parameter.id])
+        self._calls += 1
+        if self._calls > MOST_CALLS:
+            raise GivenUp
+        header = header_of(self.project, procedure.id)
+        self._parameters.append(values)
+        own = self._locals.get(procedure.id, set())
+        self._own.append({variable: self._first(variable) for variable in own})
+        try:
+            self._chain(self.project.stack_of(header).body[1:])
+        except GivenBack as given:
+            return given.value
+        finally:
+            self._parameters.pop()
+            self._own.pop()
+            self._calls -= 1
+        return 0
+
+    # Statements
+
+    def _chain(self, chain: list[str]) -> None:
+        for block_id in chain:
+            block = self.project.blocks[block_id]
+            if block.disabled:
+                continue
+            self._step()
+            if block.type.startswith("my.call."):
+                self._call(block)
+            else:
+                STATEMENTS[block.type](self, block)
+
+    def body(self, block: Block, slot: str) -> None:
+        self._chain(block.bodies.get(slot, []))
+
+    def round(self, block: Block) -> bool:
+        """Do a round of a loop; whether the loop goes on."""
+        self._step()
+        try:
+            self.body(block, "do")
+        except LoopLeft:
+            return False
+        except RoundLeft:
+            pass
+        return True
+
+    def turn(self, block: Block) -> int:
+        turn = self._turns.get(block.id, 0)
+        self._turns[block.id] = turn + 1
+        return turn
+
+
+def _is_set_by(block: Block, variable: str) -> bool:
+    """Whether a block sets, changes, counts with or goes through a list with a variable."""
+    return block.fields.get("variable") == variable and block.type != "variable.get"
+
+
+def _text(value: Value) -> Value:
+    return told(value)
+
+
+_AS_KIND: dict[str, Callable[[Value], Value]] = {
+    "number": number,
+    "text": _text,
+    "boolean": lambda value: value,
+    "list": items_of,
+    "any": lambda value: value,
+}
+_AS_IT_IS = ("text.length", "text.is_empty")
+"""Blocks that take any value for what it is, in a place for a text."""
+
+
+# What each block means
+
+
+def _join(run: Interpreter, block: Block) -> Value:
+    count = block.groups.get("item", 0)
+    return "".join(told(run.slot(block, f"item.{n}")) for n in range(1, count + 1))
+
+
+def _junction(run: Interpreter, block: Block) -> Value:
+    keys = ["a", "b", *(f"c.{n}" for n in range(1, block.groups.get("more", 0) + 1))]
+    if run._choice(block, "junction") == "and":
+        return all(is_yes(run.slot(block, key)) for key in keys)
+    return any(is_yes(run.slot(block, key)) for key in keys)
+
+
+def _compare(run: Interpreter, block: Block) -> Value:
+    a, b = run.slot(block, "a"), run.slot(block, "b")
+    return COMPARISONS[run._choice(block, "comparison")](a, b)
+
+
+def _round(run: Interpreter, block: Block) -> Value:
+    value = number(run.slot(block, "number"))
+    ways = {"nearest": rounded, "up": math.ceil, "down": math.floor}
+    return ways[run._choice(block, "way")](value)
+
+
+def _constrain(run: Interpreter, block: Block) -> Value:
+    value, low, high = (number(run.slot(block, key)) for key in ("number", "low", "high"))
+    larger = low if value < low else value
+    return high if larger > high else larger
+
+
+def _arithmetic(run: Interpreter, block: Block) -> Value:
+    a, b = number(run.slot(block, "a")), number(run.slot(block, "b"))
+    return ARITHMETIC[run._choice(block, "operation")](a, b)
+
+
+def _random(run: Interpreter, block: Block) -> Value:
+    low, high = rounded(run.slot(block, "low")), rounded(run.slot(block, "high"))
+    if low != high:
+        raise GivenUp  # nobody can judge chance
+    return low
+
+
+def _random_item(run: Interpreter, block: Block) -> Value:
+    items = items_of(run.slot(block, "list"))
+    if not items:
+        raise Wrong("no items")
+    if not all(equal(item, items[0]) for item in items):
+        raise GivenUp
+    return items[0]
+
+
+def _length(value: Value) -> int:
+    return len(value) if isinstance(value, list) else len(told(value))
+
+
+def _letter(run: Interpreter, block: Block) -> Value:
+    text = str(run.slot(block, "text"))
+    return text[place(run.slot(block, "number"), "start", len(text))]
+
+
+def _case(run: Interpreter, block: Block) -> Value:
+    text, case = str(run.slot(block, "text")), run._choice(block, "case")
+    if case != "title":
+        return text.upper() if case == "upper" else text.lower()
+    return re.sub(r"\S+", lambda word: word[0][0].upper() + word[0][1:].lower(), text)
+
+
+def _replace(run: Interpreter, block: Block) -> Value:
+    text, part, new = (str(run.slot(block, key)) for key in ("text", "part", "new"))
+    return text.replace(part, new) if part else text
+
+
+def _find_in_text(run: Interpreter, block: Block) -> Value:
+    return str(run.slot(block, "text")).find(str(run.slot(block, "part"))) + 1
+
+
+def _filled(run: Interpreter, block: Block) -> Value:
+    item, times = run.slot(block, "item"), rounded(run.slot(block, "times"))
+    if times > 500:
+        raise GivenUp
+    return [list(item) if isinstance(item, list) else item for _ in range(times)]
+
+
+def _contains(run: Interpreter, block: Block) -> Value:
+    items, item = items_of(run.slot(block, "list")), run.slot(block, "item")
+    return any(equal(item, one) for one in items)
+
+
+def _find(run: Interpreter, block: Block) -> Value:
+    items, item = items_of(run.slot(block, "list")), run.slot(block, "item")
+    return next((n for n, one in enumerate(items, 1) if equal(item, one)), 0)
+
+
+def _at(run: Interpreter, block: Block) -> tuple[list, int]:
+    items = items_of(run.slot(block, "list"))
+    return items, place(run.slot(block, "number"), run._choice(block, "end"), len(items))
+
+
+def _get(run: Interpreter, block: Block) -> Value:
+    items, index = _at(run, block)
+    return items[index]
+
+
+def _take(run: Interpreter, block: Block) -> Value:
+    items, index = _at(run, block)
+    return items.pop(index)
+
+
+def _part(run: Interpreter, block: Block) -> Value:
+    items = items_of(run.slot(block, "list"))
+    first, last = whole(run.slot(block, "first")), whole(run.slot(block, "last"))
+    return [item for n, item in enumerate(items, 1) if first <= n <= last]
+
+
+def _sorted(run: Interpreter, block: Block) -> Value:
+    items = items_of(run.slot(block, "list"))
+    kinds = {kind(item) for item in items}
+    if len(kinds) > 1 or not kinds <= {"number", "text"}:
+        raise Wrong("not to be sorted")
+    return sorted(items, reverse=run._choice(block, "order") == "down")
+
+
+def _split(run: Interpreter, block: Block) -> Value:
+    text, mark = str(run.slot(block, "text")), str(run.slot(block, "mark"))
+    return text.split(mark) if mark else list(text)
+
+
+def _joined(run: Interpreter, block: Block) -> Value:
+    items, mark = items_of(run.slot(block, "list")), str(run.slot(block, "mark"))
+    return mark.join(map(told, items))
+
+
+REPORTERS: dict[str, Callable[[Interpreter, Block], Value]] = {
+    "variable.get": lambda run, block: run.get(str(block.fields["variable"])),
+    "math.number": lambda run, block: number(run.slot(block, "number")),
+    "math.arithmetic": _arithmetic,
+    "math.function": lambda run, block: FUNCTIONS[run._choice(block, "function")](
+        number(run.slot(block, "number"))
+    ),
+    "math.round": _round,
+    "math.constrain": _constrain,
+    "math.of_list": lambda run, block: OF_LIST[run._choice(block, "function")](
+        numbers_of(run.slot(block, "list"))
+    ),
+    "math.random_integer": _random,
+    "math.random_item": _random_item,
+    "logic.truth": lambda run, block: run._choice(block, "truth") == "true",
+    "logic.not": lambda run, block: not is_yes(run.slot(block, "a")),
+    "logic.junction": _junction,
+    "logic.compare": _compare,
+    "logic.choose": lambda run, block: run.slot(
+        block, "a" if is_yes(run.slot(block, "condition")) else "b"
+    ),
+    "logic.number_is": lambda run, block: PROPERTIES[run._choice(block, "property")](
+        number(run.slot(block, "number"))
+    ),
+    "logic.divisible": lambda run, block: (
+        number(run.slot(block, "number")) % _divisor(number(run.slot(block, "divisor"))) == 0
+    ),
+    "text.text": lambda run, block: run.slot(block, "text"),
+    "text.join": _join,
+    "text.length": lambda run, block: _length(run.slot(block, "text")),
+    "text.is_empty": lambda run, block: _length(run.slot(block, "text")) == 0,
+    "text.contains": lambda run, block: (
+        str(run.slot(block, "part")) in str(run.slot(block, "text"))
+    ),
+    "text.find": _find_in_text,
+    "text.letter": _letter,
+    "text.case": _case,
+    "text.replace": _replace,
+    "text.number": lambda run, block: number_in(str(run.slot(block, "text"))),
+    "list.create": lambda run, block: [
+        run.slot(block, f"item.{n}") for n in range(1, block.groups.get("item", 0) + 1)
+    ],
+    "list.filled": _filled,
+    "list.length": lambda run, block: len(items_of(run.slot(block, "list"))),
+    "list.is_empty": lambda run, block: not items_of(run.slot(block, "list")),
+    "list.contains": _contains,
+    "list.find": _find,
+    "list.get": _get,
+    "list.take": _take,
+    "list.part": _part,
+    "list.sorted": _sorted,
+    "list.reversed": lambda run, block: items_of(run.slot(block, "list"))[::-1],
+    "list.split": _split,
+    "list.joined": _joined,
+}
+
+
+def _say(run: Interpreter, block: Block) -> None:
+    run.said.append(told(run.slot(block, "text")))
+
+
+def _set(run: Interpreter, block: Block) -> None:
+    run.set(str(block.fields["variable"]), run.slot(block, "value"))
+
+
+def _change(run: Interpreter, block: Block) -> None:
+    variable = str(block.fields["variable"])
+    amount = number(run.slot(block, "amount"))
+    run.set(variable, number(run.get(variable)) + amount)
+
+
+def _append(run: Interpreter, block: Block) -> None:
+    variable = str(block.fields["variable"])
+    text = told(run.slot(block, "text"))
+    run.set(variable, told(run.get(variable)) + text)
+
+
+def _if(run: Interpreter, block: Block) -> None:
+    if is_yes(run.slot(block, "condition")):
+        return run.body(block, "do")
+    for n in range(1, block.groups.get("also", 0) + 1):
+        if is_yes(run.slot(block, f"also_condition.{n}")):
+            return run.body(block, f"also_do.{n}")
+    if block.groups.get("otherwise"):
+        run.body(block, "otherwise_do.1")
+    return None
+
+
+def _repeat(run: Interpreter, block: Block) -> None:
+    for _ in range(rounded(run.slot(block, "times"))):
+        if not run.round(block):
+            return
+
+
+def _while(run: Interpreter, block: Block) -> None:
+    while is_yes(run.slot(block, "condition")) and run.round(block):
+        pass
+
+
+def _repeat_until(run: Interpreter, block: Block) -> None:
+    while not is_yes(run.slot(block, "condition")) and run.round(block):
+        pass
+
+
+def _forever(run: Interpreter, block: Block) -> None:
+    while run.round(block):
+        pass
+
+
+def _count(run: Interpreter, block: Block) -> None:
+    first, last, step = (number(run.slot(block, key)) for key in ("first", "last", "step"))
+    if step == 0:
+        raise Wrong("a step of 0")
+    step = abs(step) if first <= last else -abs(step)
+    rounds = (last - first) / step
+    for n in range(math.floor(rounds + CLOSE) + 1):
+        run.set(str(block.fields["variable"]), first + n * step)
+        if not run.round(block):
+            return
+
+
+def _for_each(run: Interpreter, block: Block) -> None:
+    for item in list(items_of(run.slot(block, "list"))):
+        run.set(str(block.fields["variable"]), item)
+        if not run.round(block):
+            return
+
+
+def _add(run: Interpreter, block: Block) -> None:
+    value, items = run.slot(block, "value"), items_of(run.slot(block, "list"))
+    items.append(value)
+
+
+def _set_item(run: Interpreter, block: Block) -> None:
+    value = run.slot(block, "value")
+    items, index = _at(run, block)
+    items[index] = value
+
+
+def _insert(run: Interpreter, block: Block) -> None:
+    value, items = run.slot(block, "value"), items_of(run.slot(block, "list"))
+    index = place(run.slot(block, "number"), run._choice(block, "end"), len(items) + 1)
+    items.insert(index, value)
+
+
+def _remove(run: Interpreter, block: Block) -> None:
+    items, index = _at(run, block)
+    del items[index]
+
+
+def _together(run: Interpreter, block: Block) -> None:
+    for n in range(1, block.groups.get("part", 0) + 1):
+        run.body(block, f"do.{n}")
+
+
+def _one_of(run: Interpreter, block: Block) -> None:
+    if block.groups.get("part", 0) > 1:
+        raise GivenUp
+    run.body(block, "do.1")
+
+
+def _in_turn(run: Interpreter, block: Block) -> None:
+    count = block.groups.get("part", 0)
+    run.body(block, f"do.{run.turn(block) % count + 1}")
+
+
+def _raise(error: type[Exception]) -> Callable[[Interpreter, Block], None]:
+    def statement(run: Interpreter, block: Block) -> None:
+        raise error
+
+    return statement
+
+
+def _give_back(run: Interpreter, block: Block) -> None:
+    raise GivenBack(run.slot(block, "value"))
+
+
+STATEMENTS: dict[str, Callable[[Interpreter, Block], None]] = {
+    "robot.say": _say,
+    "variable.set": _set,
+    "variable.change": _change,
+    "text.append": _append,
+    "control.if": _if,
+    "control.repeat": _repeat,
+    "control.while": _while,
+    "control.repeat_until": _repeat_until,
+    "control.forever": _forever,
+    "control.count": _count,
+    "control.for_each": _for_each,
+    "control.leave_loop": _raise(LoopLeft),
+    "control.next_round": _raise(RoundLeft),
+    "control.stop_rule": _raise(RuleEnded),
+    "control.note": lambda run, block: None,
+    "control.together": _together,
+    "goal.one_of": _one_of,
+    "goal.in_turn": _in_turn,
+    "list.add": _add,
+    "list.set": _set_item,
+    "list.insert": _insert,
+    "list.remove": _remove,
+    "my.return": _give_back,
+}
