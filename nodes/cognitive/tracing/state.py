@@ -13,6 +13,7 @@ from types import FrameType
 from typing import Any
 
 from nep_core.program.tasks import Task, current_task
+from nep_core.program.values import as_text
 
 MOST_CALLS = 50
 """So many calls of a thread are told."""
@@ -186,12 +187,17 @@ def is_plain(value: object) -> bool:
 
 
 def shown(value: Any, depth: int = 0) -> str:
-    """A plain value as Python, clipped; no code of the program is run for it."""
+    """A plain value as the program tells it, clipped; texts and lists show that they are some.
+
+    No code of the program is run for it.
+    """
     if type(value) is str:
-        return repr(value) if len(value) < LONGEST else repr(value[: LONGEST - 2]) + CUT
+        return _quoted(value) if len(value) < LONGEST else _quoted(value[: LONGEST - 2]) + CUT
     if type(value) is int:
         return _whole(value)
-    if value is None or type(value) in (bool, float):
+    if type(value) is bool or (type(value) is float and math.isfinite(value)):
+        return as_text(value)
+    if value is None or type(value) is float:
         return repr(value)
     if type(value) in _ENDS and depth < _DEEPEST:
         kind = type(value)
@@ -206,6 +212,12 @@ def shown(value: Any, depth: int = 0) -> str:
             return f"{kind.__name__}()"
         return f"{opening}{text}{',' if kind is tuple and len(value) == 1 else ''}{closing}"
     return CUT
+
+
+def _quoted(text: str) -> str:
+    """A text on one line, in the same marks in every language."""
+    inner = "".join(letter if letter.isprintable() else repr(letter)[1:-1] for letter in text)
+    return f'"{inner}"'
 
 
 def _whole(value: int) -> str:

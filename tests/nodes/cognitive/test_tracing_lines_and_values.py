@@ -153,10 +153,31 @@ def test_only_values_that_have_changed_are_told(follow: Follow) -> None:
     program.order("set", breakpoints=[5])
 
     heard = program.start()
-    heard.until(lambda s: s.values == {"kept": "'same'", "words": "['a']", "x": "1"})
+    heard.until(lambda s: s.values == {"kept": '"same"', "words": '["a"]', "x": "1"})
     program.order("resume")
 
-    heard.until(lambda s: s.values == {"words": "['a', 'b']", "x": "2"})
+    heard.until(lambda s: s.values == {"words": '["a", "b"]', "x": "2"})
+
+
+def test_values_are_told_as_the_program_tells_them(follow: Follow) -> None:
+    program = follow("""
+        from nep_core import Behavior
+        from nep_core.program.tasks import wait
+        behavior = Behavior("Test", language="de")
+        quotient = 6 / 3
+        half = 0.1 + 0.2
+        truth = True
+        mixed = [1.5, "a\\nb", False]
+        none = float("inf")
+        wait(600)
+        """)
+
+    heard = program.start()
+
+    heard.until(lambda s: "none" in s.values)
+    told = {name: text for state in heard.states for name, text in state.values.items()}
+    assert told["quotient"] == "2" and told["half"] == "0,3" and told["truth"] == "wahr"
+    assert told["mixed"] == '[1,5, "a\\nb", falsch]' and told["none"] == "inf"
 
 
 def test_no_code_of_the_program_is_run_to_show_a_value(follow: Follow) -> None:
@@ -195,7 +216,7 @@ def test_what_a_call_gives_is_told_with_its_place(follow: Follow) -> None:
 
     heard = program.start()
 
-    heard.value("@3:17-50", "'#ff0000'")
+    heard.value("@3:17-50", '"#ff0000"')
     assert any("@4:19-52" in state.values for state in heard.states)
 
 
