@@ -302,7 +302,7 @@ WAITS = """
     """
 
 
-@pytest.mark.parametrize("take", ["wait(1)", "wait_until(lambda: False, 1)"])
+@pytest.mark.parametrize("take", ["wait(4)", "wait_until(lambda: False, 4)"])
 def test_a_wait_stands_still_while_the_program_is_paused(follow: Follow, take: str) -> None:
     program = follow(WAITS.replace("{take}", take))
     heard = program.start()
@@ -314,7 +314,7 @@ def test_a_wait_stands_still_while_the_program_is_paused(follow: Follow, take: s
     program.join()
 
     waited_s = float(heard.until(lambda s: "waited" in s.values).values["waited"])
-    assert 2.3 < waited_s < 2.5 + 20
+    assert waited_s > 4.8  # how long the orders took to arrive, nobody knows
 
 
 def test_a_step_over_a_wait_takes_its_time(follow: Follow) -> None:
