@@ -58,6 +58,15 @@ def fill_run_menu(menu: QMenu, host: Host) -> None:
     )
     menu.addActions([toggle, clear])
     menu.addSeparator()
+    needs = add(
+        "needs",
+        "What the program needs…",
+        lambda: host.services.running.show_needs(),
+        icon_name="list",
+        keys="Shift+F8",
+    )
+    menu.addAction(needs)
+    menu.addSeparator()  # below it, what is kept with the project
     ends = add(
         "end_on_error",
         "Stop everything when one rule fails",
@@ -67,14 +76,6 @@ def fill_run_menu(menu: QMenu, host: Host) -> None:
     ends.setCheckable(True)
     menu.addAction(ends)
     menu.aboutToShow.connect(lambda: _show_end_on_error(host))
-    needs = add(
-        "needs",
-        "What the program needs…",
-        lambda: host.services.running.show_needs(),
-        icon_name="list",
-        keys="Shift+F8",
-    )
-    menu.addAction(needs)
     host.actions.enable(False, *RUN_BUTTONS, *WITH_A_PROJECT)
 
 

@@ -288,6 +288,7 @@ def add_language_of_program(menu: QMenu, window: MainWindow) -> None:
     names = available_languages()
     known = [(code, verbatim(names[code])) for code in LANGUAGES if code in names]
     _add_choices(choices, known, chosen, choose)
+    menu.aboutToShow.connect(lambda: choices.menuAction().setEnabled(bool(chosen())))
 
 
 def _fill_panels(menu: QMenu, window: MainWindow) -> None:

@@ -49,6 +49,22 @@ def test_the_language_of_the_program_is_chosen_and_taken_back(karate: MainWindow
     assert editor.project.spoken_language == "en"
 
 
+def test_what_an_error_ends_is_chosen_and_taken_back(karate: MainWindow) -> None:
+    editor = karate.files.document.editor
+    ends = next(
+        a
+        for a in karate.menus["run"].actions()
+        if a.text() == "Stop everything when one rule fails"
+    )
+
+    ends.trigger()
+
+    assert editor.project.ends_on_error and 'on_error="end"' in karate.files.document.code.text
+    editor.history.undo()
+    karate.menus["run"].aboutToShow.emit()
+    assert not editor.project.ends_on_error and not ends.isChecked()
+
+
 def test_larger_text_makes_blocks_larger_but_moves_none(karate: MainWindow) -> None:
     canvas = karate.workbench.canvas
     block = karate.files.document.project.pages["behaviour"][1].body[0]
