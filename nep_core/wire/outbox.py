@@ -260,7 +260,8 @@ class Outbox:
         with self._lock:
             stream = self._streams.get(topic)
             sent = stream.sent if stream else 0
-            self._began |= {(topic, subscriber): sent for subscriber in ids}
+            for subscriber in ids:
+                self._began_at(topic, subscriber, sent)
 
     def note(self, topic: str, subscriber: str, present: bool) -> None:
         """Welcome a subscriber that has come, or forget one that has left."""

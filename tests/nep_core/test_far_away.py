@@ -56,11 +56,12 @@ def publishers_of(network: PeerNetwork) -> list[Publisher]:
         return list(threads.map(partial(Publisher, network=network), TOPICS))
 
 
-def all_known(hearings: list[Hearing]) -> None:
+def all_known(hearings: list[Hearing], sent: int = SENT) -> None:
     until_s = time.monotonic() + PATIENCE_S
-    while any(one.known < SENT for one in hearings) and time.monotonic() < until_s:
+    while any(one.known < sent for one in hearings) and time.monotonic() < until_s:
         time.sleep(0.05)
-    assert [one.known for one in hearings] == [SENT] * len(hearings)
+    told = [(one.known, one.heard[:2], one.heard[-2:], one.subscriber.lost) for one in hearings]
+    assert [one.known for one in hearings] == [sent] * len(hearings), told
     assert all(one.heard == sorted(set(one.heard)) for one in hearings)
 
 
@@ -78,7 +79,11 @@ def test_far_away_each_message_is_heard_or_counted(
         time.sleep(EVERY_S)
 
     all_known(hearings)
-    assert all(one.heard for one in hearings)
+    for publisher in publishers:
+        assert publisher.wait_for_subscribers(1, PATIENCE_S)
+        publisher.send([SENT])
+    all_known(hearings, SENT + 1)
+    assert all(one.heard[-1] == SENT for one in hearings)
 
 
 @pytest.mark.parametrize("after_s", [0.0, 0.5])
