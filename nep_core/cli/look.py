@@ -23,6 +23,8 @@ from .console import add_json, join, registrations, say, say_json, seconds, tabl
 RATES_S = 1.0
 STATES_S = 0.3
 """The last states of nodes come with the handshake; this is for slow ones."""
+APART_S = 2.0
+"""So far may the clocks of two computers be apart without a word."""
 
 
 def add_arguments(name: str, parser: argparse.ArgumentParser) -> None:
@@ -129,16 +131,22 @@ def states_of(network: Network, wait_s: float = STATES_S) -> dict[str, NodeState
     """The newest state of each node, its heartbeats aside.
 
     Newest by its time, not by its arrival: what a launcher told of a crash may come after what the
-    node, started again, says of itself.
+    node, started again, says of itself. What is from the future was told before the clock was set
+    back, and is older than all that is not.
     """
     subscriber = Subscriber(NODE_STATE, NodeState, network=network)
     states: dict[str, NodeState] = {}
     while (state := subscriber.receive(wait_s)) is not None:
         before = states.get(state.node)
-        if state.event != "alive" and (before is None or state.time >= before.time):
+        if state.event != "alive" and (before is None or _turn(state) >= _turn(before)):
             states[state.node] = state
         wait_s = min(wait_s, 0.05)
     return states
+
+
+def _turn(state: NodeState) -> tuple[bool, float]:
+    """States in this order are from the oldest to the newest."""
+    return state.time <= time.time() + APART_S, state.time
 
 
 def _show_nodes(options: argparse.Namespace) -> None:
@@ -169,6 +177,7 @@ def _show_nodes(options: argparse.Namespace) -> None:
 
 
 def _program(told: Registration, state: NodeState | None) -> Program:
+    uptime_s = _uptime_s(told)
     return Program(
         told.node,
         state.type if state else "",
@@ -177,9 +186,22 @@ def _program(told: Registration, state: NodeState | None) -> Program:
         told.pid,
         told.host,
         told.endpoint,
-        round(max(0.0, time.time() - state.time), 1) if state else None,
-        _uptime_s(told),
+        _since_s(state, uptime_s if state.pid == told.pid else None) if state else None,
+        uptime_s,
     )
+
+
+def _since_s(state: NodeState, uptime_s: float | None) -> float | None:
+    """How long ago a node told its state; None when a clock was set back since.
+
+    Not longer ago than it runs (``uptime_s``, None: not known), which the system measures by no
+    clock that people set.
+    """
+    age_s = time.time() - state.time
+    if age_s < -APART_S:
+        return None
+    age_s = max(0.0, age_s)
+    return round(age_s if uptime_s is None else min(age_s, uptime_s), 1)
 
 
 def _uptime_s(told: Registration) -> float | None:

@@ -21,6 +21,7 @@ from nep_core.processes.launcher import LaunchedNode, Launcher
 from nep_core.processes.manifest import Manifest
 from nep_core.processes.node_log import log_file_name
 from nep_core.processes.process import Outcome
+from nep_core.wire.frames import CANNOT_DECODE
 from nep_core.wire.messages import BY_TOPIC, NODE_STATE, NodeState
 from nep_core.wire.pubsub import Publisher, Subscriber
 
@@ -105,7 +106,7 @@ def _read(text: str, options: argparse.Namespace) -> Any:
         return text
     try:
         message = msgspec.json.decode(text)
-    except (msgspec.MsgspecError, RecursionError, UnicodeError) as error:
+    except CANNOT_DECODE as error:
         raise BadMessage(
             "This is not JSON: {error}.",
             checklist=(

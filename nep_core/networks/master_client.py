@@ -13,7 +13,7 @@ import zmq
 
 from faults import heard_fault, verbatim
 from nep_core.closing import Closing
-from nep_core.errors import NameTaken
+from nep_core.errors import NameTaken, NetworkError
 from nep_core.wire.io_thread import IoThread, Wake
 from nep_core.wire.outbox import network_closed
 
@@ -78,6 +78,7 @@ class MasterClient:
         self._sent: Registration | None = None
         self._sent_version = 0
         self._answer: says.Registered | says.Refused | None = None
+        self._mistake = ""
         self._epoch = ""
         self._publishers: dict[str, list[Publishing]] = {}
         self._subscribers: dict[str, list[str]] = {}
@@ -93,19 +94,32 @@ class MasterClient:
     ) -> tuple[list[Publishing], list[str]]:
         """Change what is told and wait for the master's answer: who is at ``topic``.
 
-        These are its publishers, and the ids of its subscribers. Raises MasterNotFound, NameTaken.
+        These are its publishers, and the ids of its subscribers. Raises MasterNotFound, NameTaken,
+        and NetworkError with the master's own sentence when it cannot use what it is told.
         """
         with self._changed:
+            self._mistake = ""
             version = self._edit(edit, topic)
             self._io.wake()
             self._changed.wait_for(
-                lambda: self._closed or (self._answer and self._answer.version >= version), ANSWER_S
+                lambda: (
+                    self._closed
+                    or self._mistake
+                    or (self._answer and self._answer.version >= version)
+                ),
+                ANSWER_S,
             )
-            answer = self._answer
+            answer, mistake = self._answer, self._mistake
             ends = self._publishers.get(topic, []), self._subscribers.get(topic, [])
         if self._closed:
             raise network_closed(self._registration.node)
         if answer is None or answer.version < version:
+            if mistake:
+                raise NetworkError(
+                    "The NEP master does not take what this program tells it: {sentence}",
+                    checklist=("Use the same version of NEP Studio on all computers.",),
+                    sentence=verbatim(mistake),
+                )
             raise no_master(self.master, self._broker)
         if isinstance(answer, says.Refused):
             if (fault := heard_fault(answer.fault)) is not None:
@@ -177,6 +191,11 @@ class MasterClient:
                 self._on_stop_asked()
             case says.Computers():
                 self._on_computers(answer.keys)
+            case says.Mistake():
+                log.warning("the master answered: %s", answer.sentence)
+                with self._changed:
+                    self._mistake = answer.sentence
+                    self._changed.notify_all()
             case _:
                 log.warning("the master answered: %s", answer)
         if isinstance(answer, says.Registered | says.Refused):

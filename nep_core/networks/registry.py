@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import unicodedata
 from dataclasses import dataclass
 from typing import Annotated, TypeVar
 
 import msgspec
 
 from nep_core.errors import NameTaken, NetworkError
-from nep_core.wire.frames import check_topic
+from nep_core.wire.frames import check_topic, has_controls
 
 from .endpoints import fixed_endpoint
 
@@ -54,20 +53,22 @@ def check_registration(told: Registration) -> None:
     """Raise NetworkError when others could not use what a program tells of itself."""
     if not told.instance or not told.node:
         raise NetworkError("A registration names its instance and its node.")
-    if any(map(has_controls, (told.node, told.host, *told.publishes, *told.subscribes.values()))):
-        raise NetworkError("Names are written without control characters.")
+    check_name(told.node)
+    check_name(told.host)
     if told.endpoint or told.publishes:
         fixed_endpoint(told.endpoint)
     for topic in (*told.publishes, *told.subscribes.values()):
         check_topic(topic)
 
 
-def has_controls(name: str) -> bool:
-    """Whether there is something in a name that a terminal obeys, or that forges a line."""
-    return any(unicodedata.category(letter) in _CONTROLS for letter in name)
-
-
-_CONTROLS = frozenset(("Cc", "Cs", "Zl", "Zp"))
+def check_name(name: str) -> None:
+    """Raise NetworkError when a node's or a computer's name would write more than a name."""
+    if has_controls(name):
+        raise NetworkError(
+            "{name} cannot be a name: names are written without control characters.",
+            checklist=("Give it a name of letters, digits and spaces.",),
+            name=repr(name),
+        )
 
 
 @dataclass

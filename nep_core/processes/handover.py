@@ -43,7 +43,7 @@ def take_secrets() -> dict[str, str]:
     """The settings that were handed over so; what this process starts does not get them."""
     try:
         return msgspec.json.decode(os.environ.pop(SECRETS_VARIABLE, "{}"), type=dict[str, str])
-    except msgspec.MsgspecError:
+    except CANNOT_DECODE:
         return {}
 
 

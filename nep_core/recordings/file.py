@@ -14,7 +14,7 @@ import msgspec
 
 from faults import reason_of
 from nep_core.errors import RecordingError
-from nep_core.wire.frames import Encoding
+from nep_core.wire.frames import CANNOT_DECODE, Encoding
 from nep_core.wire.messages import BY_TOPIC
 
 from .raw import RawMessage
@@ -344,7 +344,7 @@ def _message(channel: Channel, record: Any) -> RawMessage | None:
     if channel.is_text:
         try:
             payload = msgspec.json.decode(payload, type=Text).text.encode()
-        except msgspec.MsgspecError:
+        except CANNOT_DECODE:
             return None
     return RawMessage(
         channel.topic,

@@ -10,6 +10,7 @@ header has a sixth value, how many messages were sent so far; without a payload 
 
 from __future__ import annotations
 
+import unicodedata
 from collections.abc import Callable
 from typing import Annotated, Any, Literal
 
@@ -54,17 +55,23 @@ _decode_header = msgspec.json.Decoder(Header).decode
 
 
 def check_topic(topic: str) -> None:
-    """Raise NetworkError unless ``topic`` can travel: not empty, no NUL, within UTF-8."""
-    try:
-        usable = bool(topic) and b"\0" not in topic.encode()
-    except UnicodeEncodeError:
-        usable = False
-    if not usable:
+    """Raise NetworkError unless ``topic`` can travel: not empty, and no control characters."""
+    if not topic or has_controls(topic):
         raise NetworkError(
-            "{topic} cannot be a topic: a topic has at least one character and no NUL.",
+            "{topic} cannot be a topic: a topic has at least one character, and no control "
+            "characters.",
             checklist=('Use a name such as "/human_behavior".',),
             topic=repr(topic),
         )
+
+
+_CONTROLS = frozenset(("Cc", "Cs", "Zl", "Zp"))
+"""NUL and all else that a terminal obeys, halves of letters (not within UTF-8), ends of lines."""
+
+
+def has_controls(name: str) -> bool:
+    """Whether there is something in a name that a terminal obeys, or that forges a line."""
+    return any(unicodedata.category(letter) in _CONTROLS for letter in name)
 
 
 def subscription(topic: str) -> bytes:

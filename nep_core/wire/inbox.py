@@ -51,8 +51,8 @@ class Backlog:
         self._head_at = len(subscription(topic))
         self._lost = 0
         self._known: dict[tuple[str, str], list[int]] = {}
-        """By node and run: the numbers of the first message received and the last one sent, and
-        at which note of ours it was heard last."""
+        """By node and run: the numbers of the first message received and the last one sent, at
+        which note of ours it was heard last, and after which number none is uncounted."""
         self._notes = 0
         self._frames: deque[tuple[bytes, int]] = deque()
         """Each with its number of messages."""
@@ -143,18 +143,23 @@ class Backlog:
             if len(self._known) >= MOST_PUBLISHERS:
                 del self._known[min(self._known, key=lambda start: self._known[start][2])]
             ends = (header.sequence, last) if sent is None else (sent + 1, sent)
-            self._known[sender] = [*ends, self._notes]
+            self._known[sender] = [*ends, self._notes, ends[0] - 1]
             return header, messages, sent is None or messages > 0
         known[2] = self._notes
         if sent is None:
             self._lost += max(0, header.sequence - known[1] - 1)
             known[1] = last  # lower than before: a sender without a run has started again
             return header, messages, True
+        if header.run and sent < known[3]:
+            # It says only now where we should have begun: data may come before the first notice
+            self._lost += known[3] - sent
+            known[3] = sent
         was_lost = header.sequence > known[1]
         is_new = messages > 0 and (was_lost or header.sequence < known[0])
         self._lost += max(0, sent - known[1] - (messages if was_lost else 0))
         known[1] = max(known[1], sent)
         if is_new:
+            self._lost -= known[3] < header.sequence < known[0]  # one of those is here after all
             known[0] = min(known[0], header.sequence)
         return header, messages, is_new
 

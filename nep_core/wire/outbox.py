@@ -187,6 +187,9 @@ class Stream:
 MARK_S = 0.5
 """How often a slow subscriber is told how many messages were sent."""
 
+MOST_SUBSCRIBERS = 10_000
+"""Of so many, those that came last, it is kept where they began: a program may run for weeks."""
+
 SendFrame = Callable[[bytes], object]
 
 
@@ -206,8 +209,8 @@ class Outbox:
         self._ids: dict[str, set[str]] = defaultdict(set)
         self._slow: set[tuple[str, str]] = set()
         self._streams: dict[str, Stream] = {}
-        self._expected: dict[tuple[str, str], int] = {}
-        """Who should have been there when so many messages had been sent."""
+        self._began: dict[tuple[str, str], int] = {}
+        """How many messages had been sent when a subscriber came first, or should have come."""
         self._next_mark_s = 0.0
 
     def _sender(self, topic: str) -> SendFrame:
@@ -257,16 +260,18 @@ class Outbox:
         with self._lock:
             stream = self._streams.get(topic)
             sent = stream.sent if stream else 0
-            self._expected |= {(topic, subscriber): sent for subscriber in ids}
+            for subscriber in ids:
+                self._began_at(topic, subscriber, sent)
 
     def note(self, topic: str, subscriber: str, present: bool) -> None:
         """Welcome a subscriber that has come, or forget one that has left."""
         if present:
             with self._lock:
                 stream = self._streams.get(topic)
-                due = self._expected.pop((topic, subscriber), None)
-                if due is not None and stream is not None and due < stream.sent:
-                    # Its own count begins there, so that it counts what it came too late for
+                due = self._began_at(topic, subscriber, stream.sent if stream else 0)
+                if stream is not None and due < stream.sent:
+                    # Its own count begins there, so that it counts what it came too late for, and
+                    # what was lost with a connection that broke before it heard anything
                     began = frames.mark(topic, self._node, self._run, due)
                     self._send_privately(topic, subscriber, began)
                 if stream is not None and stream.latched:
@@ -282,6 +287,13 @@ class Outbox:
                 del self._ids[topic]
             self._slow.discard((topic, subscriber))
             self._changed.notify_all()
+
+    def _began_at(self, topic: str, subscriber: str, sent: int) -> int:
+        """Where a subscriber's count begins: now, unless it is known from before."""
+        began = self._began.setdefault((topic, subscriber), sent)
+        if len(self._began) > MOST_SUBSCRIBERS:
+            del self._began[next(iter(self._began))]
+        return began
 
     def note_slow(self, topic: str, subscriber: str) -> None:
         """Somebody could not take a message: from now on it hears how many there were.

@@ -24,6 +24,7 @@ import msgspec
 
 from faults.files import whole_file
 from nep_core.places import opened_privately, private_folder
+from nep_core.wire.frames import CANNOT_DECODE
 from nep_studio.blocks.editor import Editor
 from nep_studio.blocks.edits import ANY_EDIT, Edit
 from nep_studio.blocks.errors import BlocksError
@@ -178,7 +179,7 @@ def recover(folder: Path, language: Language) -> list[Recoverable]:
             continue
         try:
             work = _read(journal, language)
-        except (OSError, BlocksError, msgspec.MsgspecError, ValueError) as error:
+        except (OSError, BlocksError, *CANNOT_DECODE) as error:
             log.warning("The journal in %s cannot be read: %s", journal, error)
             work = None
         finally:
@@ -223,5 +224,5 @@ def _steps(edits: Path) -> Iterator[list[Edit]]:
     for line in edits.read_bytes().splitlines():
         try:
             yield _DECODER.decode(line)
-        except msgspec.MsgspecError:
+        except CANNOT_DECODE:
             return  # the program died while it wrote this line

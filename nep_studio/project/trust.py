@@ -22,6 +22,7 @@ import msgspec
 from faults import Text, Words, text_of
 from faults.files import whole_file
 from nep_core.places import own_folder, private_folder
+from nep_core.wire.frames import CANNOT_DECODE
 from nep_studio.blocks.code_text import python_slots
 from nep_studio.blocks.editor import Editor
 from nep_studio.blocks.edits import Edit
@@ -171,7 +172,7 @@ class Approvals:
                 return
             self._keys = dict.fromkeys(msgspec.json.decode(self.path.read_bytes(), type=list[str]))
             self._stamp = stamp
-        except (OSError, msgspec.MsgspecError, ValueError):
+        except (OSError, *CANNOT_DECODE):
             self._keys, self._stamp = {}, None
 
 

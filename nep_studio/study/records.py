@@ -27,6 +27,7 @@ import msgspec
 
 from faults import Tr, plain
 from faults.files import whole_file
+from nep_core.wire.frames import CANNOT_DECODE
 
 # The System Usability Scale: its items and its score, as in the paper and as Brooke made it.
 #
@@ -254,7 +255,7 @@ class StudyFolder:
         """The sitting that is recorded now, also after a new start of the program."""
         try:
             return msgspec.json.decode(self._open.read_bytes(), type=Sitting)
-        except (OSError, msgspec.MsgspecError):
+        except (OSError, *CANNOT_DECODE):
             return None
 
     def begin(self, sitting: Sitting) -> None:
@@ -270,7 +271,7 @@ class StudyFolder:
         """The conditions that are compared, as they were given last."""
         try:
             return msgspec.json.decode(self._setup.read_bytes(), type=list[str])
-        except (OSError, msgspec.MsgspecError):
+        except (OSError, *CANNOT_DECODE):
             return []
 
     def set_conditions(self, conditions: Sequence[str]) -> None:
@@ -334,7 +335,7 @@ def _lines(path: Path, kind: type[Record]) -> Iterator[Record]:
         if line.strip():
             try:
                 yield msgspec.json.decode(line, type=kind)
-            except msgspec.MsgspecError as error:
+            except CANNOT_DECODE as error:
                 log.warning("line %d of %s is left out: %s", number, path.name, error)
 
 

@@ -27,6 +27,7 @@ from nep_core.cli.doctor import Finding, examined, finding_lines
 from nep_core.networks.security.addresses import own_addresses
 from nep_core.places import cache_folder, key_file, log_folder, portable_folder
 from nep_core.processes.process import program_command
+from nep_core.wire.frames import CANNOT_DECODE
 from nep_studio import __version__
 
 from . import portable, safe_mode
@@ -259,7 +260,7 @@ def _screen() -> Iterator[Finding]:
     except OSError as error:
         output, errors, end = b"", b"", str(error)
     for line in output.splitlines():
-        with suppress(msgspec.MsgspecError):
+        with suppress(*CANNOT_DECODE):
             yield msgspec.json.decode(line, type=Finding)
     if end:
         last = " ".join(errors.decode(errors="replace").split())[-600:]

@@ -12,6 +12,7 @@ from dataclasses import dataclass
 import msgspec
 
 from nep_core.processes.manifest import finite_number
+from nep_core.wire.frames import CANNOT_DECODE
 from nodes.recordings import Floats
 
 Vector = tuple[float, float, float]
@@ -111,7 +112,7 @@ def read_json(line: str) -> dict[str, object] | None:
     """A line's JSON object with its names in small letters, None where it is none."""
     try:
         found = msgspec.json.decode(line)
-    except (msgspec.DecodeError, UnicodeError, RecursionError):
+    except CANNOT_DECODE:
         return None
     if not isinstance(found, dict):
         return None

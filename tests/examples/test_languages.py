@@ -168,7 +168,7 @@ def test_a_rule_of_a_block_program_waits_for_what_it_tells(
     monkeypatch.setenv(NODES_VARIABLE, str(nodes))
 
     played = subprocess.run(
-        [sys.executable, "-m", "nep_studio", "run", str(PROGRAM)],
+        [sys.executable, "-m", "nep_studio", "run", str(PROGRAM), "--trust"],
         capture_output=True,
         text=True,
         timeout=WAIT_S,

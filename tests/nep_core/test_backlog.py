@@ -50,6 +50,19 @@ def test_what_is_lost_at_the_end_is_known_from_a_mark() -> None:
     assert len(backlog) == 1
 
 
+def test_what_was_sent_before_the_first_notice_says_where_to_begin_is_counted_once() -> None:
+    backlog = Backlog("/t")
+    for number in (5, 6):
+        backlog.put(frame(number))  # its subscription was in force before it was known
+
+    for _ in range(2):  # also when the connection is made again
+        backlog.put(told(0))
+        backlog.put(notice(frame(3), 6))  # the last latched message, which is older
+
+    assert backlog.lost == 3
+    assert len(backlog) == 3
+
+
 def test_a_publisher_that_starts_again_loses_nothing_with_or_without_a_run() -> None:
     backlog = Backlog("/t")
     for number, run in ((100, "aaaaaaaa"), (101, "aaaaaaaa"), (1, "bbbbbbbb"), (2, "bbbbbbbb")):

@@ -9,7 +9,8 @@ from typing import Any
 
 import pytest
 
-from nep_core.errors import NetworkError
+from nep_core.errors import MasterNotFound, NetworkError
+from nep_core.recordings.raw import RawSubscriber
 from nep_core.wire import inbox
 from nep_core.wire.messages import HUMAN_BEHAVIOR, HumanBehavior
 from nep_core.wire.pubsub import Publisher, Subscriber
@@ -98,7 +99,6 @@ ODD_TOPICS = (
     "/a*b?c#d$e",
     "/%2A",
     "**",
-    "/x\n",
     "/" + "x" * 300,
 )
 
@@ -114,6 +114,22 @@ def test_odd_topics_are_topics_like_others(world: World) -> None:
     for topic, subscriber in subscribers.items():
         assert subscriber.receive(5) == topic
         assert subscriber.pending() == []
+
+
+@pytest.mark.parametrize(
+    "topic", ["/x\n", "/a\x1b[2J", "/a\0b", "/a\x85", "/a\u2028b", "", "\ud800"]
+)
+def test_what_a_terminal_would_obey_is_no_topic_anywhere(world: World, topic: str) -> None:
+    network = world.join("talker")
+
+    for at_this_end in (Publisher, Subscriber[Any], RawSubscriber):
+        with pytest.raises(NetworkError, match=r"cannot be a topic.*no control") as refused:
+            at_this_end(topic, network=network)
+        assert not isinstance(refused.value, MasterNotFound)
+
+    publisher, subscriber = connect(world, "/good")  # a refusal spoils nothing of what comes after
+    publisher.send("still here")
+    assert subscriber.receive(5) == "still here"
 
 
 @only_named

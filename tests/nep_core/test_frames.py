@@ -115,7 +115,7 @@ def test_a_topic_is_no_prefix_of_another() -> None:
     assert not subscription("/gesture_debug").startswith(subscription("/gesture"))
 
 
-@pytest.mark.parametrize("topic", ["", "a\0b", "\ud800"])
+@pytest.mark.parametrize("topic", ["", "a\0b", "\ud800", "a\nb", "\x1b[2J", "a\x9b", "a\u2029b"])
 def test_a_topic_that_cannot_travel_is_refused(topic: str) -> None:
     with pytest.raises(NetworkError):
         check_topic(topic)

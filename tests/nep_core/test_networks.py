@@ -57,6 +57,16 @@ def test_a_second_node_of_the_same_name_is_refused_and_nobody_is_killed(join: Jo
     Publisher("/x", network=first).send("the first goes on")
 
 
+def test_what_the_master_cannot_use_is_told_with_its_own_sentence_and_at_once(join: Join) -> None:
+    network = join("a\x1b[2Jb")
+
+    with pytest.raises(NetworkError, match="without control characters") as raised:
+        Publisher("/x", network=network)
+
+    assert not isinstance(raised.value, MasterNotFound)
+    Publisher("/x", network=join("another")).send("the others go on")
+
+
 def has_ipv6() -> bool:
     try:
         with socket.create_server(("::1", 0), family=socket.AF_INET6):

@@ -176,7 +176,7 @@ LOOKS: dict[str, Look] = {
     "robot_moves.start_walking": Look(
         "where it stands after a while",
         lambda seen: seen.way()[0] > 0.1,
-        then=(B("control.wait", {"seconds": 0.7}),),
+        then=(B("control.wait", {"seconds": 2.0}),),
     ),
     "robot_moves.stop_moving": Look(
         "that it stands still, and speaks on",

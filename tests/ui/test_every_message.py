@@ -26,6 +26,7 @@ PASSED_ON = "the reason of another message; that one tells what to try"
 OF_A_ROBOT = "told as “NAO could not ...” by nep_core/program/actions.py, which adds what to try"
 OF_A_PROGRAM = "told by the master to a program that somebody wrote with the page docs/wire.md"
 FOR_AUTHORS = "told to those who write descriptions of blocks; the sentence names the place"
+OF_ITS_CLASS = "its class has its sentence and its checklist, wherever it is raised"
 SAYS_WHY = "why a place refuses blocks that are dragged or typed; the program stays as it was"
 ALL_IS_WELL = "it tells that something is well again, or done as it was asked"
 
@@ -42,6 +43,7 @@ WITHOUT_IN = {
 
 WITHOUT = {
     "ready_s is {ready_s}, but 0 to {most_ready_s} s can be": PASSED_ON,
+    "stop_s is {stop_s}, but 0 to {most_stop_s} s can be": PASSED_ON,
     "its command has an empty word": PASSED_ON,
     'the topic "{topic}" does not begin with /': PASSED_ON,
     '"{name}" cannot name a setting: use letters, digits and _': PASSED_ON,
@@ -58,6 +60,8 @@ WITHOUT = {
     "This block has no place for blocks inside it.": NO_HAND,
     "There is no kind of field called “{name}”.": FOR_AUTHORS,
     "error": PASSED_ON,
+    "()": OF_ITS_CLASS,
+    "left": OF_ITS_CLASS,
     "title | problem.sentence": ALL_IS_WELL,
     "title": ALL_IS_WELL,
     "message.title | message.sentence": ALL_IS_WELL,

@@ -31,6 +31,7 @@ import psutil
 from faults import Fault, fault_of
 from nep_core.errors import NepError
 from nep_core.processes.process import program_command
+from nep_core.wire.frames import CANNOT_DECODE
 
 from .dataset import everybodys_movement, learn, read_material
 from .model import check_writable, write_model
@@ -105,7 +106,7 @@ def _do(line: bytes, told: _JsonLines) -> None:
         _train(order, told)
     except NepError as error:
         told.fault(error.fault)
-    except msgspec.MsgspecError as error:
+    except CANNOT_DECODE as error:
         told.fault(
             fault_of(
                 "The order to train cannot be read: {error}.",

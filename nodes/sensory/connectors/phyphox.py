@@ -12,6 +12,7 @@ import msgspec
 
 from faults import Text, text_of
 from nep_core.processes.manifest import finite_number
+from nep_core.wire.frames import CANNOT_DECODE
 from nodes.sensory.reading import Reading, scaled, vector
 
 from .connector import Arrived, Timed, nearest
@@ -134,7 +135,7 @@ def read_answer(body: bytes) -> Mapping[str, object] | None:
 def _object(body: bytes) -> dict[str, object] | None:
     try:
         found = msgspec.json.decode(body)
-    except (msgspec.DecodeError, UnicodeDecodeError, RecursionError):
+    except CANNOT_DECODE:
         return None
     return found if isinstance(found, dict) else None
 

@@ -15,6 +15,7 @@ import msgspec
 
 from faults import Text, text_of
 from nep_core.processes.manifest import finite_number
+from nep_core.wire.frames import CANNOT_DECODE
 from nodes.sensory.reading import G_M_S2, NS, Reading, Vector, added, scaled, vector
 
 from .connector import Arrived, Ordering, Settings, Timed, nearest
@@ -87,7 +88,7 @@ def read_message(body: bytes) -> Message | None:
     """A pushed body; None when it is none."""
     try:
         message = msgspec.json.decode(body, type=Message)
-    except (msgspec.DecodeError, UnicodeDecodeError, RecursionError):
+    except CANNOT_DECODE:
         return None
     message.payload = [_needed(one) for one in message.payload]
     return message

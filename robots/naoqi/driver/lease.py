@@ -46,6 +46,8 @@ SURE_S = 2.0
 SETTLING_S = 0.4
 """Of several that write a lease at once the last one has it: so long each waits before it looks."""
 LONGEST_NAME = 60
+CANNOT_READ = (ValueError, TypeError, RecursionError, OverflowError)
+"""What reading a robot's memory can raise: anybody may have written there."""
 
 LeaseState = Literal["asking", "waiting", "held", "taken"]
 
@@ -258,7 +260,7 @@ class Lease:
     def _remember(self) -> Generator[None, None, Found]:
         """Return how the robot was found: by us, or by who has not ended in good order."""
         text = yield from self._data(FOUND_KEY)
-        with contextlib.suppress(msgspec.DecodeError, TypeError):
+        with contextlib.suppress(*CANNOT_READ):
             return msgspec.json.decode(text, type=Found)
         found = yield from self._look()
         yield from self._write(FOUND_KEY, msgspec.json.encode(found).decode())
@@ -275,7 +277,7 @@ class Lease:
     def _read(self) -> Generator[None, None, Owner | None]:
         """Return who has the lease; None when nobody has, or what is there is no lease."""
         text = yield from self._data(DRIVER_KEY)
-        with contextlib.suppress(msgspec.DecodeError, TypeError):
+        with contextlib.suppress(*CANNOT_READ):
             return msgspec.json.decode(text, type=Owner)
         return None
 

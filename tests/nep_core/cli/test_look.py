@@ -2,17 +2,21 @@
 
 from __future__ import annotations
 
+import os
 import re
+import time
 from collections.abc import Callable
 
 import msgspec
+import psutil
 import pytest
 
-from nep_core.cli.look import dot_lines, text_lines
+from nep_core.cli.look import dot_lines, states_of, text_lines
 from nep_core.networks.transports import TopicEnds
 from nep_core.networks.zmq_networks import PeerNetwork
 from nep_core.processes.node import Node
-from nep_core.wire.pubsub import Subscriber
+from nep_core.wire.messages import NODE_STATE, NodeState
+from nep_core.wire.pubsub import Publisher, Subscriber
 from tests.nep_core.cli.conftest import Call
 
 
@@ -67,6 +71,37 @@ def test_nodes_are_shown_with_their_last_state(
     assert nodes["lamp"]["type"] == "action"
     assert nodes["lamp"]["uptime_s"] > 0
     assert nodes["hearer"]["state"] == ""
+
+
+@pytest.mark.parametrize("set_by_s", [3600.0, -3600.0, 1.0])
+def test_a_clock_that_was_set_makes_no_age_that_cannot_be(
+    join: Callable[[str], PeerNetwork], call: Call, set_by_s: float
+) -> None:
+    network = join("lamp")
+    states = Publisher(NODE_STATE, network=network)
+    told_s = time.time() + set_by_s
+    states.send(NodeState(node="lamp", type="action", event="ready", time=told_s, pid=os.getpid()))
+
+    answer = call("nep nodes --json")
+
+    [lamp] = [one for one in msgspec.json.decode(answer.out) if one["node"] == "lamp"]
+    uptime_s = time.time() - psutil.Process().create_time()
+    if set_by_s > 60:
+        assert lamp["heard_s"] is None
+    else:
+        assert 0 <= lamp["heard_s"] <= uptime_s
+    assert " -3" not in call("nep nodes").out
+
+
+def test_what_was_told_before_the_clock_was_set_back_is_older_than_what_was_told_since(
+    join: Callable[[str], PeerNetwork],
+) -> None:
+    for name, event, ahead_s in (("launcher", "crashed", 3600.0), ("again", "ready", 0.0)):
+        states = Publisher(NODE_STATE, network=join(name))
+        time_s = time.time() + ahead_s
+        states.send(NodeState(node="lamp", type="action", event=event, time=time_s))
+
+    assert states_of(join("looker"))["lamp"].event == "ready"
 
 
 def test_the_graph_for_people_says_who_hears_what(

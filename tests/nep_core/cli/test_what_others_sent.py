@@ -12,7 +12,7 @@ import pytest
 import zmq
 
 from nep_core.cli.console import visible
-from nep_core.errors import NepError
+from nep_core.errors import NetworkError
 from nep_core.networks.master import Master
 from nep_core.networks.zmq_networks import PeerNetwork
 from nep_core.wire.messages import NODE_STATE, NodeState
@@ -97,7 +97,7 @@ def test_the_master_refuses_names_with_control_characters(
 def test_a_program_that_publishes_on_such_a_topic_is_told(
     join: Callable[[str], PeerNetwork],
 ) -> None:
-    with pytest.raises(NepError):
+    with pytest.raises(NetworkError, match="no control characters"):
         Publisher("/a\x1b[2J", network=join("talker"))
 
 

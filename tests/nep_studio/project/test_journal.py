@@ -125,6 +125,25 @@ def test_a_line_that_was_not_finished_is_left_out(tmp_path, editor, language):
         assert to_bytes(work.project) == before
 
 
+UNREADABLE = [b"[" * 100_000, b'"\xff"', b'[{"type":' + b"[" * 100_000, b"[\xff]"]
+
+
+@pytest.mark.parametrize("bad", UNREADABLE, ids=["deep", "no UTF-8", "deep inside", "no text"])
+def test_a_step_that_no_decoder_can_read_ends_what_is_offered(tmp_path, editor, language, bad):
+    journal = Journal(tmp_path, editor)
+    add_blocks(editor)
+    abandon(journal)
+    (edits,) = journal.folder.glob("*.edits")
+    edits.write_bytes(edits.read_bytes() + bad + b"\n")
+    strange = tmp_path / "1-strange"
+    strange.mkdir()
+    (strange / "about.json").write_bytes(bad)
+
+    (work,) = recover(tmp_path, language)
+
+    assert to_bytes(work.project) == to_bytes(editor.project)
+
+
 def test_the_journal_of_a_running_window_is_not_offered(tmp_path, editor, language):
     journal = Journal(tmp_path, editor)
     add_blocks(editor)

@@ -76,6 +76,25 @@ def test_a_line_that_was_cut_short_costs_only_itself(folder: StudyFolder) -> Non
     assert folder.events() == [first, second]
 
 
+UNREADABLE = [b"[" * 100_000, b'"\xff"', b'{"sitting":' + b"[" * 100_000, b"1" * 5_000]
+
+
+@pytest.mark.parametrize("bad", UNREADABLE, ids=["deep", "no UTF-8", "deep inside", "long number"])
+def test_what_no_decoder_can_read_costs_only_itself(folder: StudyFolder, bad: bytes) -> None:
+    event = Event(Sitting("P01"), "run_asked")
+    folder.add_event(event)
+    for name in ("events.jsonl", "answers.jsonl"):
+        with (folder.folder / name).open("ab") as file:
+            file.write(bad + b"\n")
+    for name in ("open.json", "setup.json"):
+        (folder.folder / name).write_bytes(bad)
+
+    folder.add_event(event)
+
+    assert folder.events() == [event, event]
+    assert (folder.replies(), folder.sitting(), folder.conditions()) == ([], None, [])
+
+
 def test_deleting_leaves_nothing(folder: StudyFolder) -> None:
     folder.begin(Sitting("P01"))
     folder.add_event(Event(Sitting("P01"), "app_opened"))

@@ -145,6 +145,9 @@ def test_more_clients_than_anybody_has_are_turned_away():
         (b"\x16\x03\x01\x02\x00\x01\n", "encrypted"),
         (b"a;1;nan;2;3\n", "not numbers"),
         (b"temperature is 20 degrees\n", "cannot be read"),
+        (b"[" * 5_000 + b"\n", "cannot be read"),
+        (b'{"accelerometer":' + b"[" * 5_000 + b"\n", "cannot be read"),
+        (b'{"type": "\xff"}\n', "cannot be read"),
     ],
 )
 @pytest.mark.parametrize("through", ["udp", "tcp"])

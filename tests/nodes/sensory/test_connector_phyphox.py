@@ -123,6 +123,8 @@ def web_server(answer):
         (b"<html>a printer</html>", "is not phyphox"),
         (b"{}", "no accelerometer"),
         (b"[" * 100_000, "is not phyphox"),
+        (b'{"buffer": "\xff"}', "is not phyphox"),
+        (b"1" * 5_000, "is not phyphox"),
         (b" " * 6_000_000, "does not answer"),
     ],
 )

@@ -166,6 +166,8 @@ def test_a_phone_that_sends_other_sensors_is_told_which_to_switch_on():
     [
         (b"", 400), (b"hello", 400), (b"[]", 400), (b"{}", 400), (b'{"payload": 5}', 400),
         (b"{" * 100_000, 400), (b'{"payload": [1]}', 400), (b"\xff\x00", 400),
+        (b'{"payload": [{"name": "\xff"}]}', 400), (b'{"payload": [' + b"1" * 5_000 + b"]}", 400),
+        (b'{"other":' + b"[" * 50_000, 400),
         (b'{"payload":' + b"[" * 50_000, 400), (b'{"payload":[' + b"{}," * 5_000 + b"{}]}", 400),
         (b"x" * 3_000_000, 413), (b'{"payload":[{}]}', 200),
     ],

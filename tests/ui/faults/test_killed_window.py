@@ -35,7 +35,9 @@ window.start(None)
 window.files.open_example(paths.examples() / "karate_greeting.nep")
 window.files.document.editor.apply(RenameProject("Not saved yet"))
 runner = window.running.runner
-runner.start_node(PlannedNode("sensory/foreign", "foreign", {}))
+foreign = PlannedNode("sensory/foreign", "foreign", {})
+runner.local.gate.vouch_for(foreign)  # a person has just said yes
+runner.start_node(foreign)
 runner.run()
 
 def look():

@@ -17,6 +17,7 @@ from nep_studio.blocks.edits.content import SetField
 from nep_studio.blocks.operations.copying import copy, paste
 from nep_studio.project.trust import Approvals
 from nep_studio.run.installation import studio_language
+from nep_studio.run.plan import PlannedNode
 from nep_studio.settings import ShowOptions
 from nep_studio.ui.plugins.show import ShowMode
 from nep_studio.ui.running.trust import TrustDialog
@@ -188,6 +189,19 @@ def test_a_node_is_asked_about_however_it_is_started(
     assert not trap.has_sprung()
     qtbot.mouseClick(dialog.run_button, Qt.MouseButton.LeftButton)
     qtbot.waitUntil(trap.has_sprung, timeout=LONG_MS)
+
+
+def test_a_node_that_no_page_can_start_is_refused_in_words(
+    stranger: Callable[..., Trap], window: MainWindow, qtbot: QtBot
+) -> None:
+    trap = stranger(own_node)
+
+    helper = PlannedNode("cognitive/program", "helper", {"file": str(trap.file)})
+    window.running.runner.start_node(helper)
+
+    cards = window.message_area.cards
+    qtbot.waitUntil(lambda: any("Python file" in str(one.message.sentence) for one in cards))
+    assert "helper" not in window.running.runner.local.launcher.nodes
 
 
 def test_nobody_knocks_at_a_strangers_robot_to_see_whether_it_is_there(

@@ -16,6 +16,7 @@ from msgspec.structs import replace
 from faults import reason_of, text_of
 from faults.files import whole_file
 from nep_core.errors import RecordingError
+from nep_core.wire.frames import CANNOT_DECODE
 from nep_core.wire.messages import IMU, Imu
 from nep_studio.blocks.edits.content import SetExtra
 from nep_studio.blocks.own_gestures import (
@@ -317,7 +318,7 @@ def _read(file: IO[bytes], channels: dict[int, _Channel], marks: list[TakeMark])
                     channels.setdefault(record.id, _Channel(dict(record.metadata)))
             elif isinstance(record, Message):
                 topic = topics.get(record.channel_id)
-                with contextlib.suppress(msgspec.DecodeError):  # another program says else there
+                with contextlib.suppress(*CANNOT_DECODE):  # another program says else there
                     if topic == IMU:
                         batch = msgspec.json.decode(record.data, type=Imu)
                         channels[record.channel_id].batches.append(batch)
@@ -363,7 +364,7 @@ def _imported_from(channel: _Channel, marks: list[TakeMark]) -> Imported | None:
 def _forgotten(text: str) -> tuple[tuple[float, float], ...]:
     try:
         return msgspec.json.decode(text, type=tuple[tuple[float, float], ...])
-    except msgspec.DecodeError:
+    except CANNOT_DECODE:
         return ()
 
 

@@ -19,6 +19,7 @@ from PySide6.QtWidgets import (
 
 from faults import FaultError, Words, text_of
 from nep_core.wire import messages as m
+from nep_core.wire.frames import CANNOT_DECODE
 from nep_studio.ui.labels import follow_words, labelled
 from nep_studio.ui.messages import announce
 from nep_studio.ui.node_style import one_line, pretty
@@ -77,7 +78,7 @@ def read_message(topic: str, text: str) -> msgspec.Struct | dict[str, Any]:
     """What was written, as the struct of its topic or as a dictionary; raises NotAMessage."""
     try:
         data = msgspec.json.decode(text.encode())
-    except msgspec.DecodeError as error:
+    except CANNOT_DECODE as error:
         raise _not_json(text, str(error)) from error
     if not isinstance(data, dict):
         raise NotAMessage("A message begins and ends with a curly bracket.")

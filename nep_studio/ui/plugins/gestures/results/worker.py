@@ -13,6 +13,7 @@ import msgspec
 from PySide6.QtCore import QObject, QProcess, Signal
 
 from faults import Fault
+from nep_core.wire.frames import CANNOT_DECODE
 
 log = logging.getLogger(__name__)
 
@@ -71,7 +72,7 @@ def read_line(line: bytes) -> Line | None:
         told = msgspec.json.decode(line)
         kind = next((kind for key, kind in _KINDS if key in told), None)
         return None if kind is None else msgspec.convert(told, kind)
-    except (msgspec.DecodeError, TypeError, RecursionError):
+    except CANNOT_DECODE:
         return None
 
 
