@@ -268,7 +268,9 @@ class NeedsDialog(QDialog):
         side = round(line * 1.2)
         picture = icon(sign_name, self._host.services.look.theme.colour(colour))
         sign.setPixmap(picture.pixmap(QSize(side, side), self.devicePixelRatioF()))
-        title, sentence = QLabel(need.title, wordWrap=True), QLabel(need.sentence, wordWrap=True)
+        plain = Qt.TextFormat.PlainText  # names and addresses in them are a stranger's
+        title = QLabel(need.title, wordWrap=True, textFormat=plain)
+        sentence = QLabel(need.sentence, wordWrap=True, textFormat=plain)
         title.setProperty("role", "heading")
         sentence.setProperty("role", "hint")
         words.setSpacing(line // 6)

@@ -16,7 +16,7 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from nep_studio.blocks.code_text import plainly
+from nep_studio.blocks.code_text import plainly, plainly_and_short
 from nep_studio.project.trust import Concern
 from nep_studio.ui.theme.icons import icon, icon_room
 from nep_studio.ui.theme.look import Look, code_font
@@ -111,7 +111,7 @@ class TrustDialog(QDialog):
         text.setLayoutDirection(Qt.LayoutDirection.LeftToRight)
         # No line goes on beside the edge, where nobody would look for it
         text.setWordWrapMode(QTextOption.WrapMode.WrapAnywhere)
-        text.setPlainText(plainly(concern.text))
+        text.setPlainText(plainly_and_short(concern.text))
         rows = min(max(text.document().blockCount() + 1, 2), MOST_LINES)
         letters = max(map(len, text.toPlainText().split("\n")), default=0)
         if letters > 60:

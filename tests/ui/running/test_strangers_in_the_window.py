@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 from PySide6.QtCore import Qt
-from PySide6.QtWidgets import QWidget
+from PySide6.QtWidgets import QLabel, QWidget
 from pytestqt.qtbot import QtBot
 
 from nep_core.places import NODES_VARIABLE
@@ -21,7 +21,10 @@ from nep_studio.ui.running.needs import NeedsDialog
 from nep_studio.ui.running.trust import TrustDialog
 from nep_studio.ui.services import Studio
 from nep_studio.ui.shell.main_window import MainWindow
+from tests.blocks.block_building import B, build
 from tests.nep_studio.run.hostile_projects import (
+    FOREVER,
+    STARTED,
     TRAPS,
     Maker,
     Trap,
@@ -315,6 +318,36 @@ def test_a_letter_more_does_not_make_a_strangers_text_ones_own(
     assert not trap.has_sprung()
 
 
+@pytest.mark.parametrize(
+    ("old", "new"),
+    [("wait(0.5)", "wait(0.25)"), ("    for _", "    if True:\n      for _")],
+    ids=["beside it", "around it"],
+)
+def test_who_writes_python_beside_a_strangers_does_not_take_that_over(
+    stranger: Callable[..., Trap], window: MainWindow, qtbot: QtBot, old: str, new: str
+) -> None:
+    trap = stranger(in_a_loop)
+    code = window.workbench.code
+    qtbot.waitUntil(lambda: "marker" in code.text.toPlainText())
+    code.begin_editing()
+    code.text.setPlainText(
+        code.text.toPlainText().replace(old, new).replace("        open(", "          open(")
+    )
+    code.apply()
+    assert not code.is_editing, "it was not taken"
+
+    press(window, qtbot, "run")
+
+    asked(window, qtbot).reject()
+    assert not trap.has_sprung()
+
+
+def in_a_loop(make: Maker) -> Trap:
+    wait = B("control.wait", {"seconds": 0.5})
+    inner = B("control.repeat", bodies={"do": [B("code.lines", {"code": make.python})]})
+    return make.trap([STARTED, wait, inner, FOREVER])
+
+
 def test_what_was_approved_and_then_changed_is_ones_own(
     stranger: Callable[..., Trap], window: MainWindow, qtbot: QtBot
 ) -> None:
@@ -386,6 +419,43 @@ def test_an_example_of_ours_asks_nothing(window: MainWindow, qtbot: QtBot) -> No
     qtbot.waitUntil(lambda: window.running.runner.state != "idle")
 
     assert dialog_of(window) is None
+
+
+def test_no_name_of_a_stranger_is_shown_as_a_page_that_fetches_pictures(
+    dozen: Dozen, window: MainWindow, qtbot: QtBot
+) -> None:
+    """On Windows, a picture on a stranger's computer tells that one who looks at it."""
+    list(dozen.open_each([full_of_pictures]))
+    window.running.show_needs()
+    for panel in window.workbench.panels.all:
+        window.host.show_panel(panel.widget)
+    qtbot.waitUntil(lambda: any(PICTURE in label.text() for label in labels_of(window)))
+
+    pages = [
+        label.text()
+        for label in labels_of(window)
+        if PICTURE in label.text() and label.textFormat() != Qt.TextFormat.PlainText
+    ]
+    tips = [one.toolTip() for one in window.findChildren(QWidget) if PICTURE in one.toolTip()]
+    assert not pages and not tips
+    window.findChild(NeedsDialog).reject()
+
+
+PICTURE = "<img src='//stranger/a.png'>"
+
+
+def labels_of(window: MainWindow) -> list[QLabel]:
+    return window.findChildren(QLabel)
+
+
+def full_of_pictures(make: Maker) -> Trap:
+    say = B("robot.say", {"text": PICTURE})
+    editor = build(make.language, [STARTED, say, B("code.lines", {"code": f'x = "{PICTURE}"'})])
+    robot = B("robots.robot", {"driver": "naoqi", "address": PICTURE})
+    build(make.language, [robot], page="robots", editor=editor)
+    settings = {"node": "sensory/replay", "name": "gift", "parameters": {"recording": PICTURE}}
+    build(make.language, [B("nodes.launch", settings)], page="nodes", editor=editor)
+    return make.of(editor)
 
 
 def test_screen_readers_hear_what_each_text_is(
