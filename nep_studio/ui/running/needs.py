@@ -28,6 +28,7 @@ from nep_studio.run.node_board import NodeStatus
 from nep_studio.run.plan import PlannedNode
 from nep_studio.ui.background import Background
 from nep_studio.ui.theme.icons import icon, icon_room
+from nep_studio.ui.widgets.forms import keep_bold_room
 from nep_studio.ui.widgets.layouts import in_column, in_row
 from nep_studio.ui.words import tr
 
@@ -258,6 +259,7 @@ class NeedsDialog(QDialog):
         button = inner.findChild(QPushButton) if missing else self.run_button
         if button is not None:
             button.setDefault(True)
+            keep_bold_room(button)
             button.setFocus()
 
     def _row(self, need: Need, line: int) -> QWidget:

@@ -6,7 +6,7 @@ from html import escape
 from typing import TypeVar
 
 from PySide6.QtCore import QPoint, QRect, QSize, Qt, QTimer
-from PySide6.QtGui import QGuiApplication, QResizeEvent, QScreen
+from PySide6.QtGui import QFont, QFontMetrics, QGuiApplication, QResizeEvent, QScreen
 from PySide6.QtWidgets import (
     QFormLayout,
     QFrame,
@@ -157,6 +157,16 @@ class ElidedLabel(QLabel):
             shown = ""
         self.setText(shown)
         self.setToolTip("" if shown == self.words else plain_tip(self.words))
+
+
+def keep_bold_room(button: QPushButton) -> None:
+    """Give the default button room for its bold letters, of which Qt's size knows nothing."""
+    button.ensurePolished()
+    bold = button.font()
+    bold.setWeight(QFont.Weight.Bold)
+    more = QFontMetrics(bold).horizontalAdvance(button.text())
+    more -= button.fontMetrics().horizontalAdvance(button.text())
+    button.setMinimumWidth(button.sizeHint().width() + max(more, 0))
 
 
 def plain_tip(text: str) -> str:
