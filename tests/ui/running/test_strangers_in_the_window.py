@@ -18,7 +18,7 @@ from nep_studio.blocks.operations.copying import copy, paste
 from nep_studio.settings import ShowOptions
 from nep_studio.ui.plugins.show import ShowMode
 from nep_studio.ui.running.needs import NeedsDialog
-from nep_studio.ui.running.trust import TrustDialog
+from nep_studio.ui.running.trust import MOST_CARDS, TrustDialog
 from nep_studio.ui.services import Studio
 from nep_studio.ui.shell.main_window import MainWindow
 from tests.blocks.block_building import B, build
@@ -456,6 +456,26 @@ def full_of_pictures(make: Maker) -> Trap:
     settings = {"node": "sensory/replay", "name": "gift", "parameters": {"recording": PICTURE}}
     build(make.language, [B("nodes.launch", settings)], page="nodes", editor=editor)
     return make.of(editor)
+
+
+def test_among_hundreds_of_pieces_none_is_left_out(
+    stranger: Callable[..., Trap], window: MainWindow, qtbot: QtBot
+) -> None:
+    trap = stranger(among_hundreds)
+    press(window, qtbot, "run")
+    dialog = asked(window, qtbot)
+
+    shown = "\n".join(text.toPlainText() for text in dialog.texts)
+    assert len(dialog.texts) == MOST_CARDS + 1
+    assert trap.tells in shown
+    assert all(f"piece_{number} = {number}" in shown for number in range(200))
+    dialog.reject()
+
+
+def among_hundreds(make: Maker) -> Trap:
+    texts = [f"piece_{number} = {number}" for number in range(200)]
+    blocks = [B("code.lines", {"code": text}) for text in [*texts, make.python]]
+    return make.trap([STARTED, *blocks, FOREVER], tells=make.python)
 
 
 def test_screen_readers_hear_what_each_text_is(
