@@ -17,6 +17,7 @@ from nep_studio.blocks.edits.content import SetField
 from nep_studio.blocks.operations.copying import copy, paste
 from nep_studio.settings import ShowOptions
 from nep_studio.ui.plugins.show import ShowMode
+from nep_studio.ui.plugins.watches.dialog import WatchTrial
 from nep_studio.ui.running.needs import NeedsDialog
 from nep_studio.ui.running.trust import MOST_CARDS, TrustDialog
 from nep_studio.ui.services import Studio
@@ -34,6 +35,7 @@ from tests.nep_studio.run.hostile_projects import (
     in_an_own_block,
     lines,
     on_another_page,
+    open_door,
     own_node,
     robot_elsewhere,
     value,
@@ -222,6 +224,23 @@ def test_a_node_is_asked_about_however_it_is_started(
     assert not trap.has_sprung()
     qtbot.mouseClick(dialog.run_button, Qt.MouseButton.LeftButton)
     qtbot.waitUntil(trap.has_sprung, timeout=LONG_MS)
+
+
+def test_to_look_at_a_strangers_watch_does_not_let_its_node_in(
+    stranger: Callable[..., Trap], window: MainWindow, qtbot: QtBot
+) -> None:
+    """The dialog that connects watches takes over what the project says: that is no choice."""
+    trap = stranger(open_door)
+    runner = window.running.runner
+    planned = runner.planned()[0]
+    trial = WatchTrial(runner, planned.name, window)
+
+    trial.want(planned)
+
+    dialog = asked(window, qtbot)
+    assert not trap.has_sprung()
+    dialog.reject()
+    trial.end()
 
 
 def test_nobody_knocks_at_a_strangers_robot_to_see_whether_it_is_there(
