@@ -152,7 +152,7 @@ def _visible_lines(text: str) -> list[str]:
     """The lines of a text; what Python would take for something else is refused."""
     lines = text.rstrip().split("\n")
     for number, line in enumerate(lines, start=1):
-        if not line.replace("\t", " ").isprintable():
+        if not line.replace("\t", " ").isprintable() or _FILLERS.search(line):
             raise CodeTextRefused(
                 _in_line(Text("There is a character here that cannot be seen."), number), number
             )
@@ -249,20 +249,40 @@ _BLANK_LINES = re.compile(r"\A(?:[ \t]*\n)+")
 
 LONG_RUN = 12
 """More spaces than these behind a word hide what comes after them."""
-_RUN = re.compile(rf"(?<=\S)[ \u00a0\u2000-\u200a\u3000]{{{LONG_RUN},}}")
-_DEEP = re.compile(r"(?m)^[ \t]{80,}")
+_SPACES = r" \t\u00a0\u1680\u2000-\u200a\u202f\u205f\u2800\u3000"
+_RUN = re.compile(rf"(?<=\S)(?:[{_SPACES}]{{{LONG_RUN},}}|\t{{4,}})")
+_DEEP = re.compile(rf"(?m)^(?:[{_SPACES}]{{80,}}|\t{{{LONG_RUN},}})")
+_EMPTY_LINES = re.compile(rf"\n(?:[ \t]*\n){{{LONG_RUN},}}")
+_FILLERS = re.compile("[\u034f\u115f\u1160\u17b4\u17b5\u180b-\u180f\u3164\uffa0]")
+"""Letters without a look, which names of Python may have: ``ㅤ = 1`` is a line of it."""
+_CHOOSERS = "\ufe00-\ufe0f\U000e0100-\U000e01ef"
+_CARRIED = re.compile(
+    rf"(?<=[{_CHOOSERS}])[{_CHOOSERS}]|(?<=[^\W0-9])(?<=[\x00-\x7f])[{_CHOOSERS}]"
+    "|(?<=[\u0300-\u036f]{4})[\u0300-\u036f]"
+)
+"""What chooses the look of a letter and carries a hidden text instead; a heap of accents."""
 _UNSEEN = frozenset(("Cc", "Cf", "Cs", "Co", "Cn", "Zl", "Zp"))
+_END = "\n"
 _PLAIN = frozenset("\n\t\u200c\u200d")
 """Ends of lines, tabs, and what Persian words and many emoji need."""
 
 
 def plainly(text: str) -> str:
     """The text with signs for what cannot be seen: long gaps, controls, marks of direction."""
-    if "   " not in text and text.isprintable():
-        return text  # as nearly all are
+    if text.isascii():
+        if "   " not in text and text.isprintable():
+            return text  # as nearly all are
+    else:
+        text = _FILLERS.sub(lambda found: _sign(found[0]), text)
+        text = _CARRIED.sub(lambda found: _sign(found[0]), text)
     text = _RUN.sub(_gap, text)
     text = _DEEP.sub(_gap, text)
     return "".join(map(_seen, text))
+
+
+def plainly_and_short(text: str) -> str:
+    """The same, with a sign for empty lines behind which nobody would look for more."""
+    return plainly(_EMPTY_LINES.sub(lambda lines: f"\n⟨{lines[0].count(_END) - 1} ↵⟩\n", text))
 
 
 def _gap(found: re.Match[str]) -> str:
@@ -272,4 +292,8 @@ def _gap(found: re.Match[str]) -> str:
 def _seen(letter: str) -> str:
     if letter in _PLAIN or unicodedata.category(letter) not in _UNSEEN:
         return letter
+    return _sign(letter)
+
+
+def _sign(letter: str) -> str:
     return f"⟨U+{ord(letter):04X}⟩"

@@ -194,13 +194,17 @@ class Authorship:
     A field that is set is typed: its block is the person's own, unless it held something that
     nobody has approved, for a letter more does not make that theirs. Blocks that come in whole,
     by a paste, a drop, an import, or by undoing one, are what their content is; those made in
-    ``editor.history.as_own()`` are the person's.
+    ``editor.history.as_own()`` are the person's, unless they hold what came in that way.
     """
 
     def __init__(self, editor: Editor, approvals: Approvals, keys_of: KeysOf) -> None:
         self._editor, self._approvals, self._keys_of = editor, approvals, keys_of
         blocks = editor.project.blocks.values()
         self._foreign = {block.id for block in blocks if not self._is_known(keys_of(block))}
+        self._strange = {
+            key for block in blocks if block.id in self._foreign for key in keys_of(block)
+        }
+        """The keys of all that came in: moved into another block, it is still a stranger's."""
         self._own: set[str] = set()
         self._typed: set[str] = set()
         """The keys of all that was typed, so that undoing brings nothing strange."""
@@ -245,6 +249,7 @@ class Authorship:
             return
         keys = list(self._keys_of(block))
         if block_id in self._foreign and not (self._typed.issuperset(keys) or self._is_known(keys)):
+            self._strange.update(keys)
             return
         self._foreign.discard(block_id)
         self._own.add(block_id)
@@ -255,10 +260,12 @@ class Authorship:
         keys = list(self._keys_of(block)) if block is not None else []
         if not keys:
             return
-        if is_own or self._typed.issuperset(keys):
+        is_strange = not self._strange.isdisjoint(keys) and not self._is_known(keys)
+        if (is_own and not is_strange) or self._typed.issuperset(keys):
             self._foreign.discard(block_id)
             self._own.add(block_id)
             self._typed.update(keys)
         elif not self._is_known(keys):
             self._foreign.add(block_id)
+            self._strange.update(keys)
             self._own.discard(block_id)

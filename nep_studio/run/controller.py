@@ -33,7 +33,7 @@ from nep_studio.problems import Problem, problem_of
 from nep_studio.project import surroundings, triggers
 from nep_studio.project.trust import Concern
 
-from .gate import concerns_of
+from .gate import concerns_of, node_concern
 from .installation import problem_steps
 from .local_network import LocalNetwork
 from .plan import Choices, PlannedNode, plan
@@ -305,11 +305,13 @@ class RunController:
         What the choices add to the project, such as the address of a robot, a person has said.
         """
         gate = self._network.gate
+        # First what is to start, then what is approved: a file that is swapped between is noticed
+        wanted = [one.key for one in map(node_concern, request.nodes) if one is not None]
         left = gate.unapproved(concerns_of(subject.project, subject.language, subject.folder))
         if left:
             self._tell(NeedsApproval(left, subject, request))
             return False
-        gate.vouch_for(*request.nodes)
+        gate.vouch(wanted)
         gate.admit(request.code.text)
         self.start(request)
         return True

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import hashlib
 import ipaddress
+import re
 import threading
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from functools import lru_cache
@@ -18,7 +19,7 @@ from nep_core.errors import NepError
 from nep_core.places import node_folders
 from nep_core.processes.manifest import Manifest, NodeCatalog
 from nep_studio import paths
-from nep_studio.blocks.code_text import plainly
+from nep_studio.blocks.code_text import plainly_and_short
 from nep_studio.blocks.deployment import NODE_BLOCK, node_entries, robot_entries
 from nep_studio.blocks.errors import BlocksError
 from nep_studio.blocks.files import load
@@ -129,14 +130,17 @@ def _is_path(text: str) -> bool:
 def is_here(address: str) -> bool:
     """Whether an address, perhaps with a port, is this computer's own."""
     host = address.strip().removeprefix("tcp://")
-    host = host[1:].partition("]")[0] if host.startswith("[") else host
-    host = host if host.count(":") > 1 else host.partition(":")[0]
+    found = _WITH_PORT.fullmatch(host)
+    host = (found["inside"] or found["host"]) if found is not None else host
     if host.casefold() in ("", "localhost"):
         return True
     try:
         return ipaddress.ip_address(host).is_loopback
     except ValueError:
         return False
+
+
+_WITH_PORT = re.compile(r"(?:\[(?P<inside>[^]]*)\]|(?P<host>[^:]*))(?::[0-9]+)?")
 
 
 def _notes(reaching: Mapping[str, Setting], manifest: Manifest, *, is_own: bool) -> Iterator[Words]:
@@ -172,21 +176,25 @@ PIECE_BYTES = 1 << 20
 
 def _digest(path: Path) -> str:
     """The bytes of a file, or of all files of a folder; "" where there is none."""
+    folder = path if path.is_dir() else path.parent
     files = sorted(path.rglob("*"))[:MOST_FILES] if path.is_dir() else [path]
     digest = hashlib.sha256()
     for file in files:
         try:
             found = file.stat()
             if file.is_file():
-                digest.update(f"{file.name}:{found.st_size}:".encode())
-                digest.update(_bytes_of(file, found.st_mtime_ns, found.st_size))
+                name = file.relative_to(folder).as_posix()
+                digest.update(f"{name}:{found.st_size}:".encode("utf-8", "surrogateescape"))
+                # Who swaps a file can give it the old one's size and time, but not all of this
+                stamp = (found.st_mtime_ns, found.st_ctime_ns, found.st_ino, found.st_size)
+                digest.update(_bytes_of(file, stamp))
         except OSError:
             digest.update(b"?")
     return digest.hexdigest()
 
 
 @lru_cache(maxsize=4096)
-def _bytes_of(path: Path, _changed_ns: int, _size: int) -> bytes:
+def _bytes_of(path: Path, _stamp: tuple[int, ...]) -> bytes:
     digest = hashlib.sha256()
     with path.open("rb") as file:
         while piece := file.read(PIECE_BYTES):
@@ -311,4 +319,4 @@ def listing(concerns: Iterable[Concern]) -> Iterator[str]:
     for concern in concerns:
         notes = "".join(f", {note}" for note in concern.notes)
         yield f"{concern.title} (page {concern.page.capitalize()}{notes}):"
-        yield from (f"    {line}" for line in plainly(concern.text).split("\n"))
+        yield from (f"    {line}" for line in plainly_and_short(concern.text).split("\n"))

@@ -8,7 +8,12 @@ import pytest
 from block_building import B, build
 
 from nep_studio.blocks.arithmetic import ArithmeticRefused, calculate
-from nep_studio.blocks.code_text import plainly, read_lines
+from nep_studio.blocks.code_text import (
+    CodeTextRefused,
+    plainly,
+    plainly_and_short,
+    read_lines,
+)
 from nep_studio.blocks.files import from_bytes, to_bytes
 
 
@@ -79,3 +84,44 @@ def test_python_is_trimmed_when_a_file_is_read(language, block: str, written: st
 def test_a_number_field_takes_arithmetic_only(text: str) -> None:
     with pytest.raises(ArithmeticRefused):
         calculate(text)
+
+
+@pytest.mark.parametrize(
+    ("text", "sign"),
+    [
+        ("1" + "\t" * 300 + "or evil()", "300"),
+        ("1" + "\u202f" * 30 + "or evil()", "30"),
+        ("x = 1;\u3164 = 2", "U+3164"),
+        ("s = 'a\U000e0101\U000e0102\U000e0103'", "U+E0103"),
+        ("s = '\u845b\U000e0100\U000e0101'", "U+E0101"),
+        ("s = 'a" + "\u0301" * 200 + "'", "U+0301"),
+    ],
+)
+def test_letters_that_hide_what_stands_behind_or_in_them_have_signs(text: str, sign: str) -> None:
+    assert sign in plainly(text)
+    assert plainly(plainly(text)) == plainly(text)
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "\u2764\ufe0f 1\ufe0f\u20e3",  # a heart and a key
+        "\U0001f468\u200d\U0001f469\u200d\U0001f467",  # a family
+        "\u0645\u06cc\u200c\u062e\u0648\u0627\u0647\u0645",  # Persian
+        "\u845b\U000e0100",  # one look of a Japanese letter
+        *("e\u0301\u0323", "\ud55c\uad6d\uc5b4", "x\ty"),
+    ],
+)
+def test_letters_of_people_have_none(text: str) -> None:
+    assert plainly(text) == text
+
+
+def test_empty_lines_behind_which_nobody_looks_are_counted() -> None:
+    told = plainly_and_short("x = 1\n" + "\n" * 800 + "evil()\n\n\ny = 2")
+
+    assert told == "x = 1\n⟨800 ↵⟩\nevil()\n\n\ny = 2"
+
+
+def test_a_name_that_cannot_be_seen_is_refused() -> None:
+    with pytest.raises(CodeTextRefused):
+        read_lines("\u3164 = 1")

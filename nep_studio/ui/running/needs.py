@@ -28,6 +28,7 @@ from nep_studio.run.node_board import NodeStatus
 from nep_studio.run.plan import PlannedNode
 from nep_studio.ui.background import Background
 from nep_studio.ui.theme.icons import icon, icon_room
+from nep_studio.ui.widgets.forms import keep_bold_room
 from nep_studio.ui.widgets.layouts import in_column, in_row
 from nep_studio.ui.words import tr
 
@@ -258,6 +259,7 @@ class NeedsDialog(QDialog):
         button = inner.findChild(QPushButton) if missing else self.run_button
         if button is not None:
             button.setDefault(True)
+            keep_bold_room(button)
             button.setFocus()
 
     def _row(self, need: Need, line: int) -> QWidget:
@@ -268,7 +270,9 @@ class NeedsDialog(QDialog):
         side = round(line * 1.2)
         picture = icon(sign_name, self._host.services.look.theme.colour(colour))
         sign.setPixmap(picture.pixmap(QSize(side, side), self.devicePixelRatioF()))
-        title, sentence = QLabel(need.title, wordWrap=True), QLabel(need.sentence, wordWrap=True)
+        plain = Qt.TextFormat.PlainText  # names and addresses in them are a stranger's
+        title = QLabel(need.title, wordWrap=True, textFormat=plain)
+        sentence = QLabel(need.sentence, wordWrap=True, textFormat=plain)
         title.setProperty("role", "heading")
         sentence.setProperty("role", "hint")
         words.setSpacing(line // 6)

@@ -330,6 +330,15 @@ class Runner(QObject):
         found = ((node.name, node_concern(node)) for node in nodes)
         return frozenset(name for name, one in found if one is not None and gate.unapproved([one]))
 
+    def is_as_in_project(self, wanted: PlannedNode) -> bool:
+        """Whether it reaches just what a node of the project does that nobody has approved."""
+        self.keep_own()
+        one = node_concern(wanted)
+        if one is None or not self.local.gate.unapproved([one]):
+            return False
+        found = map(node_concern, self.planned())
+        return any(other is not None and other.key == one.key for other in found)
+
     def open_network(self) -> None:
         """Open the network, or start its master again when that is gone."""
         self._aside(MASTER, self.local.open)

@@ -16,7 +16,7 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from nep_studio.blocks.code_text import plainly
+from nep_studio.blocks.code_text import plainly, plainly_and_short
 from nep_studio.project.trust import Concern
 from nep_studio.ui.theme.icons import icon, icon_room
 from nep_studio.ui.theme.look import Look, code_font
@@ -27,6 +27,10 @@ from nep_studio.ui.words import count_words, tr
 SIGNS = {"python": "code", "node": "box", "robot": "bot"}
 MOST_LINES = 14
 """A longer text scrolls in its card, whose title says how long it is."""
+
+
+MOST_CARDS = 60
+"""What comes after them is in one card, whole too: thousands of cards would take a minute."""
 
 
 class TrustDialog(QDialog):
@@ -57,7 +61,9 @@ class TrustDialog(QDialog):
         )
         self.texts: list[QPlainTextEdit] = []
         inner = QWidget()
-        cards = [self._card(concern, line) for concern in concerns]
+        cards = [self._card(concern, line) for concern in concerns[:MOST_CARDS]]
+        if rest := concerns[MOST_CARDS:]:
+            cards.append(self._card_of_all(rest, line))
         again = styled(QLabel(wordWrap=True), role="hint")
         again.setText(tr("You are asked once: again only when one of these has changed."))
         # With large letters the words have no room beside the list: they scroll with it
@@ -87,23 +93,36 @@ class TrustDialog(QDialog):
 
     def _card(self, concern: Concern, line: int) -> QWidget:
         """What it is, where it is, and all of it."""
-        card = styled(QFrame(), kind="card")
-        sign = QLabel()
-        side = round(line * 1.2)
-        picture = icon(SIGNS[concern.kind], self._look.theme.colour("warning"))
-        sign.setPixmap(picture.pixmap(QSize(side, side), self.devicePixelRatioF()))
         plain = Qt.TextFormat.PlainText
-        title = styled(QLabel(wordWrap=True, textFormat=plain), role="heading")
-        title.setText(plainly(tr(concern.title)))
+        words, where = plainly(tr(concern.title)), self._place(concern)
+        place = styled(QLabel(where, wordWrap=True, textFormat=plain), role="hint")
+        text = self._text(plainly_and_short(concern.text), f"{words}, {where}")
+        return self._framed(SIGNS[concern.kind], words, line, place, text)
+
+    def _card_of_all(self, concerns: Sequence[Concern], line: int) -> QWidget:
+        """Many in one text: each with its words, and all of it below them, further in."""
+        told = []
+        for concern in concerns:
+            told.append(f"{plainly(tr(concern.title))}, {self._place(concern)}")
+            told += [f"    {one}" for one in plainly_and_short(concern.text).split("\n")]
+        words = tr("And {count} more, one below the other", count=len(concerns))
+        return self._framed("list", words, line, self._text("\n".join(told), words))
+
+    def _place(self, concern: Concern) -> str:
         page = self._titles.get(concern.page, concern.page)
-        where = [tr("page {title}", title=page), *map(tr, concern.notes)]
-        place = styled(QLabel(" · ".join(where), wordWrap=True, textFormat=plain), role="hint")
-        text = self._text(concern, f"{title.text()}, {place.text()}")
+        return " · ".join([tr("page {title}", title=page), *map(tr, concern.notes)])
+
+    def _framed(self, sign_name: str, words: str, line: int, *parts: QWidget) -> QWidget:
+        card, sign, side = styled(QFrame(), kind="card"), QLabel(), round(line * 1.2)
+        picture = icon(sign_name, self._look.theme.colour("warning"))
+        sign.setPixmap(picture.pixmap(QSize(side, side), self.devicePixelRatioF()))
+        title = QLabel(words, wordWrap=True, textFormat=Qt.TextFormat.PlainText)
+        styled(title, role="heading")
         head = in_row((sign, 0, Qt.AlignmentFlag.AlignTop), (title, 1), spacing=line // 2)
-        in_column(head, place, text, of=card, margins=line // 2, spacing=line // 3)
+        in_column(head, *parts, of=card, margins=line // 2, spacing=line // 3)
         return card
 
-    def _text(self, concern: Concern, name: str) -> QPlainTextEdit:
+    def _text(self, shown: str, name: str) -> QPlainTextEdit:
         text = QPlainTextEdit(readOnly=True)
         text.setAccessibleName(name)
         text.setTabChangesFocus(True)
@@ -111,7 +130,7 @@ class TrustDialog(QDialog):
         text.setLayoutDirection(Qt.LayoutDirection.LeftToRight)
         # No line goes on beside the edge, where nobody would look for it
         text.setWordWrapMode(QTextOption.WrapMode.WrapAnywhere)
-        text.setPlainText(plainly(concern.text))
+        text.setPlainText(shown)
         rows = min(max(text.document().blockCount() + 1, 2), MOST_LINES)
         letters = max(map(len, text.toPlainText().split("\n")), default=0)
         if letters > 60:

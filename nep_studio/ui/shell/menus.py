@@ -19,6 +19,7 @@ from nep_studio.ui.labels import labelled
 from nep_studio.ui.running.actions import RUN_BUTTONS, RunState, keep_width, style_buttons
 from nep_studio.ui.theme.colours import load_theme, themes
 from nep_studio.ui.theme.icons import icon, icon_room
+from nep_studio.ui.widgets.forms import plain_tip
 from nep_studio.ui.words import available_languages, count_words, tr
 
 from .dialogs import show_about, show_report, show_shortcuts
@@ -194,7 +195,7 @@ def fill_recent(menu: QMenu, window: MainWindow) -> None:
         is_there = path.is_file()
         words = path.stem if is_there else tr("{name} (not there any more)", name=path.stem)
         action = menu.addAction(words.replace("&", "&&"))
-        action.setToolTip(str(path))
+        action.setToolTip(plain_tip(str(path)))
         action.setEnabled(is_there)
         action.triggered.connect(lambda _=False, path=path: window.files.open(path))
     if menu.isEmpty():

@@ -20,7 +20,7 @@ from nep_studio.ui.document_files import Files
 from nep_studio.ui.labels import labelled
 from nep_studio.ui.services import Studio
 from nep_studio.ui.theme.icons import application_icon, icon, icon_pixmap
-from nep_studio.ui.widgets.forms import styled
+from nep_studio.ui.widgets.forms import plain_tip, styled
 from nep_studio.ui.widgets.layouts import Flow, ReadingLabel, in_column, in_row
 
 from .gallery import Card, Gallery
@@ -191,7 +191,7 @@ class StartPage(QScrollArea):
             labelled(button, text=text_of("{name} (not there any more)", name=name))
         button.setIcon(icon("file-text", self._studio.look.theme))
         button.setEnabled(is_there)
-        button.setToolTip(str(path))
+        button.setToolTip(plain_tip(str(path)))
         button.clicked.connect(lambda: self._files.open(path))
         self.recent_buttons[path] = button
         return button

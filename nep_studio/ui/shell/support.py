@@ -34,7 +34,7 @@ from nep_studio.ui.messages import Answer, Message
 from nep_studio.ui.services import Studio
 from nep_studio.ui.theme.icons import icon
 from nep_studio.ui.theme.look import code_font, load_fonts
-from nep_studio.ui.widgets.forms import hint, room_around, styled
+from nep_studio.ui.widgets.forms import hint, plain_tip, room_around, styled
 from nep_studio.ui.widgets.layouts import in_column, in_row
 from nep_studio.ui.widgets.questions import ask_for_path
 from nep_studio.ui.words import count_words, is_right_to_left, tr
@@ -297,7 +297,7 @@ class RecoveryDialog(QDialog):
             when = QLocale().toString(moment, QLocale.FormatType.ShortFormat)
             words = f"{work.name}   —   {when}, {blocks}"
             item = QListWidgetItem(icon("history", self._studio.look.theme), words)
-            item.setToolTip(str(work.path or tr("It had no file yet.")))
+            item.setToolTip(plain_tip(str(work.path or tr("It had no file yet."))))
             self.list.addItem(item)
         self.list.setCurrentRow(0)
 

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+from html import escape
 from typing import TypeVar
 
 from PySide6.QtCore import QPoint, QRect, QSize, Qt, QTimer
-from PySide6.QtGui import QGuiApplication, QResizeEvent, QScreen
+from PySide6.QtGui import QFont, QFontMetrics, QGuiApplication, QResizeEvent, QScreen
 from PySide6.QtWidgets import (
     QFormLayout,
     QFrame,
@@ -70,7 +71,7 @@ class CopyLine(QWidget):
         if text != self.text.text():
             self.text.setText(text)
             self.text.setCursorPosition(0)
-            self.text.setToolTip(text)
+            self.text.setToolTip(plain_tip(text))
             self.setEnabled(UNKNOWN not in text)
 
     def _on_copy(self) -> None:
@@ -155,7 +156,22 @@ class ElidedLabel(QLabel):
         if len(shown) < min(len(self.words), FEWEST_LETTERS):
             shown = ""
         self.setText(shown)
-        self.setToolTip("" if shown == self.words else self.words)
+        self.setToolTip("" if shown == self.words else plain_tip(self.words))
+
+
+def keep_bold_room(button: QPushButton) -> None:
+    """Give the default button room for its bold letters, of which Qt's size knows nothing."""
+    button.ensurePolished()
+    bold = button.font()
+    bold.setWeight(QFont.Weight.Bold)
+    more = QFontMetrics(bold).horizontalAdvance(button.text())
+    more -= button.fontMetrics().horizontalAdvance(button.text())
+    button.setMinimumWidth(button.sizeHint().width() + max(more, 0))
+
+
+def plain_tip(text: str) -> str:
+    """A tip with a text of others: Qt would take it for a page, and fetch the pictures it names."""
+    return f"<p style='white-space: pre-wrap'>{escape(text)}</p>" if "<" in text else text
 
 
 # Which part of the screen a widget may use.

@@ -21,6 +21,7 @@ from nep_studio.ui.canvas.layout.layout import Layout
 from nep_studio.ui.canvas.layout.page import boxes_of
 from nep_studio.ui.canvas.painting.painter import BlockPainter
 from nep_studio.ui.labels import follow_words, labelled
+from nep_studio.ui.widgets.forms import plain_tip
 from nep_studio.ui.widgets.layouts import in_column
 from nep_studio.ui.words import tr
 
@@ -132,7 +133,7 @@ class SuggestionList(QWidget):
     def event(self, event: QEvent) -> bool:
         """Show the whole sentence of a suggestion that is cut."""
         if event.type() == QEvent.Type.ToolTip and self.rows:
-            self.setToolTip(self.rows[self.current].label)
+            self.setToolTip(plain_tip(self.rows[self.current].label))
         return super().event(event)
 
     def _rect(self, row: Row) -> QRectF:

@@ -185,6 +185,26 @@ def open_door(make: Maker) -> Trap:
     return Trap(trap.file, has_sprung, str(port))
 
 
+def all_in_one(make: Maker) -> list[Trap]:
+    """Four of them in one project: Python far to the right, a node, a command and a door."""
+    door = open_door(make)
+    markers = [make.folder / f"marker{number}" for number in range(3)]
+    python = f"__import__('pathlib').Path({str(markers[0])!r}).write_text('')"
+    code = B("code.value", {"code": f"0{' ' * 3000}or {python}"})
+    editor = build(make.language, [STARTED, B("control.wait", inputs={"seconds": code}), FOREVER])
+    settings = {"through": "tcp", "listen_on": "network", "port": int(door.tells)}
+    nodes = [
+        ("sensory/gift", {"marker": str(markers[1])}),
+        ("sensory/gift_command", {"marker": str(markers[2])}),
+        ("sensory/smartwatch", settings),
+    ]
+    for number, (node, parameters) in enumerate(nodes):
+        fields = {"node": node, "name": f"gift{number}", "parameters": parameters}
+        build(make.language, [B("nodes.launch", fields)], page="nodes", editor=editor)
+    file = make.save(editor)
+    return [*(Trap(file, marker.exists) for marker in markers), Trap(file, door.has_sprung)]
+
+
 def program_node(make: Maker) -> Trap:
     (make.folder / "helper.py").write_text(make.python, encoding="utf-8")
     return make.with_node("cognitive/program", is_never=True, file="helper.py")

@@ -18,10 +18,12 @@ from nep_studio import paths
 from nep_studio.blocks.code_text import plainly
 from nep_studio.blocks.edits.content import SetComment, SetField
 from nep_studio.blocks.files import load
+from nep_studio.blocks.generate.source_map import Code
 from nep_studio.commands import run
 from nep_studio.commands.project import check, code
 from nep_studio.project.trust import Approvals, approvals_file
-from nep_studio.run.gate import Gate, NotApproved, concerns_of
+from nep_studio.run.controller import Request, RunController, Subject
+from nep_studio.run.gate import Gate, NotApproved, concerns_of, is_here, node_concern
 from nep_studio.run.installation import studio_language
 from nep_studio.run.local_network import LocalNetwork
 from nep_studio.run.plan import NotForPages, PlannedNode, file_inside
@@ -33,11 +35,8 @@ from tests.nep_studio.run.hostile_projects import (
     TRAPS,
     Maker,
     Trap,
-    far_to_the_right,
+    all_in_one,
     lines,
-    open_door,
-    own_command,
-    own_node,
     own_nodes,
 )
 
@@ -93,13 +92,12 @@ def test_nothing_runs_that_nobody_has_approved(
     assert not trap.has_sprung()
 
 
-@pytest.mark.parametrize("trap_of", [far_to_the_right, own_node, own_command, open_door])
-def test_what_is_trusted_runs(make: Maker, trap_of: Callable[[Maker], Trap]) -> None:
-    """So the test above could have seen it."""
-    trap = trap_of(make)
+def test_what_is_trusted_runs(make: Maker) -> None:
+    """So the test above could have seen it: four of them in one project."""
+    traps = all_in_one(make)
 
-    with played(str(trap.file), "--trust"):
-        assert soon(trap.has_sprung)
+    with played(str(make.folder / "gift.nep"), "--trust"):
+        assert soon(lambda: all(trap.has_sprung() for trap in traps))
     assert not approvals_file().exists()  # it was trusted this once
 
 
@@ -166,6 +164,78 @@ def test_a_file_beside_the_project_counts_by_its_bytes(make: Maker) -> None:
     (make.folder / "wave.csv").write_text("2", encoding="utf-8")
 
     assert gate.unapproved(concerns_of(project, make.language, make.folder))
+
+
+def test_a_file_that_was_swapped_is_noticed_though_its_size_and_time_are_the_same(
+    make: Maker,
+) -> None:
+    wave = make.folder / "wave.csv"
+    wave.write_text("1", encoding="utf-8")
+    project = load(make.with_node("sensory/replay", recording="wave.csv").file, make.language)
+    gate = Gate(Approvals())
+    gate.approve(concerns_of(project, make.language, make.folder))
+    stamp = wave.stat()
+
+    other = make.folder / "other.csv"
+    other.write_text("2", encoding="utf-8")
+    other.replace(wave)
+    os.utime(wave, ns=(stamp.st_atime_ns, stamp.st_mtime_ns))
+
+    assert gate.unapproved(concerns_of(project, make.language, make.folder))
+
+
+def test_a_file_that_is_swapped_just_after_the_look_does_not_start(
+    make: Maker, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """What starts is what was looked at: approved is the old one, and the new one is refused."""
+    wave = make.folder / "wave.csv"
+    wave.write_text("1", encoding="utf-8")
+    project = load(make.with_node("sensory/replay", recording="wave.csv").file, make.language)
+    subject = Subject(project, make.language, make.folder)
+    network = LocalNetwork(logs=tmp_path)
+    network.gate.approve(concerns_of(project, make.language, make.folder))
+    begun: list[Request] = []
+    controller = RunController(network, lambda: subject, lambda do: do(), lambda _: None)
+    monkeypatch.setattr(controller, "start", begun.append)
+    looked = network.gate.unapproved
+
+    def look_and_swap(concerns: list) -> list:
+        left = looked(concerns)
+        wave.write_text("swapped", encoding="utf-8")
+        return left
+
+    request = Request(Code("pass", ("",)), tuple(subject.nodes()))
+    with monkeypatch.context() as patch:
+        patch.setattr(network.gate, "unapproved", look_and_swap)
+        assert controller.begin(subject, request) and begun
+
+    with pytest.raises(NotApproved):
+        network.start(request.nodes)
+    network.close()
+
+
+@pytest.mark.parametrize(
+    "address",
+    [
+        *("[::1].stranger.org:9559", "[127.0.0.1]x:9559", "127.0.0.1:9559@stranger.org", "[::1"),
+        *("127.0.0.1 stranger.org", "localhost.stranger.org", "127.1", "0", "0.0.0.0", "[]x"),
+        *("::ffff:203.0.113.7", "tcp://tcp://127.0.0.1", ":80:x"),
+    ],
+)
+def test_an_address_that_only_begins_as_this_computer_is_asked_about(address: str) -> None:
+    assert not is_here(address)
+    assert all(is_here(own) for own in ("127.0.0.1:9559", "localhost", "::1", "[::1]:9559"))
+
+
+def test_to_take_a_robot_over_is_asked_about_also_where_its_address_is_known(make: Maker) -> None:
+    settings = {"driver": "naoqi", "address": "203.0.113.7"}
+    gate = Gate(Approvals())
+    node = PlannedNode("action/nao", "nao", settings)
+    gate.approve([node_concern(node)])
+    gate.check_node(node)
+
+    with pytest.raises(NotApproved):
+        gate.check_node(PlannedNode("action/nao", "nao", {**settings, "take_over": True}))
 
 
 # A way to start something that was made later, and knows nothing of the question.

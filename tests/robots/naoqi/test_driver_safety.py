@@ -37,7 +37,8 @@ def no_saved_login(tmp_path, monkeypatch: pytest.MonkeyPatch) -> None:
 
 @pytest.fixture
 def nao() -> Iterator[RecordingNao]:
-    made = RecordingNao()
+    """One that walks and rises so fast that a test can still be in time to stop it."""
+    made = RecordingNao(speed=3.0)
     yield made
     made.close()
 
@@ -92,7 +93,7 @@ def test_a_stop_in_a_walk_kills_nothing_before_the_robot_stands(nao, stages) -> 
 def test_a_gesture_that_is_stopped_lets_the_walk_go_on(nao, stages) -> None:
     stage = stages(nao)
     stage.meet()
-    walking(nao, stage, "walk", forward_m=0.4)
+    walking(nao, stage, "walk", forward_m=0.25)
     stage.ask("wave", "move_joint", joint="LShoulderPitch", degrees=-60, speed=0.05)
     stage.until(lambda: nao.named("ALMotion.angleInterpolationWithSpeed"))
 
@@ -138,17 +139,16 @@ def test_a_hot_motor_and_a_low_battery_stop_new_walks(quick_nao, stages) -> None
     assert not quick_nao.named("ALMotion.moveTo", "ALMotion.moveToward")
 
 
-@pytest.mark.parametrize("part", ["legs", "body", "left_leg"])
-def test_legs_that_it_stands_on_are_not_released(quick_nao, stages, part: str) -> None:
+def test_legs_that_it_stands_on_are_not_released(quick_nao, stages) -> None:
     stage = stages(quick_nao)
     stage.meet()
 
-    refused = stage.do("stiffness", part=part, on=False)
-    joint = stage.do("set_stiffness", joints={"LKneePitch": 0.0})
+    refused = [stage.do("stiffness", part=part, on=False) for part in ("legs", "body", "left_leg")]
+    refused.append(stage.do("set_stiffness", joints={"LKneePitch": 0.0}))
     arm = stage.do("stiffness", part="left_arm", on=False)
 
-    assert [refused.fault.code, joint.fault.code] == ["stands", "stands"]
-    assert arm.state == "done" and refused.fault.checklist
+    assert [one.fault.code for one in refused] == ["stands"] * 4
+    assert arm.state == "done" and all(one.fault.checklist for one in refused[:3])
 
 
 @pytest.mark.parametrize("action", ["rest", "wake_up"])

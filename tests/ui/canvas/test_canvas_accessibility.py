@@ -11,7 +11,7 @@ from nep_studio.blocks.checks.diagnostic import Diagnostic
 from nep_studio.blocks.edits.content import SetComment, SetFlag
 from nep_studio.blocks.edits.placing import DeleteBlocks
 from nep_studio.run.installation import studio_language
-from nep_studio.ui.canvas.accessibility import interface_of, make_accessible
+from nep_studio.ui.canvas.accessibility import described, interface_of, make_accessible
 from nep_studio.ui.canvas.canvas import Canvas
 from nep_studio.ui.theme.colours import load_theme
 from tests.blocks.block_building import B, build
@@ -97,6 +97,29 @@ def test_a_folded_block_hides_its_children(view: Canvas) -> None:
     assert item.childCount() == 0
     assert item.state().collapsed
     assert interface_of(view).block(block_of(view, "robot.say")).state().invisible
+
+
+@pytest.mark.parametrize("inside", ["code.lines", "code.value", "robot.say"])
+def test_a_folded_block_tells_that_there_is_python_in_it(view: Canvas, inside: str) -> None:
+    """On the canvas and to screen readers; other folded blocks do not say so."""
+    value = B("code.value", {"code": "1 + 1"})
+    inner = B("control.wait", inputs={"seconds": value}) if inside == "code.value" else B(inside)
+    repeat = B("control.repeat", bodies={"do": [B("control.repeat", bodies={"do": [inner]})]})
+    build(view.editor.language, [B("event.started"), repeat], editor=view.editor)
+    outer = next(
+        one.id
+        for one in view.editor.project.blocks.values()
+        if one.type == "control.repeat"
+        if view.editor.project.blocks[one.bodies["do"][0]].type == "control.repeat"
+    )
+
+    view.editor.apply(SetFlag(outer, "collapsed", True))
+
+    has_python = inside.startswith("code.")
+    told = described(view.editor, outer)
+    drawn = [piece.text for piece in view.page_layout.placed(outer).box.pieces]
+    assert ("Python inside" in told) is has_python
+    assert any("Python inside" in text for text in drawn) is has_python
 
 
 def test_the_block_of_the_keyboard_has_the_focus(view: Canvas) -> None:

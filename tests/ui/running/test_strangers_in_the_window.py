@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+import os
+from collections.abc import Callable, Iterable, Iterator
 from contextlib import ExitStack
 from pathlib import Path
 
 import pytest
 from PySide6.QtCore import Qt
-from PySide6.QtGui import QGuiApplication
-from PySide6.QtWidgets import QWidget
+from PySide6.QtWidgets import QLabel, QWidget
 from pytestqt.qtbot import QtBot
 
 from nep_core.places import NODES_VARIABLE
@@ -20,26 +20,31 @@ from nep_studio.run.installation import studio_language
 from nep_studio.run.plan import PlannedNode
 from nep_studio.settings import ShowOptions
 from nep_studio.ui.plugins.show import ShowMode
-from nep_studio.ui.running.trust import TrustDialog
+from nep_studio.ui.plugins.watches.dialog import WatchTrial
+from nep_studio.ui.running.needs import NeedsDialog
+from nep_studio.ui.running.trust import MOST_CARDS, TrustDialog
 from nep_studio.ui.services import Studio
 from nep_studio.ui.shell.main_window import MainWindow
+from tests.blocks.block_building import B, build
 from tests.nep_studio.run.hostile_projects import (
+    FOREVER,
+    STARTED,
     TRAPS,
     Maker,
     Trap,
     after_many_lines,
-    far_to_the_right,
     folded,
     in_a_picture,
     in_an_own_block,
     lines,
     on_another_page,
+    open_door,
     own_node,
     robot_elsewhere,
     value,
 )
 from tests.ui.running.window_use import press, state_is
-from tests.ui.window.conftest import answer, chooser, home, studio, window
+from tests.ui.window.conftest import answer, chooser, english, home, studio, window
 
 __all__ = ["answer", "chooser", "home", "studio", "window"]
 
@@ -59,7 +64,43 @@ def make(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Maker]:
     folder = tmp_path / "from a stranger"
     folder.mkdir()
     with ExitStack() as ending:
-        yield Maker(folder, studio_language(), ending)
+        yield Maker(folder, english(), ending)
+
+
+class Dozen:
+    """Strangers' projects in folders of their own, opened one after the other in one window."""
+
+    def __init__(self, make: Maker, window: MainWindow, qtbot: QtBot) -> None:
+        self._make, self._window, self._qtbot = make, window, qtbot
+        self._traps: dict[str, Trap] = {}
+
+    def open_each(self, kinds: Iterable[Callable[[Maker], Trap]], more: str = "") -> Iterator[Trap]:
+        for trap_of in kinds:
+            name = f"{trap_of.__name__} {more}"
+            print(name)  # which one it was, when one fails
+            folder = self._make.folder / name
+            folder.mkdir()
+            trap = trap_of(Maker(folder, self._make.language, self._make.ending))
+            self._traps[name] = trap
+            open_in(self._window, self._qtbot, trap.file)
+            yield trap
+
+    def sprung(self) -> list[str]:
+        """Those that have done what they are there for."""
+        return [name for name, trap in self._traps.items() if trap.has_sprung()]
+
+
+def open_in(window: MainWindow, qtbot: QtBot, file: Path) -> None:
+    before = window.files.document
+    window.files.open(file)
+    qtbot.waitUntil(lambda: window.files.document not in (None, before))
+    qtbot.waitUntil(lambda: window.workbench.canvas.isVisible())
+
+
+@pytest.fixture
+def dozen(make: Maker, studio: Studio, window: MainWindow, qtbot: QtBot) -> Dozen:
+    studio.language = make.language
+    return Dozen(make, window, qtbot)
 
 
 @pytest.fixture
@@ -69,9 +110,7 @@ def stranger(make: Maker, studio: Studio, window: MainWindow, qtbot: QtBot) -> C
 
     def open_(trap_of: Callable[[Maker], Trap]) -> Trap:
         trap = trap_of(make)
-        window.files.open(trap.file)
-        qtbot.waitUntil(lambda: window.files.document is not None)
-        qtbot.waitUntil(lambda: window.workbench.canvas.isVisible())
+        open_in(window, qtbot, trap.file)
         return trap
 
     return open_
@@ -89,89 +128,88 @@ def asked(window: QWidget, qtbot: QtBot) -> TrustDialog:
     return dialog
 
 
-@pytest.mark.parametrize("trap_of", ASKED)
-def test_it_asks_before_it_runs_and_shows_all(
-    stranger: Callable[..., Trap], window: MainWindow, qtbot: QtBot, trap_of
+def test_nothing_of_a_dozen_projects_runs_before_a_person_has_said_yes(
+    dozen: Dozen, window: MainWindow, home: Path, qtbot: QtBot
 ) -> None:
-    trap = stranger(trap_of)
+    """All in one window, one after the other: each is asked about with all that is in it."""
+    for trap in dozen.open_each(ASKED):
+        press(window, qtbot, "run")
+        dialog = asked(window, qtbot)
 
-    press(window, qtbot, "run")
-    dialog = asked(window, qtbot)
+        shown = "\n".join(text.toPlainText() for text in dialog.texts)
+        assert trap.tells in shown
+        assert not any(text.horizontalScrollBar().maximum() for text in dialog.texts)
+        assert dialog.refuse_button.isDefault() and not dialog.run_button.isDefault()
+        qtbot.keyClick(dialog, Qt.Key.Key_Escape)
+        qtbot.waitUntil(lambda: dialog_of(window) is None)
+        assert window.running.runner.state == "idle"
 
-    shown = "\n".join(text.toPlainText() for text in dialog.texts)
-    assert trap.tells in shown
-    assert not trap.has_sprung()
-    assert dialog.refuse_button.isDefault() and not dialog.run_button.isDefault()
-    qtbot.keyClick(dialog, Qt.Key.Key_Escape)
-    qtbot.waitUntil(lambda: dialog_of(window) is None)
-    assert window.running.runner.state == "idle"
     qtbot.wait(A_WHILE_MS)
-    assert not trap.has_sprung()
+    assert not dozen.sprung()
+    assert not (home / "approved.json").exists()
 
 
-@pytest.mark.parametrize("trap_of", [t for t in TRAPS if t not in ASKED])
+def test_a_show_of_each_asks_too(dozen: Dozen, window: MainWindow, qtbot: QtBot) -> None:
+    mode = ShowMode(window.host)
+    for _ in dozen.open_each(ASKED):
+        show = mode.begin(ShowOptions(runs_at_once=True))
+        dialog = asked(show, qtbot)
+        qtbot.keyClick(dialog, Qt.Key.Key_Escape)
+        assert show.performance.state == "attention"
+        show.leave()
+    qtbot.wait(A_WHILE_MS)
+    assert not dozen.sprung()
+
+    for trap in dozen.open_each([lines], "and now"):
+        show = mode.begin(ShowOptions(runs_at_once=True))
+        qtbot.mouseClick(asked(show, qtbot).run_button, Qt.MouseButton.LeftButton)
+        qtbot.waitUntil(trap.has_sprung, timeout=LONG_MS)
+        window.running.close()
+        show.leave()
+
+
 def test_a_node_that_is_a_program_never_runs(
-    stranger: Callable[..., Trap], window: MainWindow, qtbot: QtBot, trap_of
+    dozen: Dozen, window: MainWindow, qtbot: QtBot
 ) -> None:
-    trap = stranger(trap_of)
+    for _ in dozen.open_each([trap_of for trap_of in TRAPS if trap_of not in ASKED]):
+        press(window, qtbot, "run")
+        qtbot.waitUntil(lambda: any("Python file" in str(p.sentence) for p in problems(window)))
+        for dialog in window.findChildren(NeedsDialog):
+            dialog.reject()
 
-    press(window, qtbot, "run")
-
-    qtbot.waitUntil(lambda: any("Python file" in str(p.sentence) for p in problems(window)))
     qtbot.wait(A_WHILE_MS)
-    assert not trap.has_sprung()
+    assert not dozen.sprung()
 
 
 def problems(window: MainWindow) -> list:
     return window.workbench.checks.problems
 
 
-@pytest.mark.parametrize(
-    "trap_of",
-    [
+def test_what_is_approved_runs_and_is_not_asked_about_again(
+    dozen: Dozen, window: MainWindow, home: Path, qtbot: QtBot
+) -> None:
+    kinds = [
         *(value, folded, in_an_own_block, on_another_page, after_many_lines, in_a_picture),
         *(own_node, robot_elsewhere),
-    ],
-)
-def test_what_is_approved_runs_and_is_not_asked_about_again(
-    stranger: Callable[..., Trap], window: MainWindow, qtbot: QtBot, trap_of
-) -> None:
-    trap = stranger(trap_of)
-    press(window, qtbot, "run")
-    dialog = asked(window, qtbot)
+    ]
+    for trap in dozen.open_each(kinds):
+        press(window, qtbot, "run")
+        dialog = asked(window, qtbot)
 
-    qtbot.mouseClick(dialog.run_button, Qt.MouseButton.LeftButton)
-    qtbot.waitUntil(lambda: dialog_of(window) is None)
-
-    qtbot.waitUntil(trap.has_sprung, timeout=LONG_MS)
-    window.running.stop()
-    state_is(window, qtbot, "idle")
-    press(window, qtbot, "run")
-    qtbot.waitUntil(lambda: window.running.runner.state != "idle")
-    assert dialog_of(window) is None
-
-
-@pytest.mark.parametrize("trap_of", ASKED)
-def test_a_show_asks_too(
-    stranger: Callable[..., Trap], window: MainWindow, qtbot: QtBot, trap_of
-) -> None:
-    trap = stranger(trap_of)
-    mode = ShowMode(window.host)
-    show = mode.begin(ShowOptions(runs_at_once=True))
-
-    dialog = asked(show, qtbot)
-    qtbot.wait(A_WHILE_MS)
-
-    assert not trap.has_sprung()
-    if trap_of is lines:
         qtbot.mouseClick(dialog.run_button, Qt.MouseButton.LeftButton)
+        qtbot.waitUntil(lambda: dialog_of(window) is None)
+
         qtbot.waitUntil(trap.has_sprung, timeout=LONG_MS)
-    else:
-        qtbot.keyClick(dialog, Qt.Key.Key_Escape)
-        assert show.performance.state == "attention"
-    window.running.close()
-    show.leave()
-    assert trap_of is lines or not trap.has_sprung()
+        window.running.stop()
+        state_is(window, qtbot, "idle")
+        press(window, qtbot, "run")
+        qtbot.waitUntil(lambda: window.running.runner.state != "idle")
+        assert dialog_of(window) is None
+        window.running.stop()
+        state_is(window, qtbot, "idle")
+
+    if os.name == "posix":
+        assert (home / "approved.json").stat().st_mode & 0o077 == 0
 
 
 # Ways to start a part of it.
@@ -202,6 +240,23 @@ def test_a_node_that_no_page_can_start_is_refused_in_words(
     cards = window.message_area.cards
     qtbot.waitUntil(lambda: any("Python file" in str(one.message.sentence) for one in cards))
     assert "helper" not in window.running.runner.local.launcher.nodes
+
+
+def test_to_look_at_a_strangers_watch_does_not_let_its_node_in(
+    stranger: Callable[..., Trap], window: MainWindow, qtbot: QtBot
+) -> None:
+    """The dialog that connects watches takes over what the project says: that is no choice."""
+    trap = stranger(open_door)
+    runner = window.running.runner
+    planned = runner.planned()[0]
+    trial = WatchTrial(runner, planned.name, window)
+
+    trial.want(planned)
+
+    dialog = asked(window, qtbot)
+    assert not trap.has_sprung()
+    dialog.reject()
+    trial.end()
 
 
 def test_nobody_knocks_at_a_strangers_robot_to_see_whether_it_is_there(
@@ -298,6 +353,36 @@ def test_a_letter_more_does_not_make_a_strangers_text_ones_own(
     assert not trap.has_sprung()
 
 
+@pytest.mark.parametrize(
+    ("old", "new"),
+    [("wait(0.5)", "wait(0.25)"), ("    for _", "    if True:\n      for _")],
+    ids=["beside it", "around it"],
+)
+def test_who_writes_python_beside_a_strangers_does_not_take_that_over(
+    stranger: Callable[..., Trap], window: MainWindow, qtbot: QtBot, old: str, new: str
+) -> None:
+    trap = stranger(in_a_loop)
+    code = window.workbench.code
+    qtbot.waitUntil(lambda: "marker" in code.text.toPlainText())
+    code.begin_editing()
+    code.text.setPlainText(
+        code.text.toPlainText().replace(old, new).replace("        open(", "          open(")
+    )
+    code.apply()
+    assert not code.is_editing, "it was not taken"
+
+    press(window, qtbot, "run")
+
+    asked(window, qtbot).reject()
+    assert not trap.has_sprung()
+
+
+def in_a_loop(make: Maker) -> Trap:
+    wait = B("control.wait", {"seconds": 0.5})
+    inner = B("control.repeat", bodies={"do": [B("code.lines", {"code": make.python})]})
+    return make.trap([STARTED, wait, inner, FOREVER])
+
+
 def test_what_was_approved_and_then_changed_is_ones_own(
     stranger: Callable[..., Trap], window: MainWindow, qtbot: QtBot
 ) -> None:
@@ -371,20 +456,61 @@ def test_an_example_of_ours_asks_nothing(window: MainWindow, qtbot: QtBot) -> No
     assert dialog_of(window) is None
 
 
-@pytest.mark.parametrize("trap_of", [far_to_the_right, after_many_lines])
-def test_all_of_a_long_text_can_be_reached(
-    stranger: Callable[..., Trap], window: MainWindow, qtbot: QtBot, trap_of
+def test_no_name_of_a_stranger_is_shown_as_a_page_that_fetches_pictures(
+    dozen: Dozen, window: MainWindow, qtbot: QtBot
 ) -> None:
-    stranger(trap_of)
+    """On Windows, a picture on a stranger's computer tells that one who looks at it."""
+    list(dozen.open_each([full_of_pictures]))
+    window.running.show_needs()
+    for panel in window.workbench.panels.all:
+        window.host.show_panel(panel.widget)
+    qtbot.waitUntil(lambda: any(PICTURE in label.text() for label in labels_of(window)))
+
+    pages = [
+        label.text()
+        for label in labels_of(window)
+        if PICTURE in label.text() and label.textFormat() != Qt.TextFormat.PlainText
+    ]
+    tips = [one.toolTip() for one in window.findChildren(QWidget) if PICTURE in one.toolTip()]
+    assert not pages and not tips
+    window.findChild(NeedsDialog).reject()
+
+
+PICTURE = "<img src='//stranger/a.png'>"
+
+
+def labels_of(window: MainWindow) -> list[QLabel]:
+    return window.findChildren(QLabel)
+
+
+def full_of_pictures(make: Maker) -> Trap:
+    say = B("robot.say", {"text": PICTURE})
+    editor = build(make.language, [STARTED, say, B("code.lines", {"code": f'x = "{PICTURE}"'})])
+    robot = B("robots.robot", {"driver": "naoqi", "address": PICTURE})
+    build(make.language, [robot], page="robots", editor=editor)
+    settings = {"node": "sensory/replay", "name": "gift", "parameters": {"recording": PICTURE}}
+    build(make.language, [B("nodes.launch", settings)], page="nodes", editor=editor)
+    return make.of(editor)
+
+
+def test_among_hundreds_of_pieces_none_is_left_out(
+    stranger: Callable[..., Trap], window: MainWindow, qtbot: QtBot
+) -> None:
+    trap = stranger(among_hundreds)
     press(window, qtbot, "run")
     dialog = asked(window, qtbot)
 
-    text = dialog.texts[0]
-
-    assert text.horizontalScrollBar().maximum() == 0
-    lines_shown = text.verticalScrollBar().maximum() + text.viewport().height()
-    assert lines_shown >= 0 and text.verticalScrollBar().maximum() >= 0
+    shown = "\n".join(text.toPlainText() for text in dialog.texts)
+    assert len(dialog.texts) == MOST_CARDS + 1
+    assert trap.tells in shown
+    assert all(f"piece_{number} = {number}" in shown for number in range(200))
     dialog.reject()
+
+
+def among_hundreds(make: Maker) -> Trap:
+    texts = [f"piece_{number} = {number}" for number in range(200)]
+    blocks = [B("code.lines", {"code": text}) for text in [*texts, make.python]]
+    return make.trap([STARTED, *blocks, FOREVER], tells=make.python)
 
 
 def test_screen_readers_hear_what_each_text_is(
@@ -398,15 +524,3 @@ def test_screen_readers_hear_what_each_text_is(
 
     assert names == ["Python, one line, page Behaviour · inside folded blocks"]
     dialog.reject()
-
-
-def test_approvals_are_kept_in_a_file_of_the_users_own(
-    stranger: Callable[..., Trap], window: MainWindow, home: Path, qtbot: QtBot
-) -> None:
-    stranger(lines)
-    press(window, qtbot, "run")
-    asked(window, qtbot).accept()
-    state_is(window, qtbot, "running")
-
-    assert Approvals(home / "approved.json").path.stat().st_mode & 0o077 == 0
-    assert QGuiApplication.instance() is not None

@@ -27,7 +27,14 @@ from PySide6.QtWidgets import (
 from nep_studio.ui.background import Job, Tell
 from nep_studio.ui.theme.icons import icon
 from nep_studio.ui.theme.look import Look
-from nep_studio.ui.widgets.forms import card_around, fit_on_screen, hint, label_of, styled
+from nep_studio.ui.widgets.forms import (
+    card_around,
+    fit_on_screen,
+    hint,
+    label_of,
+    plain_tip,
+    styled,
+)
 from nep_studio.ui.widgets.layouts import in_column, in_row, scrolled
 from nep_studio.ui.words import count_words, tr
 
@@ -138,7 +145,7 @@ class FoundList(QWidget):
     def _on_found(self, name: str, address: str) -> None:
         item = QListWidgetItem(icon("bot", self._look.theme), f"{name}   {address}")
         item.setData(ADDRESS, address)
-        item.setToolTip(address)
+        item.setToolTip(plain_tip(address))
         self.robots.addItem(item)
 
     def _show_end(self, problem: str) -> None:

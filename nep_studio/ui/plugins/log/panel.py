@@ -39,7 +39,7 @@ from nep_studio.ui.running.runner import Runner
 from nep_studio.ui.theme.icons import icon, icon_pixmap
 from nep_studio.ui.theme.look import Look
 from nep_studio.ui.widgets.choices import Choices
-from nep_studio.ui.widgets.forms import hint
+from nep_studio.ui.widgets.forms import hint, plain_tip
 from nep_studio.ui.widgets.layouts import in_column, in_row
 from nep_studio.ui.widgets.questions import save_text
 from nep_studio.ui.words import tr
@@ -312,7 +312,7 @@ class ToldMessages(QWidget):
         clock = time.strftime("%H:%M:%S", time.localtime(told.time_s))
         item = QListWidgetItem(f"{clock}  {told.message.title}")
         item.setData(TOLD, told)
-        item.setToolTip(told.message.title)
+        item.setToolTip(plain_tip(told.message.title))
         kind = told.message.kind
         item.setIcon(icon(KIND_ICONS[kind], self._look.theme.colour(kind)))
         spoken = f"{kind_word(kind)}, {clock}: {told.message.title}"

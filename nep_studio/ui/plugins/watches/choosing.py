@@ -25,7 +25,7 @@ from PySide6.QtWidgets import (
 from nep_studio.run.plan import Setting
 from nep_studio.ui.theme.icons import icon
 from nep_studio.ui.theme.look import Look
-from nep_studio.ui.widgets.forms import column_in, hint, label_of, labelled, quiet_button
+from nep_studio.ui.widgets.forms import column_in, hint, label_of, labelled, plain_tip, quiet_button
 from nep_studio.ui.widgets.layouts import Flow, in_column, in_row
 from nep_studio.ui.widgets.questions import ask_for_path
 from nep_studio.ui.words import is_right_to_left, tr
@@ -410,7 +410,7 @@ class RecordingQuestion(QWidget):
         """Play this file."""
         self.path = path
         self.name.setText(Path(path).name)
-        self.name.setToolTip(path)
+        self.name.setToolTip(plain_tip(path))
         self.name.setVisible(bool(path))
         if path:
             self.changed.emit()

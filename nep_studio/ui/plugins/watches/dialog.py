@@ -128,7 +128,9 @@ class WatchTrial(QObject):
         self._started = wanted
         self.problem = None
         self._set_state("starting")
-        self._runner.start_node(wanted, is_wanted=True)
+        # What a stranger's project says is not yet what the person has chosen: it is asked about
+        is_strangers = self._runner.is_as_in_project(wanted)
+        self._runner.start_node(wanted, is_wanted=not is_strangers)
 
     @property
     def _is_needed(self) -> bool:
