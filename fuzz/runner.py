@@ -7,6 +7,7 @@ import hashlib
 import json
 import os
 import queue
+import signal
 import subprocess
 import sys
 import tempfile
@@ -17,11 +18,17 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
+import psutil
+
 from fuzz.target import FOUND, Target
-from fuzz.watched import BOARD_BYTES, ROOT, Board, smaller
+from fuzz.watched import BOARD_BYTES, ROOT, Board, smaller, waited_by_all_s
 
 HANGS_S = 10.0
-"""An input that is fed for so long hangs: its child is ended."""
+"""An input that is fed for so long hangs: its child is ended. Others' turns do not count."""
+HELD_TIMES = 6.0
+"""So many times as long, and it hangs however busy the machine is."""
+BEFORE = 300
+"""An input that hangs not by itself is tried again behind so many of those before it."""
 START_S = 90.0
 """A child may load libraries and open its door for so long, on a busy machine."""
 MOST_FINDINGS = 30
@@ -29,8 +36,9 @@ MOST_FINDINGS = 30
 MOST_GROWN = 50_000_000
 """A child that has grown by more has kept something of each input."""
 _LOOK_S = 0.1
+_STACKS_S = 0.5
 _DEATHS_TRIES = 8
-_WORDS = 3000
+_WORDS = 6000
 
 Say = Callable[[str], None]
 
@@ -61,6 +69,7 @@ class Tally:
     counts: dict[str, int] = field(default_factory=dict)
     findings: list[Finding] = field(default_factory=list)
     grown_bytes: int = 0
+    held_up: int = 0
 
     def add(self, told: dict[str, Any]) -> None:
         """Take in what a child tells when it has done its work."""
@@ -81,7 +90,7 @@ class Tally:
             f"{self.target}: {self.done:,} inputs in {self.seconds:.0f} s ({speed:.0f}/s), "
             f"{len(self.findings)} found, slowest {self.slowest_s * 1000:.0f} ms "
             f"(number {self.slowest}), at most {self.largest_bytes / 1e6:.0f} MB more, grown by "
-            f"{self.grown_bytes / 1e6:.0f} MB"
+            f"{self.grown_bytes / 1e6:.0f} MB" + f", {self.held_up} held up" * bool(self.held_up)
         )
 
 
@@ -107,19 +116,24 @@ class Child:
             stdout=subprocess.PIPE,
             stderr=self._errors,
         )
+        self._fed: tuple[float, float] = (0.0, 0.0)
         self._lines: queue.Queue[bytes] = queue.Queue()
         threading.Thread(target=self._read, daemon=True).start()
 
     def told(self, hangs_s: float) -> Iterator[dict[str, Any]]:
-        """What the child tells until it has ended; TimeoutError when it hangs for so long."""
+        """What the child tells until it has ended; TimeoutError when it hangs for so long.
+
+        The error says where its threads are, and how long they waited for a processor.
+        """
         while True:
             try:
                 line = self._lines.get(timeout=_LOOK_S)
             except queue.Empty:
                 number, began_s, _ = self.board.read()
-                passed_s = time.monotonic() - began_s
-                if number >= 0 and passed_s > hangs_s:
-                    raise TimeoutError from None
+                passed_s, others_s = time.monotonic() - began_s, self._others_s(began_s)
+                is_held = passed_s - others_s > hangs_s or passed_s > hangs_s * HELD_TIMES
+                if number >= 0 and is_held:
+                    raise TimeoutError(self._stacks(passed_s, others_s)) from None
                 if number < 0 and passed_s > START_S:
                     raise ChildProcessError(f"it does not start: {self.last_words}") from None
                 yield {}
@@ -128,6 +142,24 @@ class Child:
                 return
             with contextlib.suppress(ValueError):
                 yield json.loads(line)
+
+    def _others_s(self, began_s: float) -> float:
+        """How long the child's threads together waited for a processor, since this input."""
+        waited_s = waited_by_all_s(self._process.pid)
+        if began_s != self._fed[0]:
+            self._fed = began_s, waited_s
+        return max(0.0, waited_s - self._fed[1])
+
+    def _stacks(self, passed_s: float, others_s: float) -> str:
+        """Where the threads of a child are that hangs."""
+        if hasattr(signal, "SIGUSR1"):
+            self._process.send_signal(signal.SIGUSR1)
+            time.sleep(_STACKS_S)
+        took_s = sum(psutil.Process(self._process.pid).cpu_times()[:2])
+        return (
+            f"{passed_s:.1f} s, of which its threads waited {others_s:.1f} s for a processor; it "
+            f"has had {took_s:.1f} s of one since its start\n{self.last_words}"
+        )
 
     @property
     def number(self) -> int:
@@ -242,8 +274,8 @@ class Run:
                     return None
             code, number = child.wait(), child.number
             kind, words = "ends", f"exit code {code}\n{child.last_words}"
-        except TimeoutError:
-            number, kind, words = child.number, "hangs", f"more than {self._hangs_s:g} s"
+        except TimeoutError as error:
+            number, kind, words = child.number, "hangs", str(error)
         finally:
             done = child.done
             child.close()
@@ -254,10 +286,15 @@ class Run:
         if number < 0:  # it went on while we looked: a busy machine
             return done if "--file" in arguments else self._first + done
         data = self._input(arguments, number)
-        if kind == "hangs" and self._makes_smaller and not self._again(kind, data):
-            self._say(f"{self._target.name}: number {number} was held up, and not again")
-            return number + 1
-        data = self._smaller(kind, data)
+        if kind == "hangs" and self._makes_smaller and not self._again(kind, [data]):
+            before = range(max(0, number - BEFORE), number + 1)
+            if not self._again(kind, [self._input(arguments, one) for one in before]):
+                self.tally.held_up += 1
+                self._say(f"{self._target.name}: number {number} was held up once: {words}")
+                return number + 1
+            words = f"only behind those from number {before[0]} on; {words}"
+        else:
+            data = self._smaller(kind, data)
         self._keep(kind, {"signature": kind, "words": words, "number": number}, data)
         return number + 1
 
@@ -271,13 +308,14 @@ class Run:
         if not self._makes_smaller:
             return data
 
-        return smaller(data, lambda less: self._again(kind, less), tries=_DEATHS_TRIES)
+        return smaller(data, lambda less: self._again(kind, [less]), tries=_DEATHS_TRIES)
 
-    def _again(self, kind: str, data: bytes) -> bool:
-        """Whether an input breaks a child of its own in the same way."""
+    def _again(self, kind: str, inputs: Sequence[bytes]) -> bool:
+        """Whether inputs break a child of their own in the same way."""
         with tempfile.TemporaryDirectory() as folder:
-            path = Path(folder) / "input"
-            path.write_bytes(data)
+            paths = [Path(folder) / f"{number}" for number in range(len(inputs))]
+            for path, data in zip(paths, inputs, strict=True):
+                path.write_bytes(data)
             again = Run(
                 self._target,
                 seed=self._seed,
@@ -286,7 +324,7 @@ class Run:
                 hangs_s=self._hangs_s,
                 makes_smaller=False,
             )
-            return any(one.kind == kind for one in again.files([path]).findings)
+            return any(one.kind == kind for one in again.files(paths).findings)
 
     def _progress(self, child: Child) -> None:
         now_s = time.monotonic()

@@ -177,6 +177,15 @@ def _waited_s() -> float:
         return 0.0
 
 
+def waited_by_all_s(process: int) -> float:
+    """The same for all threads of a process together."""
+    waited_ns = 0
+    for one in Path(f"/proc/{process}/task").glob("*/schedstat"):
+        with contextlib.suppress(OSError, IndexError, ValueError):  # one that has just ended
+            waited_ns += int(one.read_bytes().split()[1])
+    return waited_ns / 1e9
+
+
 def _unspeakable(fault: FaultError) -> BaseException | None:
     """Why a fault cannot be told as data and in words; None when it can."""
     try:
@@ -299,6 +308,8 @@ def main(arguments: list[str]) -> None:
     given = parser.parse_args(arguments)
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # the parent ends us
     faulthandler.enable()
+    if hasattr(signal, "SIGUSR1"):
+        faulthandler.register(signal.SIGUSR1)  # the parent asks where we are, if we hang
     module: Any = __import__(given.module, fromlist=["target"])
     target: Target = module.target(given.target)
     _limit_room()
