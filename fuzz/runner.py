@@ -58,11 +58,15 @@ class Finding:
 
 @dataclass
 class Tally:
-    """How a target was tried: inputs, seconds of the child's work, the worst that was normal."""
+    """How a target was tried: inputs, seconds of the child's work, the worst that was normal.
+
+    ``processor_s`` tells how fast it is on a machine that others use, too.
+    """
 
     target: str
     done: int = 0
     seconds: float = 0.0
+    processor_s: float = 0.0
     slowest_s: float = 0.0
     slowest: int = -1
     largest_bytes: int = 0
@@ -75,6 +79,7 @@ class Tally:
         """Take in what a child tells when it has done its work."""
         self.done += told["done"]
         self.seconds += told["seconds"]
+        self.processor_s += told["processor_s"]
         if told["slowest_s"] > self.slowest_s:
             self.slowest_s, self.slowest = told["slowest_s"], told["slowest"]
         self.largest_bytes = max(self.largest_bytes, told["largest_bytes"])
@@ -87,7 +92,8 @@ class Tally:
         """In one line."""
         speed = self.done / self.seconds if self.seconds else 0.0
         return (
-            f"{self.target}: {self.done:,} inputs in {self.seconds:.0f} s ({speed:.0f}/s), "
+            f"{self.target}: {self.done:,} inputs in {self.seconds:.0f} s ({speed:.0f}/s; "
+            f"{self.processor_s:.0f} s of a processor), "
             f"{len(self.findings)} found, slowest {self.slowest_s * 1000:.0f} ms "
             f"(number {self.slowest}), at most {self.largest_bytes / 1e6:.0f} MB more, grown by "
             f"{self.grown_bytes / 1e6:.0f} MB" + f", {self.held_up} held up" * bool(self.held_up)
@@ -98,7 +104,9 @@ class Child:
     """One watched process; ``told`` gives what it tells, None when it has ended."""
 
     def __init__(self, target: Target, module: str, *arguments: str) -> None:
-        self.folder = tempfile.TemporaryDirectory(prefix="nep-fuzz-", ignore_cleanup_errors=True)
+        self.folder = tempfile.TemporaryDirectory(
+            prefix="nep-fuzz-", dir=_in_memory(), ignore_cleanup_errors=True
+        )
         place = Path(self.folder.name)
         board = place / "board"
         board.write_bytes(bytes(BOARD_BYTES))
@@ -195,6 +203,12 @@ class Child:
             for line in lines:
                 self._lines.put(line)
         self._lines.put(b"")
+
+
+def _in_memory() -> str | None:
+    """Where a file is written in no time: a slow disk would be most of what is measured."""
+    shared = Path("/dev/shm")
+    return str(shared) if shared.is_dir() and os.access(shared, os.W_OK) else None
 
 
 def _own_places(home: Path) -> dict[str, str]:

@@ -243,6 +243,8 @@ def watch(target: Target, inputs: Iterator[tuple[int, bytes]], board: Board, fol
         watched = Watched(feed, target.answered)
         first_bytes = psutil.Process().memory_info().rss
         for number, data in inputs:
+            if done == len(target.seeds):  # what is loaded at the first use stays, and is no growth
+                first_bytes = psutil.Process().memory_info().rss
             board.write(number, time.monotonic(), done)
             found = watched.fault(data)
             done += 1
@@ -263,6 +265,7 @@ def watch(target: Target, inputs: Iterator[tuple[int, bytes]], board: Board, fol
     _tell(
         done=done,
         seconds=seconds,
+        processor_s=time.process_time(),
         slowest_s=slowest[0],
         slowest=slowest[1],
         largest_bytes=largest,
