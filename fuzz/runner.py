@@ -124,6 +124,8 @@ class Child:
             stdout=subprocess.PIPE,
             stderr=self._errors,
         )
+        self.held_up_at = -1
+        """The input that was fed for too long, when TimeoutError was raised."""
         self._fed: tuple[float, float] = (0.0, 0.0)
         self._lines: queue.Queue[bytes] = queue.Queue()
         threading.Thread(target=self._read, daemon=True).start()
@@ -141,6 +143,7 @@ class Child:
                 passed_s, others_s = time.monotonic() - began_s, self._others_s(began_s)
                 is_held = passed_s - others_s > hangs_s or passed_s > hangs_s * HELD_TIMES
                 if number >= 0 and is_held:
+                    self.held_up_at = number
                     raise TimeoutError(self._stacks(passed_s, others_s)) from None
                 if number < 0 and passed_s > START_S:
                     raise ChildProcessError(f"it does not start: {self.last_words}") from None
@@ -289,16 +292,13 @@ class Run:
             code, number = child.wait(), child.number
             kind, words = "ends", f"exit code {code}\n{child.last_words}"
         except TimeoutError as error:
-            number, kind, words = child.number, "hangs", str(error)
+            number, kind, words = child.held_up_at, "hangs", str(error)
         finally:
-            done = child.done
             child.close()
             self._child = None
-        if number < 0 and (kind == "ends" or not done):
+        if number < 0:
             raise ChildProcessError(f"{self._target.name} cannot be tried: {words}")
-        self.tally.done += done + (number >= 0)
-        if number < 0:  # it went on while we looked: a busy machine
-            return done if "--file" in arguments else self._first + done
+        self.tally.done += number + 1 if "--file" in arguments else number + 1 - self._first
         data = self._input(arguments, number)
         if kind == "hangs" and self._makes_smaller and not self._again(kind, [data]):
             before = range(max(0, number - BEFORE), number + 1)

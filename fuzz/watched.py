@@ -20,6 +20,7 @@ import sys
 import threading
 import time
 import traceback
+import zlib
 from collections.abc import Callable, Collection, Iterator
 from pathlib import Path
 from typing import Any
@@ -37,25 +38,38 @@ _ROOM_BYTES = 1_500_000_000
 """So much more address space a child may have, so that it does not eat the machine."""
 _TRIES = 3
 _SCHEDULED = Path("/proc/thread-self/schedstat")
-_BOARD = struct.Struct("<qdq")
-BOARD_BYTES = _BOARD.size
+_BOARD, _SUM = struct.Struct("<qdq"), struct.Struct("<I")
+BOARD_BYTES = _BOARD.size + _SUM.size
+_LOOKS = 500
 ROOT = Path(__file__).parent.parent
 
 
 class Board:
-    """Which input is fed, since when (time.monotonic()), and how many were; in a file."""
+    """Which input is fed, since when (time.monotonic()), and how many were; in a file.
+
+    It has a check sum: who reads while the other side writes would else read of an input 0 that
+    is fed since the computer was started, and call that a hang.
+    """
 
     def __init__(self, path: Path) -> None:
         with path.open("r+b") as file:
             self._shared = mmap.mmap(file.fileno(), BOARD_BYTES)
+        self._last = (-1, time.monotonic(), 0)
 
     def write(self, number: int, began_s: float, done: int) -> None:
         """Tell the other side."""
-        _BOARD.pack_into(self._shared, 0, number, began_s, done)
+        told = _BOARD.pack(number, began_s, done)
+        self._shared[:] = told + _SUM.pack(zlib.crc32(told))
 
     def read(self) -> tuple[int, float, int]:
-        """What was told last."""
-        return _BOARD.unpack_from(self._shared)
+        """What was told last; of a side that died while it wrote, what was read before."""
+        for _ in range(_LOOKS):
+            told = self._shared[:]
+            if _SUM.unpack_from(told, _BOARD.size)[0] == zlib.crc32(told[: _BOARD.size]):
+                self._last = _BOARD.unpack_from(told)
+                break
+            time.sleep(0.001)
+        return self._last
 
     def close(self) -> None:
         """Let the file go."""

@@ -16,7 +16,7 @@ from fuzz import __main__ as command
 from fuzz.runner import Run
 from fuzz.targets import NAMES
 from fuzz.targets import target as real
-from fuzz.watched import smaller, waited_by_all_s
+from fuzz.watched import BOARD_BYTES, ROOT, Board, smaller, waited_by_all_s
 from tests.fuzz.planted import BAD, ONCE, target
 
 MODULE = "tests.fuzz.planted"
@@ -84,6 +84,36 @@ def test_what_is_held_up_once_is_told_and_no_finding(
 
     assert (tally.done, tally.held_up, tally.findings) == (3, 1, [])
     assert "1 held up" in tally.words
+
+
+WRITES = """
+import sys, time
+from pathlib import Path
+from fuzz.watched import Board
+board, number = Board(Path(sys.argv[1])), 0
+while True:
+    number += 1
+    board.write(number if number % 2 else -1, time.monotonic(), number)
+"""
+
+
+def test_a_board_is_read_whole_however_often_it_is_written(tmp_path: Path) -> None:
+    path = tmp_path / "board"
+    path.write_bytes(bytes(BOARD_BYTES))
+    board = Board(path)
+    began_s = time.monotonic()
+    board.write(-1, began_s, 0)
+
+    writer = subprocess.Popen([sys.executable, "-c", WRITES, str(path)], cwd=ROOT)
+    while board.read()[2] == 0 and writer.poll() is None:
+        time.sleep(0.01)
+    read = [board.read() for _ in range(20_000)]
+    writer.kill()
+    writer.wait()
+    board.close()
+
+    assert all(one[1] >= began_s and one[0] in (-1, one[2]) for one in read)
+    assert read[-1][2] > read[0][2] > 0
 
 
 @pytest.mark.skipif(sys.platform != "linux", reason="only Linux tells what threads wait for")
