@@ -7,6 +7,7 @@ import hashlib
 import json
 import os
 import queue
+import signal
 import subprocess
 import sys
 import tempfile
@@ -17,11 +18,17 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
+import psutil
+
 from fuzz.target import FOUND, Target
-from fuzz.watched import BOARD_BYTES, ROOT, Board, smaller
+from fuzz.watched import BOARD_BYTES, ROOT, Board, smaller, waited_by_all_s
 
 HANGS_S = 10.0
-"""An input that is fed for so long hangs: its child is ended."""
+"""An input that is fed for so long hangs: its child is ended. Others' turns do not count."""
+HELD_TIMES = 6.0
+"""So many times as long, and it hangs however busy the machine is."""
+BEFORE = 300
+"""An input that hangs not by itself is tried again behind so many of those before it."""
 START_S = 90.0
 """A child may load libraries and open its door for so long, on a busy machine."""
 MOST_FINDINGS = 30
@@ -29,8 +36,9 @@ MOST_FINDINGS = 30
 MOST_GROWN = 50_000_000
 """A child that has grown by more has kept something of each input."""
 _LOOK_S = 0.1
+_STACKS_S = 0.5
 _DEATHS_TRIES = 8
-_WORDS = 3000
+_WORDS = 6000
 
 Say = Callable[[str], None]
 
@@ -50,22 +58,28 @@ class Finding:
 
 @dataclass
 class Tally:
-    """How a target was tried: inputs, seconds of the child's work, the worst that was normal."""
+    """How a target was tried: inputs, seconds of the child's work, the worst that was normal.
+
+    ``processor_s`` tells how fast it is on a machine that others use, too.
+    """
 
     target: str
     done: int = 0
     seconds: float = 0.0
+    processor_s: float = 0.0
     slowest_s: float = 0.0
     slowest: int = -1
     largest_bytes: int = 0
     counts: dict[str, int] = field(default_factory=dict)
     findings: list[Finding] = field(default_factory=list)
     grown_bytes: int = 0
+    held_up: int = 0
 
     def add(self, told: dict[str, Any]) -> None:
         """Take in what a child tells when it has done its work."""
         self.done += told["done"]
         self.seconds += told["seconds"]
+        self.processor_s += told["processor_s"]
         if told["slowest_s"] > self.slowest_s:
             self.slowest_s, self.slowest = told["slowest_s"], told["slowest"]
         self.largest_bytes = max(self.largest_bytes, told["largest_bytes"])
@@ -78,10 +92,11 @@ class Tally:
         """In one line."""
         speed = self.done / self.seconds if self.seconds else 0.0
         return (
-            f"{self.target}: {self.done:,} inputs in {self.seconds:.0f} s ({speed:.0f}/s), "
+            f"{self.target}: {self.done:,} inputs in {self.seconds:.0f} s ({speed:.0f}/s; "
+            f"{self.processor_s:.0f} s of a processor), "
             f"{len(self.findings)} found, slowest {self.slowest_s * 1000:.0f} ms "
             f"(number {self.slowest}), at most {self.largest_bytes / 1e6:.0f} MB more, grown by "
-            f"{self.grown_bytes / 1e6:.0f} MB"
+            f"{self.grown_bytes / 1e6:.0f} MB" + f", {self.held_up} held up" * bool(self.held_up)
         )
 
 
@@ -89,7 +104,9 @@ class Child:
     """One watched process; ``told`` gives what it tells, None when it has ended."""
 
     def __init__(self, target: Target, module: str, *arguments: str) -> None:
-        self.folder = tempfile.TemporaryDirectory(prefix="nep-fuzz-", ignore_cleanup_errors=True)
+        self.folder = tempfile.TemporaryDirectory(
+            prefix="nep-fuzz-", dir=_in_memory(), ignore_cleanup_errors=True
+        )
         place = Path(self.folder.name)
         board = place / "board"
         board.write_bytes(bytes(BOARD_BYTES))
@@ -107,19 +124,27 @@ class Child:
             stdout=subprocess.PIPE,
             stderr=self._errors,
         )
+        self.held_up_at = -1
+        """The input that was fed for too long, when TimeoutError was raised."""
+        self._fed: tuple[float, float] = (0.0, 0.0)
         self._lines: queue.Queue[bytes] = queue.Queue()
         threading.Thread(target=self._read, daemon=True).start()
 
     def told(self, hangs_s: float) -> Iterator[dict[str, Any]]:
-        """What the child tells until it has ended; TimeoutError when it hangs for so long."""
+        """What the child tells until it has ended; TimeoutError when it hangs for so long.
+
+        The error says where its threads are, and how long they waited for a processor.
+        """
         while True:
             try:
                 line = self._lines.get(timeout=_LOOK_S)
             except queue.Empty:
                 number, began_s, _ = self.board.read()
-                passed_s = time.monotonic() - began_s
-                if number >= 0 and passed_s > hangs_s:
-                    raise TimeoutError from None
+                passed_s, others_s = time.monotonic() - began_s, self._others_s(began_s)
+                is_held = passed_s - others_s > hangs_s or passed_s > hangs_s * HELD_TIMES
+                if number >= 0 and is_held:
+                    self.held_up_at = number
+                    raise TimeoutError(self._stacks(passed_s, others_s)) from None
                 if number < 0 and passed_s > START_S:
                     raise ChildProcessError(f"it does not start: {self.last_words}") from None
                 yield {}
@@ -128,6 +153,24 @@ class Child:
                 return
             with contextlib.suppress(ValueError):
                 yield json.loads(line)
+
+    def _others_s(self, began_s: float) -> float:
+        """How long the child's threads together waited for a processor, since this input."""
+        waited_s = waited_by_all_s(self._process.pid)
+        if began_s != self._fed[0]:
+            self._fed = began_s, waited_s
+        return max(0.0, waited_s - self._fed[1])
+
+    def _stacks(self, passed_s: float, others_s: float) -> str:
+        """Where the threads of a child are that hangs."""
+        if hasattr(signal, "SIGUSR1"):
+            self._process.send_signal(signal.SIGUSR1)
+            time.sleep(_STACKS_S)
+        took_s = sum(psutil.Process(self._process.pid).cpu_times()[:2])
+        return (
+            f"{passed_s:.1f} s, of which its threads waited {others_s:.1f} s for a processor; it "
+            f"has had {took_s:.1f} s of one since its start\n{self.last_words}"
+        )
 
     @property
     def number(self) -> int:
@@ -163,6 +206,12 @@ class Child:
             for line in lines:
                 self._lines.put(line)
         self._lines.put(b"")
+
+
+def _in_memory() -> str | None:
+    """Where a file is written in no time: a slow disk would be most of what is measured."""
+    shared = Path("/dev/shm")
+    return str(shared) if shared.is_dir() and os.access(shared, os.W_OK) else None
 
 
 def _own_places(home: Path) -> dict[str, str]:
@@ -242,22 +291,24 @@ class Run:
                     return None
             code, number = child.wait(), child.number
             kind, words = "ends", f"exit code {code}\n{child.last_words}"
-        except TimeoutError:
-            number, kind, words = child.number, "hangs", f"more than {self._hangs_s:g} s"
+        except TimeoutError as error:
+            number, kind, words = child.held_up_at, "hangs", str(error)
         finally:
-            done = child.done
             child.close()
             self._child = None
-        if number < 0 and (kind == "ends" or not done):
+        if number < 0:
             raise ChildProcessError(f"{self._target.name} cannot be tried: {words}")
-        self.tally.done += done + (number >= 0)
-        if number < 0:  # it went on while we looked: a busy machine
-            return done if "--file" in arguments else self._first + done
+        self.tally.done += number + 1 if "--file" in arguments else number + 1 - self._first
         data = self._input(arguments, number)
-        if kind == "hangs" and self._makes_smaller and not self._again(kind, data):
-            self._say(f"{self._target.name}: number {number} was held up, and not again")
-            return number + 1
-        data = self._smaller(kind, data)
+        if kind == "hangs" and self._makes_smaller and not self._again(kind, [data]):
+            before = range(max(0, number - BEFORE), number + 1)
+            if not self._again(kind, [self._input(arguments, one) for one in before]):
+                self.tally.held_up += 1
+                self._say(f"{self._target.name}: number {number} was held up once: {words}")
+                return number + 1
+            words = f"only behind those from number {before[0]} on; {words}"
+        else:
+            data = self._smaller(kind, data)
         self._keep(kind, {"signature": kind, "words": words, "number": number}, data)
         return number + 1
 
@@ -271,13 +322,14 @@ class Run:
         if not self._makes_smaller:
             return data
 
-        return smaller(data, lambda less: self._again(kind, less), tries=_DEATHS_TRIES)
+        return smaller(data, lambda less: self._again(kind, [less]), tries=_DEATHS_TRIES)
 
-    def _again(self, kind: str, data: bytes) -> bool:
-        """Whether an input breaks a child of its own in the same way."""
+    def _again(self, kind: str, inputs: Sequence[bytes]) -> bool:
+        """Whether inputs break a child of their own in the same way."""
         with tempfile.TemporaryDirectory() as folder:
-            path = Path(folder) / "input"
-            path.write_bytes(data)
+            paths = [Path(folder) / f"{number}" for number in range(len(inputs))]
+            for path, data in zip(paths, inputs, strict=True):
+                path.write_bytes(data)
             again = Run(
                 self._target,
                 seed=self._seed,
@@ -286,7 +338,7 @@ class Run:
                 hangs_s=self._hangs_s,
                 makes_smaller=False,
             )
-            return any(one.kind == kind for one in again.files([path]).findings)
+            return any(one.kind == kind for one in again.files(paths).findings)
 
     def _progress(self, child: Child) -> None:
         now_s = time.monotonic()

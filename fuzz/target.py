@@ -27,13 +27,15 @@ class Target:
     """A door by its ``name``; ``mutate`` changes an input as its format suggests.
 
     ``answered`` names the kinds of errors that a library answers by itself and logs: they are no
-    faults of ours.
+    faults of ours. ``heavy`` names the kept inputs that are slow for their size alone: they are
+    changed seldom, else they would take most of the time.
     """
 
     name: str
     open: Open
     mutate: Mutate = flipped
     answered: tuple[str, ...] = ()
+    heavy: tuple[str, ...] = ()
     seeds_folder: Path = SEEDS
 
     @cached_property
@@ -45,6 +47,11 @@ class Target:
     def seed_files(self) -> list[Path]:
         """Where they are."""
         return sorted(p for p in (self.seeds_folder / self.name).glob("*") if p.is_file())
+
+    @cached_property
+    def _light(self) -> tuple[bytes, ...]:
+        named = zip(self.seed_files, self.seeds, strict=True)
+        return tuple(data for path, data in named if path.name not in self.heavy)
 
     def input(self, seed: int, number: int) -> bytes:
         """The input of a number: first the kept ones as they are, then changes of them.
@@ -59,7 +66,8 @@ class Target:
     def changed(self, chance: random.Random) -> bytes:
         """A kept input with changes."""
         seeds: Sequence[bytes] = self.seeds or (b"",)
-        data = chance.choice(seeds)
+        often = seeds if not self.heavy or chance.random() < 0.01 else self._light
+        data = chance.choice(often)
         if chance.random() < 0.15:  # as no format suggests
             return flipped(data, chance, seeds)
         return self.mutate(data, chance, seeds)

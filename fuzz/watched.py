@@ -20,6 +20,7 @@ import sys
 import threading
 import time
 import traceback
+import zlib
 from collections.abc import Callable, Collection, Iterator
 from pathlib import Path
 from typing import Any
@@ -37,25 +38,38 @@ _ROOM_BYTES = 1_500_000_000
 """So much more address space a child may have, so that it does not eat the machine."""
 _TRIES = 3
 _SCHEDULED = Path("/proc/thread-self/schedstat")
-_BOARD = struct.Struct("<qdq")
-BOARD_BYTES = _BOARD.size
+_BOARD, _SUM = struct.Struct("<qdq"), struct.Struct("<I")
+BOARD_BYTES = _BOARD.size + _SUM.size
+_LOOKS = 500
 ROOT = Path(__file__).parent.parent
 
 
 class Board:
-    """Which input is fed, since when (time.monotonic()), and how many were; in a file."""
+    """Which input is fed, since when (time.monotonic()), and how many were; in a file.
+
+    It has a check sum: who reads while the other side writes would else read of an input 0 that
+    is fed since the computer was started, and call that a hang.
+    """
 
     def __init__(self, path: Path) -> None:
         with path.open("r+b") as file:
             self._shared = mmap.mmap(file.fileno(), BOARD_BYTES)
+        self._last = (-1, time.monotonic(), 0)
 
     def write(self, number: int, began_s: float, done: int) -> None:
         """Tell the other side."""
-        _BOARD.pack_into(self._shared, 0, number, began_s, done)
+        told = _BOARD.pack(number, began_s, done)
+        self._shared[:] = told + _SUM.pack(zlib.crc32(told))
 
     def read(self) -> tuple[int, float, int]:
-        """What was told last."""
-        return _BOARD.unpack_from(self._shared)
+        """What was told last; of a side that died while it wrote, what was read before."""
+        for _ in range(_LOOKS):
+            told = self._shared[:]
+            if _SUM.unpack_from(told, _BOARD.size)[0] == zlib.crc32(told[: _BOARD.size]):
+                self._last = _BOARD.unpack_from(told)
+                break
+            time.sleep(0.001)
+        return self._last
 
     def close(self) -> None:
         """Let the file go."""
@@ -177,6 +191,15 @@ def _waited_s() -> float:
         return 0.0
 
 
+def waited_by_all_s(process: int) -> float:
+    """The same for all threads of a process together."""
+    waited_ns = 0
+    for one in Path(f"/proc/{process}/task").glob("*/schedstat"):
+        with contextlib.suppress(OSError, IndexError, ValueError):  # one that has just ended
+            waited_ns += int(one.read_bytes().split()[1])
+    return waited_ns / 1e9
+
+
 def _unspeakable(fault: FaultError) -> BaseException | None:
     """Why a fault cannot be told as data and in words; None when it can."""
     try:
@@ -234,6 +257,8 @@ def watch(target: Target, inputs: Iterator[tuple[int, bytes]], board: Board, fol
         watched = Watched(feed, target.answered)
         first_bytes = psutil.Process().memory_info().rss
         for number, data in inputs:
+            if done == len(target.seeds):  # what is loaded at the first use stays, and is no growth
+                first_bytes = psutil.Process().memory_info().rss
             board.write(number, time.monotonic(), done)
             found = watched.fault(data)
             done += 1
@@ -254,6 +279,7 @@ def watch(target: Target, inputs: Iterator[tuple[int, bytes]], board: Board, fol
     _tell(
         done=done,
         seconds=seconds,
+        processor_s=time.process_time(),
         slowest_s=slowest[0],
         slowest=slowest[1],
         largest_bytes=largest,
@@ -299,6 +325,8 @@ def main(arguments: list[str]) -> None:
     given = parser.parse_args(arguments)
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # the parent ends us
     faulthandler.enable()
+    if hasattr(signal, "SIGUSR1"):
+        faulthandler.register(signal.SIGUSR1)  # the parent asks where we are, if we hang
     module: Any = __import__(given.module, fromlist=["target"])
     target: Target = module.target(given.target)
     _limit_room()

@@ -130,7 +130,7 @@ def translations(folder: Path) -> Iterator[Feed]:
 TARGETS = {
     one.name: one
     for one in (
-        Target("mcap", mcap, mcap_changed),
+        Target("mcap", mcap, mcap_changed, heavy=("many_in_chunk.mcap",)),
         Target("manifests", manifests, toml_changed),
         Target("settings", settings, lines_changed),
         Target("translations", translations, toml_changed),

@@ -26,6 +26,8 @@ if TYPE_CHECKING:
 
 MOST_PUBLISHERS = 1_000
 """Starts of publishers that are remembered, those heard last: a topic may live for weeks."""
+LONGEST_NAME = 200
+"""So much of a publisher's name tells it from others: a stranger's may be of any length."""
 
 
 # What has arrived for one subscriber and waits to be read, and how many messages did not arrive,
@@ -94,7 +96,7 @@ class Backlog:
                 self._bytes -= len(dropped)
                 self._lost += messages
         elif header is not None:
-            sender = (header.node, header.run)
+            sender = _sender(header)
             if header.sent is None or sender not in self._newest:  # a notice brings what is old
                 self._bytes += len(frame) - len(self._newest.get(sender, b""))
                 self._newest[sender] = frame  # in its old turn: who says much waits no longer
@@ -136,7 +138,7 @@ class Backlog:
         messages = len(payloads) - len(payloads.replace(NUL, b""))  # count() is ten times slower
         if payloads and header.encoding != "json":
             messages = 1
-        sender, sent, self._notes = (header.node, header.run), header.sent, self._notes + 1
+        sender, sent, self._notes = _sender(header), header.sent, self._notes + 1
         last = header.sequence + messages - 1
         known = self._known.get(sender)
         if known is None:
@@ -162,6 +164,10 @@ class Backlog:
             self._lost -= known[3] < header.sequence < known[0]  # one of those is here after all
             known[0] = min(known[0], header.sequence)
         return header, messages, is_new
+
+
+def _sender(header: Header) -> tuple[str, str]:
+    return header.node[:LONGEST_NAME], header.run[:RUN_CHARACTERS]
 
 
 # The C back end's own: socket.EVENTS takes eight times longer, for each of 1,000 subscribers.

@@ -96,6 +96,10 @@ WINDOW_S = 2.0
 """A rate is that of so many seconds: long enough to stand still, short enough to be now."""
 
 
+MOST_ROUTES = 2_000
+"""Senders are counted by what frames say of them: a stranger's may say another name each time."""
+
+
 @dataclass
 class TrafficCounter:
     """How many messages there were, and when: (time, how many before it)."""
@@ -158,6 +162,8 @@ class Traffic:
             if route not in self._routes:
                 self._routes[route] = TrafficCounter()
                 self._routes[route].mark(self.topics[topic].counter.marks[0][0])
+                if len(self._routes) > MOST_ROUTES:
+                    del self._routes[next(iter(self._routes))]
             self._routes[route].add(count, now_s)
 
     def flows(self, now_s: float) -> dict[Route, Flow]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ctypes
 import logging
+import os
 import threading
 import time
 from collections.abc import Callable, Iterator
@@ -14,6 +15,9 @@ from faults import FaultError
 from fuzz.target import Feed, Target
 
 BAD = b"bad"
+ONCE = "FUZZ_PLANTED_ONCE"
+"""Names a file; as long as it is there, the target "once" hangs, and takes it away."""
+_fed = 0
 
 
 def raise_it() -> None:
@@ -37,6 +41,19 @@ def take_memory() -> None:
     bytearray(b"x") * 90_000_000
 
 
+def tire() -> None:
+    """Hang at the third input of this child, whatever that is."""
+    time.sleep(60 if _fed > 2 else 0)
+
+
+def hang_once() -> None:
+    try:
+        os.unlink(os.environ[ONCE])
+    except OSError:
+        return
+    time.sleep(60)
+
+
 def refuse() -> None:
     raise FaultError("This cannot be read.")
 
@@ -51,6 +68,8 @@ WAYS: dict[str, Callable[[], object]] = {
     "thread": end_thread,
     "slow": lambda: time.sleep(1.1),
     "hangs": lambda: time.sleep(60),
+    "tires": tire,
+    "once": hang_once,
     "large": take_memory,
     "ends": lambda: ctypes.string_at(0),
     "wordless": refuse_without_words,
@@ -64,6 +83,8 @@ def target(name: str) -> Target:
     @contextmanager
     def door(folder: Path) -> Iterator[Feed]:
         def feed(data: bytes) -> None:
+            global _fed
+            _fed += 1
             if BAD in data:
                 WAYS[name]()
 

@@ -2,7 +2,12 @@
 
 from __future__ import annotations
 
+import os
 import random
+import signal
+import subprocess
+import sys
+import time
 from pathlib import Path
 
 import pytest
@@ -11,13 +16,13 @@ from fuzz import __main__ as command
 from fuzz.runner import Run
 from fuzz.targets import NAMES
 from fuzz.targets import target as real
-from fuzz.watched import smaller
-from tests.fuzz.planted import BAD, target
+from fuzz.watched import BOARD_BYTES, ROOT, Board, smaller, waited_by_all_s
+from tests.fuzz.planted import BAD, ONCE, target
 
 MODULE = "tests.fuzz.planted"
 
 
-def tried(way: str, folder: Path, *inputs: bytes) -> Run:
+def tried(way: str, folder: Path, *inputs: bytes, is_thorough: bool = False) -> Run:
     paths = []
     for number, data in enumerate(inputs):
         paths.append(folder / f"input_{number}")
@@ -27,8 +32,8 @@ def tried(way: str, folder: Path, *inputs: bytes) -> Run:
         seed=0,
         module=MODULE,
         found=folder / "found",
-        hangs_s=6.0,
-        makes_smaller=way == "raises",
+        hangs_s=6.0 if way == "slow" else 1.0,  # it is fed three times
+        makes_smaller=is_thorough,
     )
     run.files(paths)
     return run
@@ -48,13 +53,83 @@ def tried(way: str, folder: Path, *inputs: bytes) -> Run:
     ],
 )
 def test_a_planted_bug_is_found_and_its_input_kept(tmp_path: Path, way: str, kind: str) -> None:
-    tally = tried(way, tmp_path, b"good", b"xx bad xx", b"good").tally
+    tally = tried(way, tmp_path, b"good", b"xx bad xx", b"good", is_thorough=way == "raises").tally
 
     [found] = tally.findings
     assert found.kind == kind
     assert tally.done == 3
     assert found.path is not None and BAD in found.path.read_bytes()
     assert found.path.with_suffix(".txt").read_text(encoding="utf-8").startswith(kind)
+
+
+def test_what_hangs_only_behind_others_is_tried_again_behind_them(tmp_path: Path) -> None:
+    tally = tried("tires", tmp_path, b"good", b"good", b"bad", is_thorough=True).tally
+
+    [found] = tally.findings
+    assert found.kind == "hangs"
+    assert "behind those from number 0" in found.words
+    assert "waited" in found.words
+    assert "planted.py" in found.words or not hasattr(signal, "SIGUSR1")  # where it stands
+    assert tally.held_up == 0
+
+
+def test_what_is_held_up_once_is_told_and_no_finding(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    once = tmp_path / "once"
+    once.touch()
+    monkeypatch.setenv(ONCE, str(once))
+
+    tally = tried("once", tmp_path, b"good", b"bad", b"good", is_thorough=True).tally
+
+    assert (tally.done, tally.held_up, tally.findings) == (3, 1, [])
+    assert "1 held up" in tally.words
+
+
+WRITES = """
+import sys, time
+from pathlib import Path
+from fuzz.watched import Board
+board, number = Board(Path(sys.argv[1])), 0
+while True:
+    number += 1
+    board.write(number if number % 2 else -1, time.monotonic(), number)
+"""
+
+
+def test_a_board_is_read_whole_however_often_it_is_written(tmp_path: Path) -> None:
+    path = tmp_path / "board"
+    path.write_bytes(bytes(BOARD_BYTES))
+    board = Board(path)
+    began_s = time.monotonic()
+    board.write(-1, began_s, 0)
+
+    writer = subprocess.Popen([sys.executable, "-c", WRITES, str(path)], cwd=ROOT)
+    while board.read()[2] == 0 and writer.poll() is None:
+        time.sleep(0.01)
+    read = [board.read() for _ in range(20_000)]
+    writer.kill()
+    writer.wait()
+    board.close()
+
+    assert all(one[1] >= began_s and one[0] in (-1, one[2]) for one in read)
+    assert read[-1][2] > read[0][2] > 0
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="only Linux tells what threads wait for")
+def test_what_others_take_of_the_processor_is_told() -> None:
+    allowed, before_s = os.sched_getaffinity(0), waited_by_all_s(os.getpid())
+    os.sched_setaffinity(0, {min(allowed)})
+    other = subprocess.Popen([sys.executable, "-c", "while True: pass"])
+
+    until_s = time.monotonic() + 30
+    while waited_by_all_s(os.getpid()) < before_s + 0.05 and time.monotonic() < until_s:
+        sum(range(100_000))
+    other.kill()
+    other.wait()
+    os.sched_setaffinity(0, allowed)
+
+    assert waited_by_all_s(os.getpid()) >= before_s + 0.05
 
 
 def test_what_is_refused_in_a_sentence_is_no_finding(tmp_path: Path) -> None:

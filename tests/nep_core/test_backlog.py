@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import tracemalloc
+
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
@@ -210,3 +212,17 @@ def test_states_of_ever_new_publishers_are_bounded(monkeypatch: pytest.MonkeyPat
     assert len(backlog) == 10
     assert all_of(backlog)[-1] == frame(2, run="00000049")
     assert backlog._bytes == 0
+
+
+def test_what_is_remembered_of_publishers_does_not_grow_with_their_names() -> None:
+    backlog = Backlog("/t", "state")
+    tracemalloc.start()
+    for number in range(100):
+        name = f"{number} " + "n" * 100_000
+        backlog.put(join(subscription("/t"), name, 1, 0, "json", b"0", name))
+        assert backlog.pop() is not None
+
+    kept_bytes, _ = tracemalloc.get_traced_memory()
+    tracemalloc.stop()
+
+    assert kept_bytes < 1_000_000

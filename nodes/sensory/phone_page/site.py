@@ -256,6 +256,18 @@ def is_our_origin(given: Mapping[str, str], host: str) -> bool:
     return given.get("Origin") == f"https://{host}"
 
 
+HANDSHAKE = ("Upgrade", "Connection", "Sec-WebSocket-Version", "Sec-WebSocket-Key")
+
+
+def is_plain_handshake(given: Mapping[str, str]) -> bool:
+    """Whether what a WebSocket begins with is ASCII.
+
+    WORKAROUND: else aiohttp fails at it, or at telling what is wrong with it, and answers 500
+    (aiohttp/web_ws.py, WebSocketResponse._handshake).
+    """
+    return all(given.get(name, "").isascii() for name in HANDSHAKE)
+
+
 def _is_loopback(address: str) -> bool:
     try:
         return ipaddress.ip_address(address).is_loopback
@@ -423,7 +435,7 @@ class Site:
         socket = web.WebSocketResponse(
             max_msg_size=MOST_BYTES, compress=False, receive_timeout=IDLE_S, timeout=1.0
         )
-        if not socket.can_prepare(request):
+        if not is_plain_handshake(request.headers) or not socket.can_prepare(request):
             return _text(400, "The page itself uses this.")
         try:
             await socket.prepare(request)

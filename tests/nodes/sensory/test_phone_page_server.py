@@ -111,3 +111,26 @@ def test_too_much_at_once_is_refused(page):
 
     assert status == 413
     assert page.readings() == []
+
+
+@pytest.mark.parametrize(
+    "odd",
+    [
+        {"Sec-WebSocket-Key": "名前=="},
+        {"Sec-WebSocket-Key": "g=="},
+        {"Sec-WebSocket-Version": "１３"},
+        {"Upgrade": "websockét"},
+    ],
+)
+def test_a_talk_that_begins_in_letters_of_no_header_is_refused(page, odd):
+    usual = {
+        "Origin": f"https://127.0.0.1:{page.port}",
+        "Upgrade": "websocket",
+        "Connection": "Upgrade",
+        "Sec-WebSocket-Version": "13",
+        "Sec-WebSocket-Key": "MDEyMzQ1Njc4OWFiY2RlZg==",
+    }
+
+    status, _, _ = ask(page, f"/{TOKEN}/motion", headers=usual | odd)
+
+    assert status == 400

@@ -12,7 +12,7 @@ from pytestqt.qtbot import QtBot
 
 from nep_core.networks.zmq_networks import PeerNetwork
 from nep_core.wire.pubsub import Publisher
-from nep_studio.ui.network_feed import NetworkWatch, ProcessMeter, Seen, Traffic
+from nep_studio.ui.network_feed import MOST_ROUTES, NetworkWatch, ProcessMeter, Seen, Traffic
 
 Join = Callable[[str], PeerNetwork]
 
@@ -127,6 +127,18 @@ def test_a_process_is_measured_with_what_it_started() -> None:
 
 def test_a_process_that_is_gone_is_not_measured() -> None:
     assert ProcessMeter().measure(2**22 + 12345) is None
+
+
+def test_senders_of_ever_new_names_do_not_fill_the_memory() -> None:
+    traffic = Traffic()
+    traffic.begin("/imu", 0.0)
+
+    for number in range(MOST_ROUTES + 500):
+        traffic.note("/imu", {f"stranger {number}": 1}, 0.1)
+
+    flows = traffic.flows(0.2)
+    assert len(flows) == MOST_ROUTES
+    assert (f"stranger {MOST_ROUTES + 499}", "/imu") in flows
 
 
 def test_a_rate_is_that_of_the_last_two_seconds() -> None:
