@@ -7,7 +7,7 @@ import threading
 from nep_core.networks.zmq_networks import PeerNetwork
 from nep_core.program import tasks
 from nep_core.program.behavior import Behavior
-from nep_core.program.tasks import wait, wait_until
+from nep_core.program.tasks import current_task, wait, wait_until
 from tests.nep_core.outside import Outside, seen
 
 
@@ -109,3 +109,21 @@ def test_a_walk_without_an_end_ends_with_the_program(
 
     wait_until(lambda: "stop" in [action for action, _ in outside.nao.asked])
     assert [action for action, _ in outside.nao.asked] == ["walk_freely", "stop"]
+
+
+def test_a_walk_is_asked_for_again_until_it_ends_and_not_when_nobody_answers(
+    outside: Outside, network: PeerNetwork
+) -> None:
+    outside.nao.end = None
+    asked = outside.nao.times_asked
+    outside.robot.start_walking(50)
+    wait_until(lambda: max(asked.values(), default=0) > 3, 10)
+    assert max(asked.values()) > 3
+
+    outside.nao.end = "cancelled"  # as when the robot's own stop button was pressed
+    wait(1.5)
+    before = dict(asked)
+    wait(1.0)
+
+    assert asked == before
+    current_task().end_undone()
