@@ -120,6 +120,10 @@ class Calls:
         finally:
             if not pending.done and method not in FINISHED:
                 self._end(pending, service, method, uses)
+        return (yield from self.answer_of(pending))
+
+    def answer_of(self, pending: Pending) -> Calling:
+        """Return the answer to a call that has ended. Raises ActionFailed: the robot's words."""
         lost_s = time.monotonic() + STOPPED_S
         while isinstance(pending.failure, NoConnection) and time.monotonic() < lost_s:
             yield  # who keeps the link hears of it too, and says it better

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import os
 import signal
 import time
@@ -118,6 +119,34 @@ def test_a_free_walk_ends_by_itself_when_the_link_freezes(nao, stages) -> None:
     assert not nao.named("ALMotion.moveToward", "ALMotion.move")
     assert nao.served.state().base == place
     nao.is_frozen = False
+
+
+def test_a_free_walk_goes_on_without_standing_after_each_step(nao, stages) -> None:
+    stage = stages(nao)
+    stage.meet()
+    walking(nao, stage, "walk_freely", forward=1.0)
+
+    begun_m, begun_s = nao.served.state().base[0], time.monotonic()
+    stage.until(lambda: nao.served.state().base[0] > begun_m + 0.4)
+    needed_s = time.monotonic() - begun_s
+    stage.ask("stop", "stop")
+    stage.until(lambda: not stage.driver.moving)
+
+    alone_s = 0.4 / 0.04 * 1.74  # ten legs with a stand after each
+    assert needed_s < 0.7 * alone_s
+    assert not nao.walks and not nao.served.state().fallen
+
+
+def test_a_long_way_is_walked_in_legs_and_ends_where_it_should(quick_nao, stages) -> None:
+    stage = stages(quick_nao)
+    stage.meet()
+
+    end = stage.do("walk", forward_m=1.2, left_m=0.3, turn_deg=60)
+
+    legs = [call.values for call in quick_nao.named("ALMotion.moveTo")]
+    assert end.state == "done" and len(legs) == 3
+    assert all(math.hypot(x, y) <= 0.5 for x, y, _ in legs)
+    assert quick_nao.served.state().base == pytest.approx((1.2, 0.3, math.radians(60)), abs=0.02)
 
 
 def test_a_hot_motor_and_a_low_battery_stop_new_walks(quick_nao, stages) -> None:
