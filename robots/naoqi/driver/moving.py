@@ -379,6 +379,8 @@ STEP_LEG = (0.04, 0.03, 0.2)
 """How far a robot on feet walks freely at once (m, m, rad): one step of each kind."""
 RENEWED_S = 0.4
 """So often that is asked for anew: a step takes 0.42 s, and who is late lets the robot stand."""
+AGAIN_S = 0.05
+"""One that stands is asked so soon after it has said so."""
 MOST_BEGUN = 20
 """Robots may answer all of these when they stand, and keep a thread for each until then."""
 WHEEL_LEG = (0.12, 0.12, 0.4)
@@ -454,14 +456,15 @@ def _step_on(robot: RealRobot, leg: list[float]) -> Task:
     cannot be changed any more, and takes the place of the others.
     """
     begun: list[Pending] = []
-    next_s = -math.inf
+    asked_s = -math.inf
     try:
         while True:
             for pending in [one for one in begun if one.done]:
                 begun.remove(pending)
                 yield from robot.calls.answer_of(pending)
-            if time.monotonic() >= next_s and len(begun) < MOST_BEGUN:
-                next_s = time.monotonic() + RENEWED_S
+            pause_s = RENEWED_S if begun else AGAIN_S
+            if time.monotonic() >= asked_s + pause_s and len(begun) < MOST_BEGUN:
+                asked_s = time.monotonic()
                 begun.append(robot.calls.begin("ALMotion", "moveTo", *leg))
             yield
     finally:
