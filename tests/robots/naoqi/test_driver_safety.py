@@ -8,16 +8,20 @@ import signal
 import time
 from collections.abc import Callable, Iterator
 from contextlib import ExitStack
+from pathlib import Path
 
 import pytest
 from driver_stage import DriverStage
 from recording_nao import RecordingNao
 
 from nep_core.networks.zmq_networks import PeerNetwork
-from nep_core.wire.messages import ACTION_REQUEST, ActionRequest
-from nep_core.wire.pubsub import Publisher
+from nep_core.processes.launcher import Launcher
+from nep_core.program.robot import Robot
+from nep_core.program.tasks import current_task
+from nep_core.wire.messages import ACTION_REQUEST, NODE_STATE, ActionRequest, NodeState
+from nep_core.wire.pubsub import Publisher, Subscriber
 from robots.naoqi.discovery import FOLDER_VARIABLE
-from tests.node_running import NodeRunner
+from tests.node_running import NodeRunner, until
 
 KILLS = ("ALMotion.killAll", "ALMotion.killTasksUsingResources", "ALMotion.killTask")
 AT_ONCE = (
@@ -303,3 +307,34 @@ def test_a_robot_stands_soon_after_its_node_is_killed_or_stands_still(
         runner.close()
 
     assert nao.served.state().base == place
+
+
+@pytest.mark.skipif(not hasattr(signal, "SIGSTOP"), reason="there are no such signals here")
+def test_a_robot_whose_node_crashed_in_a_free_walk_stands_and_works_again(
+    nao: RecordingNao, network: PeerNetwork, tmp_path: Path
+) -> None:
+    states = Subscriber(NODE_STATE, NodeState, network=network)
+    robot = Robot("NAO")
+    with Launcher(logs=tmp_path, master=network.master) as launcher:
+        launcher.hear(network)
+        node = launcher.launch("action/nao", "nao", {"driver": "naoqi", "address": nao.address})
+        until(states, lambda told: told.event == "connected")
+        robot.start_walking(100)  # which is asked for again as long as somebody answers
+        until_s = time.monotonic() + 20.0
+        while nao.served.state().base[0] < 0.1:
+            assert time.monotonic() < until_s
+            time.sleep(0.05)
+
+        os.kill(node.pid, signal.SIGKILL)
+        killed_s = time.monotonic()
+        while nao.walks:
+            assert time.monotonic() - killed_s < STANDS_S
+            time.sleep(0.05)
+        place = nao.served.state().base
+        until(states, lambda told: told.event == "connected")
+        time.sleep(1.0)
+
+        assert nao.served.state().base == place
+        robot.walk(0.1)
+        assert nao.served.state().base[0] == pytest.approx(place[0] + 0.1, abs=0.03)
+        current_task().end_undone()
