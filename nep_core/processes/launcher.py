@@ -39,7 +39,7 @@ log = logging.getLogger(__name__)
 MOST_RESTARTS = 5
 HEALTHY_S = 10.0
 LAST_WORD_S = 0.2
-QUIET_S = 3.0
+QUIET_S = 4.0
 """A node tells each second that it lives: one that was not heard for so long stands still."""
 AT_WORK = frozenset(("ready", "running", "busy", "connected", "connection_failed", "disconnected"))
 """What only a node tells that is ready: who hears it late hears the newest of its states alone."""

@@ -466,6 +466,8 @@ def _step_on(robot: RealRobot, leg: list[float]) -> Task:
             if time.monotonic() >= asked_s + pause_s and len(begun) < MOST_BEGUN:
                 asked_s = time.monotonic()
                 begun.append(robot.calls.begin("ALMotion", "moveTo", *leg))
+            if time.monotonic() > asked_s + LEG_S:
+                raise robot.calls.late("moveTo")
             yield
     finally:
         if begun:

@@ -242,7 +242,7 @@ class ALMotion(Module):
             promise = Promise(lambda: self._robot.stop(_is_walk))
             self._robot.when(lambda: not self.move_is_active(), lambda: _settle(promise))
             return promise.future
-        self._robot.stop(lambda command: _is_walk(command) and command in self._waiting())
+        self._robot.stop(lambda command: self._is_own_walk(command) and command in self._waiting())
         ways = [("walk", _way(here, there)) for here, there in pairwise(places)]
         walking = play_script(self._robot, one_by_one(ways), True, stopped=False)
         if len(ways) > 1:
@@ -252,12 +252,14 @@ class ALMotion(Module):
     def _waiting(self) -> tuple[Command, ...]:
         return self._robot.actor.schedule.waiting
 
+    def _is_own_walk(self, command: Command) -> bool:
+        return isinstance(command.action, Walk) and self._robot.is_asked_here(command)
+
     def _goes_elsewhere(self, place: Sequence[float]) -> bool:
         """Let a walk to a place go to another one; False when there is none that can."""
         with self._robot.lock:
             going = self._robot.robot.going
-            running = self._robot.actor.schedule.running
-            is_going = any(isinstance(command.action, (Walk, Turn)) for command in running)
+            is_going = any(map(self._is_own_walk, self._robot.actor.schedule.running))
             is_one_way = self._along is None or self._along.done
             return (
                 is_going

@@ -23,7 +23,7 @@ from robots.naoqi.wire.line import DYNAMIC_PAYLOAD, Kind
 from robots.naoqi.wire.metaobject import Signature
 
 HEAD = struct.Struct("<IIIHBBIII")
-QUERIES = ("get", "moveIsActive", "robotIsWakeUp", "isEnabled", "robotName", "systemVersion")
+QUERIES = ("get", "moveIsActive", "robotIsWakeUp", "is", "robotName", "systemVersion")
 """The beginnings of what asks a robot, and changes nothing."""
 
 
