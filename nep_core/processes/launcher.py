@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import logging
+import math
 import os
 import shutil
 import socket
@@ -38,6 +39,8 @@ log = logging.getLogger(__name__)
 MOST_RESTARTS = 5
 HEALTHY_S = 10.0
 LAST_WORD_S = 0.2
+QUIET_S = 4.0
+"""A node tells each second that it lives: one that was not heard for so long stands still."""
 AT_WORK = frozenset(("ready", "running", "busy", "connected", "connection_failed", "disconnected"))
 """What only a node tells that is ready: who hears it late hears the newest of its states alone."""
 
@@ -54,6 +57,8 @@ class LaunchedNode:
     outcome: Outcome | None = None
     started_s: float = 0.0
     restarts: int = 0
+    heard_s: float = -math.inf
+    """When it told something last (time.monotonic())."""
     stopping: bool = False
     ready: threading.Event = field(default_factory=threading.Event)
     ended: threading.Event = field(default_factory=threading.Event)
@@ -75,6 +80,10 @@ class LaunchedNode:
         with contextlib.suppress(psutil.Error, ValueError):
             return self.process.pid in [parent.pid for parent in psutil.Process(pid).parents()]
         return False
+
+    def is_heard(self) -> bool:
+        """Whether it told something a moment ago, if only that it lives."""
+        return time.monotonic() - self.heard_s < QUIET_S
 
     def deserves_another(self, outcome: Outcome) -> bool:
         """Whether it is to be started again; 10 s of health start the count anew."""
@@ -232,7 +241,9 @@ class Launcher(Closing):
             if process.poll() is None:
                 process.ask_to_stop()
         for launched, process in running:
-            process.stop(launched.manifest.stop_s if launched.manifest else STOP_S)
+            stop_s = launched.manifest.stop_s if launched.manifest else STOP_S
+            # One that stands still will not finish: only who is heard gets more than usual
+            process.stop(min(stop_s, STOP_S), longest_s=stop_s, lives=launched.is_heard)
 
     def close(self) -> None:
         """Stop every node, all at once."""
@@ -337,7 +348,10 @@ class Launcher(Closing):
         launched = self.nodes.get(state.node)
         if launched is None:
             return
-        if not launched.ready.is_set() and state.event in AT_WORK and launched.owns(state.pid):
+        if not launched.owns(state.pid):
+            return
+        launched.heard_s = time.monotonic()
+        if state.event in AT_WORK:
             launched.ready.set()
-        elif state.event == "stopped" and launched.owns(state.pid):
+        elif state.event == "stopped":
             launched.said_end.set()

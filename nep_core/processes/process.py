@@ -11,6 +11,7 @@ import subprocess
 import sys
 import tempfile
 import threading
+import time
 import uuid
 from collections import deque
 from collections.abc import Callable, Iterable
@@ -184,6 +185,8 @@ def _work(wishes: SimpleQueue[tuple[Callable[[], Any], Future[Any]]]) -> None:
 
 
 ON_WINDOWS = sys.platform == "win32"
+STOPPING_LOOK_S = 0.1
+"""So often is looked whether what takes its time to stop still lives."""
 STOP_SIGNAL: int = getattr(signal, "CTRL_BREAK_EVENT", signal.SIGTERM)
 KEPT_LINES = 200
 LINE_BYTES = 65_536
@@ -261,12 +264,26 @@ class ChildProcess:
             elif self._popen.stdin is not None:
                 self._popen.stdin.close()
 
-    def stop(self, grace_s: float = 2.0) -> None:
-        """Ask it to stop, and end the whole process tree after ``grace_s``."""
+    def stop(
+        self,
+        grace_s: float = 2.0,
+        *,
+        longest_s: float = 0.0,
+        lives: Callable[[], bool] = lambda: True,
+    ) -> None:
+        """Ask it to stop, and end the whole process tree after ``grace_s``.
+
+        While it ``lives``, it may take ``longest_s``.
+        """
         if self.poll() is None:  # when it has ended, another process may have its number
             self.ask_to_stop()
-            if self.wait(grace_s) is None:
-                log.warning("%s did not stop within %.0f s and was ended", self.name, grace_s)
+            begun_s = time.monotonic()
+            code = self.wait(grace_s)
+            while code is None and time.monotonic() - begun_s < longest_s and lives():
+                code = self.wait(STOPPING_LOOK_S)
+            if code is None:
+                waited_s = time.monotonic() - begun_s
+                log.warning("%s did not stop within %.0f s and was ended", self.name, waited_s)
                 with contextlib.suppress(OSError):
                     self._popen.kill()
         self._children_ended.wait(KILL_S)

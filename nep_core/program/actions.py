@@ -7,6 +7,7 @@ crashed node costs a second, not the show.
 
 from __future__ import annotations
 
+import contextlib
 import threading
 import time
 import uuid
@@ -14,7 +15,7 @@ from dataclasses import dataclass, field
 from functools import partial
 from typing import Any
 
-from nep_core.errors import ActionFailed, RobotNotAnswering
+from nep_core.errors import ActionFailed, NepError, RobotNotAnswering
 from nep_core.networks.network import Network
 from nep_core.networks.transports import default_network
 from nep_core.wire.messages import ACTION_REQUEST, ACTION_RESULT, ActionRequest, ActionResult
@@ -25,6 +26,13 @@ from .tasks import POLL_S, Cancelled, Stamp, current_task
 ASK_AGAIN_S = 1.0
 SILENCE_S = 5.0
 """A robot that says nothing about a request for so long does not answer."""
+RENEWED_S = 0.3
+"""So often is asked again for what ends unless it is; a robot stands when that is late by 0.7 s."""
+UNLESS_ASKED_S = 1.0
+"""What is renewed ends by itself when it was not asked for again for so long."""
+UNANSWERED_S = 2.0
+"""What a robot has said nothing about for so long is renewed no more: it has ended by itself, and
+a robot whose action node was started anew meanwhile must not begin it again."""
 STOPPING_S = 0.1
 """Who stops robots stops the program next: so long it begins nothing after a cancelled action."""
 
@@ -68,6 +76,8 @@ class ActionClient:
         self.last_done: dict[str, Stamp] = {}
         """When each robot last told of an end that was waited for."""
         self._calls: dict[str, Call] = {}
+        self._renewed: dict[str, Call] = {}
+        self._renewing = threading.Lock()
         self._requests = Publisher(ACTION_REQUEST, network=network)
         self._results = Subscriber(
             ACTION_RESULT, ActionResult, network=network, callback=self._on_result
@@ -115,6 +125,45 @@ class ActionClient:
         stop = partial(self.send, robots, "stop", {"request": request})
         current_task().undo[action, *robots] = stop
         return request
+
+    def begin_renewed(self, robots: list[str], action: str, args: dict[str, Any]) -> str:
+        """The same, of an action that ends by itself soon after this program is gone.
+
+        It is asked for again and again, until it has ended or this part is cancelled.
+        """
+        args = {**args, "unless_asked_s": UNLESS_ASKED_S}
+        request = ActionRequest(id=uuid.uuid4().hex, robots=robots, action=action, args=args)
+        call = self._calls[request.id] = Call(request)
+        call.heard_s = dict.fromkeys(robots, time.monotonic())
+        self._requests.send(request)
+        with self._renewing:
+            is_first = not self._renewed
+            self._renewed[request.id] = call
+        if is_first:
+            threading.Thread(target=self._renew, name="nep-renewing", daemon=True).start()
+        current_task().undo[action, *robots] = partial(self._end_renewed, robots, request.id)
+        return request.id
+
+    def _end_renewed(self, robots: list[str], request_id: str) -> None:
+        with self._renewing:  # nothing asks for it again behind this
+            if self._renewed.pop(request_id, None):
+                del self._calls[request_id]
+            self.send(robots, "stop", {"request": request_id})
+
+    def _renew(self) -> None:
+        """Ask again for all that is renewed, as long as there is something."""
+        while True:
+            time.sleep(RENEWED_S)
+            unanswered_s = time.monotonic() - UNANSWERED_S
+            with self._renewing:
+                for request_id, call in [*self._renewed.items()]:
+                    if call.ended.is_set() or call.silent(unanswered_s):
+                        del self._renewed[request_id], self._calls[request_id]
+                    else:
+                        with contextlib.suppress(NepError):  # when it leaves the network just now
+                            self._requests.send(call.request)
+                if not self._renewed:
+                    return
 
     def end(self, robots: list[str], action: str, request_id: str) -> None:
         """End an action that was begun in this part of the program."""

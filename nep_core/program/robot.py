@@ -291,10 +291,11 @@ class Robot:
     def start_walking(self, forward: float, left: float = 0.0, turn: float = 0.0) -> None:
         """Walk on and on, each speed in percent of the highest; does not wait.
 
-        It ends with ``stop_moving``, or as soon as the legs are asked for something else.
+        It ends with ``stop_moving``, as soon as the legs are asked for something else, and about
+        a second after this program is gone, however that ended.
         """
         speeds = {"forward": forward / 100, "left": left / 100, "turn": turn / 100}
-        self._client.begin(self.robots, "walk_freely", speeds)
+        self._client.begin_renewed(self.robots, "walk_freely", speeds)
 
     def stop_moving(self) -> None:
         """Stop what moves joints, at once; what is said goes on. Does not wait."""

@@ -113,14 +113,15 @@ def run(
         from robots.naoqi.driver.driver import NaoqiDriver  # the virtual one needs none of it
 
         link = NaoqiDriver(known, address, takes_over=take_over)
-    actor = Actor(robot, link)
+    is_real = driver == "naoqi"
+    pace = 1.0 if is_real else speed
+    actor = Actor(robot, link, pace=pace)
     results = node.publisher(ACTION_RESULT)
     requests = node.subscriber(ACTION_REQUEST, ActionRequest)
     senses = node.subscriber(SENSE_REQUEST, SenseRequest)
     expected = node.subscriber(EXPECTED_WORDS, ExpectedWords)
     around = node.subscriber(SURROUNDINGS, Surroundings)
     states = node.publisher(HUMAN_BEHAVIOR)
-    is_real = driver == "naoqi"
     report = _StateReport(node, link, REAL_STATE_S if is_real else RESTING_STATE_S)
     offering = _offering(actor, link, naoqi_port, folder)
     link.connect()
@@ -133,7 +134,7 @@ def run(
         resting_s = QUICK_LOOP_S if offering.is_on or is_real else RESTING_LOOP_S
         heard = _heard(requests, MOVING_LOOP_S if link.moving else resting_s)
         with offering.lock:
-            now_s = (time.monotonic() - start_s) * (1.0 if is_real else speed)
+            now_s = (time.monotonic() - start_s) * pace
             for news in list(around.pending())[-1:]:
                 link.surroundings(news.things)
             for wanted in list(expected.pending())[-1:]:

@@ -30,11 +30,15 @@ FINAL: frozenset[ActionState] = frozenset({"done", "failed", "cancelled"})
 
 
 class Actor:
-    """Requests in, results out; every accepted request ends in one of done, failed, cancelled."""
+    """Requests in, results out; every accepted request ends in one of done, failed, cancelled.
 
-    def __init__(self, robot: str, driver: Driver) -> None:
+    ``pace``: how many seconds of the robot pass in one second of those who ask.
+    """
+
+    def __init__(self, robot: str, driver: Driver, *, pace: float = 1.0) -> None:
         self.robot = robot
         self.driver = driver
+        self._pace = pace
         self.schedule = Schedule()
         self._last_result: dict[str, ActionResult] = {}
         self._now_s = 0.0
@@ -131,7 +135,7 @@ class Actor:
             id
             for id, asked_s in self._asked_s.items()
             if isinstance(walk := walks[id], WalkFreely)
-            and self._now_s - asked_s > walk.unless_asked_s
+            and self._now_s - asked_s > walk.unless_asked_s * self._pace
         ]
         return self._end(forsaken, "cancelled", "nobody asked for it any more")
 

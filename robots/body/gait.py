@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import functools
 import math
-from collections.abc import Collection, Generator, Iterator
+from collections.abc import Collection, Generator
 from concurrent.futures import ThreadPoolExecutor, wait
 from dataclasses import dataclass
 
@@ -50,6 +50,8 @@ INWARD_M = 0.012
 GRAVITY_M_S2 = 9.81
 FASTEST_PART = 0.93
 """Steps for which a joint would have to be faster than this part of its top speed take longer."""
+ROUNDED_STEPS = 1e-6
+"""By so much numbers of NAOqi, which have 24 bits, make a way longer than whole steps."""
 TRIES = 6
 CORRECTIONS = 3
 FILTER_S = 1.5
@@ -63,6 +65,7 @@ class Walk:
     ``base`` (ticks, 3) is the middle between the feet, ``torso`` (ticks, 3) where the torso is;
     both are relative to where the walk starts, x pointing forward. ``lean`` (3, 3) is how the
     torso leans while it walks. ``weight`` (ticks, 2) is where the floor is to carry the robot.
+    ``stops`` (steps + 1, 3) is where the base is after each step, and ``step_s`` how long each is.
     """
 
     legs: Motion
@@ -70,6 +73,8 @@ class Walk:
     torso: Angles
     lean: Frames
     weight: Angles
+    stops: Angles
+    step_s: float
 
 
 @dataclass(frozen=True)
@@ -102,30 +107,34 @@ def plan_walk(
     ``body`` is whose legs they are, ``forward_m`` and ``left_m`` how far, ``at_least_steps``
     the fewest steps.
     """
-    way = np.array([forward_m, left_m, turn])
-    steps = max(at_least_steps, math.ceil(float(np.max(np.abs(way) / _LONGEST_STEP)) - 1e-9))
+    stops = _even_stops(np.array([forward_m, left_m, turn]), at_least_steps)
     step_s = STEP_S
     for _ in range(TRIES):
-        angles, walk = _walk(body, standing, way, steps, step_s)
+        angles, walk = _walk(body, standing, stops, step_s)
         part = _fastest_part(body, standing, angles)
         if part <= FASTEST_PART:
             break
-        step_s *= part / FASTEST_PART
+        # whole ticks, so that a walk can be followed by another one in the middle
+        step_s = math.ceil(step_s * part / FASTEST_PART / TICK_S - 1e-9) * TICK_S
     return walk
 
 
-def _walk(
-    body: Body, standing: Angles, way: Angles, steps: int, step_s: float
-) -> tuple[Angles, Walk]:
-    """Return a walk of so many steps, and the angles of every joint in it."""
+def _even_stops(way: Angles, at_least_steps: int = 1) -> Angles:
+    """Return where the base is after each of the steps that go a way evenly."""
+    steps = max(at_least_steps, math.ceil(_steps(way) - ROUNDED_STEPS))
+    return np.linspace(0.0, 1.0, steps + 1)[:, None] * way
+
+
+def _walk(body: Body, standing: Angles, stops: Angles, step_s: float) -> tuple[Angles, Walk]:
+    """Return a walk with the base at ``stops``, and the angles of every joint in it."""
     skeleton = Skeleton(body)
     lean = skeleton.resting_turn(standing)
-    feet = _feet(way / steps, steps, step_s, leg_sizes(body).hip_left)
+    feet = _feet(stops, step_s, leg_sizes(body).hip_left)
     frames = skeleton.transforms(standing)
     middle = lean @ skeleton.feet_middle(frames)
     offset = lean @ skeleton.mass_centre(frames)
     base = np.column_stack([(feet.places["L"] + feet.places["R"])[:, :2] / 2.0, feet.yaw])
-    base[-1] = way
+    base[-1] = stops[-1]
     ends = base[[0, -1], :2] + _turned(base[[0, -1], 2], np.tile((offset - middle)[:2], (2, 1)))
     wanted = _swayed(feet.weight, float(offset[2] - middle[2]), ends)
     angles = np.repeat(standing[None, :], len(base), axis=0)
@@ -137,7 +146,8 @@ def _walk(
     columns = tuple(body.columns({Limb.LEGS}))
     angles, _ = body.clamped(angles)
     torso = np.column_stack([path.torso, path.yaw])
-    return angles, Walk(Motion(columns, angles[:, columns]), base, torso, lean, feet.weight)
+    legs = Motion(columns, angles[:, columns])
+    return angles, Walk(legs, base, torso, lean, feet.weight, stops, step_s)
 
 
 @dataclass
@@ -174,7 +184,8 @@ def _fastest_part(body: Body, standing: Angles, angles: Angles) -> float:
     return float((steps / TICK_S / body.max_speed).max())
 
 
-def _feet(step: Angles, steps: int, step_s: float, hip_left_m: float) -> _Feet:
+def _feet(stops: Angles, step_s: float, hip_left_m: float) -> _Feet:
+    steps = len(stops) - 1
     swings = steps + 1
     times_s = ticks(2.0 * LEAVING_S + swings * step_s, TICK_S)
     swing_s = step_s * (1.0 - BOTH_FEET_PART)
@@ -185,8 +196,9 @@ def _feet(step: Angles, steps: int, step_s: float, hip_left_m: float) -> _Feet:
         landings = np.array([0.0, *np.minimum(own + 1.0, steps)])
         gone, part = _in_turn(times_s, begins_s[own], swing_s, landings)
         height = np.sin(np.pi * part) ** 2 * FOOT_LIFT_M
-        places[side], yaws[side] = _foot(gone, step, sign * hip_left_m, height), gone * step[2]
-        middle = _foot(gone, step, sign * (hip_left_m - INWARD_M), height)
+        base = _base_after(gone, stops)
+        places[side], yaws[side] = _foot(base, sign * hip_left_m, height), base[:, 2]
+        middle = _foot(base, sign * (hip_left_m - INWARD_M), height)
         heading = np.column_stack([np.cos(yaws[side]), np.sin(yaws[side])])
         stands[side] = middle[:, :2] + SOLE_MIDDLE_M * heading
     # The weight is carried between the feet, then on each standing one in turn
@@ -201,11 +213,16 @@ def _feet(step: Angles, steps: int, step_s: float, hip_left_m: float) -> _Feet:
     return _Feet(places, yaws, weight)
 
 
-def _foot(gone: Angles, step: Angles, left_m: float, height: Angles) -> Points:
-    """Return where a foot is that has gone so many steps, ``left_m`` beside the way."""
-    yaw = gone * step[2]
-    x, y = gone * step[0] - left_m * np.sin(yaw), gone * step[1] + left_m * np.cos(yaw)
-    return np.column_stack([x, y, height])
+def _base_after(gone: Angles, stops: Angles) -> Angles:
+    """Return where the base is after so many steps, also within one."""
+    numbers = np.arange(len(stops))
+    return np.column_stack([np.interp(gone, numbers, stops[:, axis]) for axis in range(3)])
+
+
+def _foot(base: Angles, left_m: float, height: Angles) -> Points:
+    """Return where a foot is ``left_m`` beside the base."""
+    x, y, yaw = base.T
+    return np.column_stack([x - left_m * np.sin(yaw), y + left_m * np.cos(yaw), height])
 
 
 def _in_turn(
@@ -408,19 +425,102 @@ def walk(
         return ""
     if not robot.stance.skeleton.soles:
         return (yield from _roll(robot, way))
-    yield from go(robot, WALKING_POSTURE, {Limb.LEGS})
-    robot.posture = WALKING_POSTURE
-    plan = yield from _planned_walk(robot, way, at_least_steps)
-    start, steps = robot.base, play_motion(robot, plan.legs)
-    for guide, place, _ in zip(_guides(robot, plan), plan.base, steps, strict=True):
-        robot.stance.guide = guide
-        robot.base = moved_base(start, place)
-        if what := bump(robot, way):
-            yield from _end_step(robot)
-            raise ActionFailed(_bumped(robot, what, start))
-        yield
-    robot.base = moved_base(start, way)
+    robot.going = going = _Going(robot, way)
+    try:
+        yield from go(robot, WALKING_POSTURE, {Limb.LEGS})
+        robot.posture = WALKING_POSTURE
+        first = robot.base
+        yield from going.begin(at_least_steps)
+        while going.step():
+            if what := bump(robot, going.way):
+                yield from _end_step(robot)
+                raise ActionFailed(_bumped(robot, what, first))
+            yield
+    finally:
+        robot.going = None
     return ""
+
+
+class _Going:
+    """A walk under way: its plan, where that starts on the floor, and the tick that is next.
+
+    ``way`` is what was asked for last.
+    """
+
+    def __init__(self, robot: VirtualRobot, way: Angles) -> None:
+        self.way = way
+        self._robot = robot
+        self._plan: Walk | None = None
+
+    def begin(self, at_least_steps: int) -> Task:
+        """Plan it, for what was asked for last."""
+        planned = None
+        while planned is not self.way:
+            planned = self.way
+            plan = yield from _planned_walk(self._robot, planned, at_least_steps)
+        self._follow(plan, self._robot.base, 0)
+        return ""
+
+    def step(self) -> bool:
+        """Go on by a tick; whether the walk was not over yet."""
+        plan, tick, robot = self._plan, self._tick, self._robot
+        if plan is None or tick == len(plan.base):
+            return False
+        share = min((tick - self._since) * TICK_S / MERGING_S, 1.0)
+        missing = 1.0 - float(minimum_jerk(np.array([share]))[0])
+        robot.angles[list(plan.legs.columns)] = plan.legs.angles[tick] + missing * self._bent
+        x, y, yaw = moved_base(self._start, plan.torso[tick])
+        x, y = (x, y) + missing * self._beside
+        robot.stance.guide = Carried(turned(float(yaw)) @ plan.lean, float(x), float(y))
+        robot.base = moved_base(self._start, plan.base[tick])
+        self._tick += 1
+        return True
+
+    def replace(self, way: Angles) -> bool:
+        """Go ``way`` from where the step under way ends, instead of what was left to go.
+
+        False when that cannot be: it has no step left but the one that puts its feet side by
+        side, or it would have to be too fast.
+        """
+        plan, robot = self._plan, self._robot
+        if plan is None:
+            self.way = way
+            return True
+        begun = math.floor((self._tick * TICK_S - LEAVING_S) / plan.step_s)
+        if begun >= len(plan.stops) - 1 or _steps(way) > QUICKLY_PLANNED_STEPS:
+            return False
+        # Steps that are over are left out, a left and a right one, but for those still felt
+        over = max(0, (begun - 2) // 2 * 2)
+        fixed = np.array([_seen_from(plan.stops[over], one) for one in plan.stops[over:]])
+        fixed = fixed[: max(begun, -1) + 2 - over]
+        more = [moved_base(fixed[-1], one) for one in _even_stops(way)[1:]]
+        standing = _standing(robot)
+        angles, new = _walk(robot.body, standing, np.array([*fixed, *more]), plan.step_s)
+        if _fastest_part(robot.body, standing, angles) > 1.0:
+            return False
+        tick = self._tick - round(over * plan.step_s / TICK_S)
+        self._follow(new, moved_base(self._start, plan.stops[over]), tick)
+        self.way = way
+        return True
+
+    def _follow(self, plan: Walk, start: Angles, tick: int) -> None:
+        """Follow a plan from a tick on, coming softly from where the robot is."""
+        robot, last = self._robot, max(tick - 1, 0)
+        self._plan, self._start, self._tick, self._since = plan, start, tick, tick
+        self._beside = robot.stance.place[:2] - moved_base(start, plan.torso[last])[:2]
+        here = robot.angles[list(plan.legs.columns)]
+        self._bent = here - plan.legs.angles[last] if tick else np.zeros_like(here)
+
+
+def _steps(way: Angles) -> float:
+    return float(np.max(np.abs(way) / _LONGEST_STEP))
+
+
+def _seen_from(base: Angles, other: Angles) -> Angles:
+    """Return a base as a way from another one, what moved_base undoes."""
+    x, y, turn = other - base
+    cosine, sine = math.cos(base[2]), math.sin(base[2])
+    return np.array([x * cosine + y * sine, y * cosine - x * sine, turn])
 
 
 def is_stepping(robot: VirtualRobot) -> bool:
@@ -433,7 +533,7 @@ def _planned_walk(
 ) -> Generator[None, None, Walk]:
     """Return the plan of a walk; a long one is made while the robot stands and can be asked."""
     plan = functools.partial(plan_walk, robot.body, _standing(robot), *way.tolist())
-    if float(np.max(np.abs(way) / _LONGEST_STEP)) <= QUICKLY_PLANNED_STEPS:
+    if _steps(way) <= QUICKLY_PLANNED_STEPS:
         return plan(at_least_steps=at_least_steps)
     worker = ThreadPoolExecutor(1)
     try:
@@ -501,18 +601,6 @@ def _roll(robot: VirtualRobot, way: Angles) -> Task:
             raise ActionFailed(_bumped(robot, what, start))
         yield
     return ""
-
-
-def _guides(robot: VirtualRobot, plan: Walk) -> Iterator[Carried]:
-    """Yield where the torso is at each tick of a walk from here."""
-    start = robot.base
-    first = moved_base(start, plan.torso[0])
-    missing = robot.stance.place[:2] - first[:2]
-    joined = minimum_jerk(np.clip(np.arange(len(plan.torso)) * TICK_S / MERGING_S, 0.0, 1.0))
-    for place, part in zip(plan.torso, joined, strict=True):
-        x, y, yaw = moved_base(start, place)
-        x, y = (x, y) + (1.0 - part) * missing
-        yield Carried(turned(float(yaw)) @ plan.lean, float(x), float(y))
 
 
 def _bumped(robot: VirtualRobot, what: str, start: Angles) -> Text:

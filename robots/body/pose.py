@@ -6,6 +6,7 @@ import tempfile
 from collections.abc import Iterable
 from dataclasses import dataclass, field
 from pathlib import Path
+from typing import Protocol
 
 import numpy as np
 
@@ -77,6 +78,13 @@ AT_START: dict[str, bool | float | str] = {
 """How a robot is set when it starts."""
 
 
+class Going(Protocol):
+    """A walk under way."""
+
+    def replace(self, way: Angles) -> bool:
+        """Go another way (m, m, rad) after the step under way; False when that cannot be."""
+
+
 @dataclass
 class VirtualRobot:
     """One robot and its present state, which tasks change tick by tick.
@@ -91,7 +99,7 @@ class VirtualRobot:
     bumpers with which it ran into something; ``battery``: 0 to 1. ``model``: which robot it is,
     as RobotState has it. ``passed``: the key poses that it has reached since its posture, on the
     way ``towards`` another one. ``faces``: whom it knows by name. ``files``: the folder where it
-    keeps its pictures and videos.
+    keeps its pictures and videos. ``going``: the walk under way.
     """
 
     name: str
@@ -119,6 +127,7 @@ class VirtualRobot:
     faces: Faces = field(default_factory=Faces)
     files: Path = field(default_factory=lambda: Path(tempfile.gettempdir()) / "robot")
     stance: Stance = field(init=False)
+    going: Going | None = None
     settings: dict[str, bool | float | str] = field(default_factory=lambda: dict(AT_START))
 
     def __post_init__(self) -> None:

@@ -99,6 +99,10 @@ class ServedRobot:
         with self.lock:
             return [*self.actor.schedule.running, *self.actor.schedule.waiting]
 
+    def is_asked_here(self, command: Command) -> bool:
+        """Whether it was asked for here, not over the network of the studio."""
+        return command.id in self._on_end
+
     def when(self, condition: Condition, call: Callable[[], None]) -> Callable[[], bool]:
         """Call something once, as soon as a condition holds; the return value ends the wait.
 

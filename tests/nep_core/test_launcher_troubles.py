@@ -6,6 +6,7 @@ import os
 import signal
 import sys
 import threading
+import time
 from pathlib import Path
 from typing import Any
 
@@ -155,3 +156,33 @@ def test_a_log_that_cannot_be_written_does_not_hurt_the_node(
     write_node(tmp_path / "nodes", "talker", f"print('x' * 100_000, flush=True)\n{WAIT}")
 
     launcher.start("sensory/talker").wait_ready()
+
+
+SLOW_END = """
+while not node.wait(1):
+    pass
+time.sleep(5)
+print("finished", flush=True)
+"""
+
+
+@pytest.mark.skipif(not hasattr(signal, "SIGSTOP"), reason="there are no such signals here")
+@pytest.mark.parametrize("stands_still", [False, True])
+def test_only_a_node_that_lives_gets_the_time_that_its_manifest_asks_for(
+    launcher: Launcher, tmp_path: Path, stands_still: bool
+) -> None:
+    code = "node.ready('waits')" + SLOW_END
+    write_node(tmp_path / "nodes", "slow", code, manifest="stop_s = 60")
+    launched = launcher.start("sensory/slow")
+    launched.wait_ready()
+    process = launched.process
+    assert process is not None
+    if stands_still:
+        os.kill(launched.pid, signal.SIGSTOP)
+
+    asked_s = time.monotonic()
+    launcher.stop("slow")
+
+    assert time.monotonic() - asked_s < 30.0
+    assert ("finished" in process.last_lines) is not stands_still
+    assert process.poll() is not None

@@ -11,7 +11,7 @@ from nep_core.networks.zmq_networks import PeerNetwork
 from nep_core.program import tasks
 from nep_core.program.behavior import Behavior
 from nep_core.program.human import state_of_word
-from nep_core.program.tasks import wait, wait_until
+from nep_core.program.tasks import current_task, wait, wait_until
 from tests.nep_core.outside import Outside, seen
 
 
@@ -154,3 +154,21 @@ def test_a_wrong_answer_to_a_question_for_a_number_is_asked_again(
         person.join()
 
     assert outside.nao.words() == ["How many?"] * questions
+
+
+def test_a_walk_is_asked_for_again_until_it_ends_and_not_when_nobody_answers(
+    outside: Outside, network: PeerNetwork
+) -> None:
+    outside.nao.end = None
+    asked = outside.nao.times_asked
+    outside.robot.start_walking(50)
+    wait_until(lambda: max(asked.values(), default=0) > 3, 10)
+    assert max(asked.values()) > 3
+
+    outside.nao.end = "cancelled"  # as when the robot's own stop button was pressed
+    wait(1.5)
+    before = dict(asked)
+    wait(1.0)
+
+    assert asked == before
+    current_task().end_undone()

@@ -176,7 +176,8 @@ LOOKS: dict[str, Look] = {
     "robot_moves.start_walking": Look(
         "where it stands after a while",
         lambda seen: seen.way()[0] > 0.1,
-        then=(B("control.wait", {"seconds": 2.0}),),
+        # A driver joins its legs in real time: on a robot that lives faster it stands after each
+        then=(B("control.wait", {"seconds": 3.0}),),
     ),
     "robot_moves.stop_moving": Look(
         "that it stands still, and speaks on",

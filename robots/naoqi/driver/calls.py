@@ -110,16 +110,24 @@ class Calls:
         try:
             while not pending.done:
                 if time.monotonic() > end_s:
-                    raise ActionFailed(
-                        "{robot} did not end in time what it was asked ({method}). Look whether "
-                        "something holds it, and try again.",
-                        robot=self.robot,
-                        method=method,
-                    )
+                    raise self.late(method)
                 yield
         finally:
             if not pending.done and method not in FINISHED:
                 self._end(pending, service, method, uses)
+        return (yield from self.answer_of(pending))
+
+    def late(self, method: str) -> ActionFailed:
+        """What is told of a robot that does not end a call in time."""
+        return ActionFailed(
+            "{robot} did not end in time what it was asked ({method}). Look whether something "
+            "holds it, and try again.",
+            robot=self.robot,
+            method=method,
+        )
+
+    def answer_of(self, pending: Pending) -> Calling:
+        """Return the answer to a call that has ended. Raises ActionFailed: the robot's words."""
         lost_s = time.monotonic() + STOPPED_S
         while isinstance(pending.failure, NoConnection) and time.monotonic() < lost_s:
             yield  # who keeps the link hears of it too, and says it better

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import time
 from collections.abc import Collection
 from dataclasses import dataclass
 
@@ -17,6 +18,7 @@ from robots.body.motor_tasks import HOLDS, SIDES, check_release
 from robots.body.schedule import Task, is_over
 from robots.body.tasks import DOES_NOT_STAND, check_fit_to_walk
 from robots.errors import ActionFailed
+from robots.naoqi.wire.promise import Pending
 
 from .calls import Calling
 from .real import LIFE_OFF, RealRobot
@@ -371,10 +373,18 @@ SLOWEST_M_S = 0.03
 SLOWEST_RAD_S = 0.12
 LONGEST_TURN_RAD = 2.6
 """NAOqi takes the short way round: it must not be asked for more than half a turn."""
+LONGEST_LEG_M = 0.5
+"""A longer way is walked in legs: without this driver the robot stands at the end of one."""
 STEP_LEG = (0.04, 0.03, 0.2)
 """How far a robot on feet walks freely at once (m, m, rad): one step of each kind."""
+RENEWED_S = 0.4
+"""So often that is asked for anew: a step takes 0.42 s, and who is late lets the robot stand."""
+AGAIN_S = 0.05
+"""One that stands is asked so soon after it has said so."""
+MOST_BEGUN = 20
+"""Robots may answer all of these when they stand, and keep a thread for each until then."""
 WHEEL_LEG = (0.12, 0.12, 0.4)
-"""The same for one on wheels."""
+"""How far one on wheels drives freely at once."""
 LEG_S = 10.0
 OFF_M, OFF_PART = 0.08, 0.25
 LOOKING_SPEED, POINTING_SPEED = 0.3, 0.3
@@ -396,10 +406,7 @@ def walk(robot: RealRobot, forward_m: float, left_m: float, turn: float) -> Task
     if not (forward_m or left_m or turn):
         return ""
     start = yield from _place(robot)
-    pieces = max(1, math.ceil(abs(turn) / LONGEST_TURN_RAD))
-    # All of the way is in the first of several equal parts of a turn
-    first = (float(forward_m), float(left_m), turn / pieces)
-    for way in (first, *[(0.0, 0.0, turn / pieces)] * (pieces - 1)):
+    for way in legs_of(forward_m, left_m, turn):
         limit_s = 15.0 + math.hypot(*way[:2]) / SLOWEST_M_S + abs(way[2]) / SLOWEST_RAD_S
         yield from robot.call("ALMotion", "moveTo", *way, limit_s=limit_s, uses=robot.names(MOVING))
     end = yield from _place(robot)
@@ -409,8 +416,22 @@ def walk(robot: RealRobot, forward_m: float, left_m: float, turn: float) -> Task
     return ""
 
 
+def legs_of(forward_m: float, left_m: float, turn: float) -> list[tuple[float, float, float]]:
+    """Return a way (m, m, rad) as legs that are walked one after the other."""
+    turns = max(1, math.ceil(abs(turn) / LONGEST_TURN_RAD))
+    # All of the way is in the first of several equal parts of a turn
+    first, count = turn / turns, max(1, math.ceil(math.hypot(forward_m, left_m) / LONGEST_LEG_M))
+    legs = []
+    for number in range(count):  # each is seen from where the robot looks to at its beginning
+        gone = first * number / count
+        x = forward_m * math.cos(gone) + left_m * math.sin(gone)
+        y = left_m * math.cos(gone) - forward_m * math.sin(gone)
+        legs.append((x / count, y / count, first / count))
+    return legs + [(0.0, 0.0, first)] * (turns - 1)
+
+
 def walk_freely(robot: RealRobot, action: a.WalkFreely) -> Task:
-    """Walk on and on, in short legs: without this driver the robot stands after the last one.
+    """Walk on and on, by short legs: without this driver the robot stands after the last one.
 
     NAOqi's moveToward would have no end when this process or the network is gone, and nothing that
     a NAO has by itself would end it.
@@ -419,10 +440,38 @@ def walk_freely(robot: RealRobot, action: a.WalkFreely) -> Task:
     parts = float(action.forward), float(action.left), float(action.turn)
     if not any(parts):
         return ""
-    longest = STEP_LEG if robot.known.stance.skeleton.soles else WHEEL_LEG
+    on_feet = bool(robot.known.stance.skeleton.soles)
+    longest = STEP_LEG if on_feet else WHEEL_LEG
     leg = [part * most for part, most in zip(parts, longest, strict=True)]
+    if on_feet:
+        return (yield from _step_on(robot, leg))
     while True:
         yield from robot.call("ALMotion", "moveTo", *leg, limit_s=LEG_S, uses=robot.names(MOVING))
+
+
+def _step_on(robot: RealRobot, leg: list[float]) -> Task:
+    """Ask for the next leg before the last one has ended: NAOqi goes over to it in its steps.
+
+    Its documentation has this as an example: a second moveTo is seen from where the steps end that
+    cannot be changed any more, and takes the place of the others.
+    """
+    begun: list[Pending] = []
+    asked_s = -math.inf
+    try:
+        while True:
+            for pending in [one for one in begun if one.done]:
+                begun.remove(pending)
+                yield from robot.calls.answer_of(pending)
+            pause_s = RENEWED_S if begun else AGAIN_S
+            if time.monotonic() >= asked_s + pause_s and len(begun) < MOST_BEGUN:
+                asked_s = time.monotonic()
+                begun.append(robot.calls.begin("ALMotion", "moveTo", *leg))
+            if time.monotonic() > asked_s + LEG_S:
+                raise robot.calls.late("moveTo")
+            yield
+    finally:
+        if begun:
+            robot.calls.stop_walking()
 
 
 def look(robot: RealRobot, yaw: float, pitch: float) -> Task:

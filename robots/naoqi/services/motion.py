@@ -9,6 +9,8 @@ from collections.abc import Callable, Sequence
 from itertools import pairwise
 from typing import Any
 
+import numpy as np
+
 from robots.body.actions import Approach, Turn, Walk, WalkFreely
 from robots.body.gait import STEP_FORWARD_M, STEP_LEFT_M, STEP_S, STEP_TURN_RAD
 from robots.body.keyframes import SHORTEST_STEP_S
@@ -18,7 +20,7 @@ from robots.body.motor_tasks import stiffness
 from robots.body.schedule import Command
 from robots.naoqi.serving import ServedRobot
 from robots.naoqi.wire.errors import CallFailed
-from robots.naoqi.wire.promise import Promise
+from robots.naoqi.wire.promise import Pending, Promise
 from robots.naoqi.wire.service import method
 
 from .arguments import (
@@ -78,6 +80,8 @@ class ALMotion(Module):
         self._ends = Ends(robot)
         self._next_change_s = 0.0
         self._end_waiting: Callable[[], bool] = lambda: False
+        self._along: Pending | None = None
+        """A walk by several places, which is walked to its end."""
 
     # Names, limits, tasks, and what it only remembers
 
@@ -227,11 +231,42 @@ class ALMotion(Module):
 
     @method("moveTo::b(m)", "moveTo::b(mm)", "walkTo::b(m)")
     def move_along(self, points: Any, config: Any = ()) -> Any:
-        """Walk by one or several places, each x m, y m, theta rad from where it starts."""
+        """Walk by one or several places, each x m, y m, theta rad from where it starts.
+
+        A place that is asked for in a walk to another one takes that one's place: the robot goes
+        there from where the step under way ends, without standing in between.
+        """
         _check_config(config)
         places = [(0.0, 0.0, 0.0), *_places(points)]
+        if len(places) == 2 and self._goes_elsewhere(places[1]):
+            promise = Promise(lambda: self._robot.stop(_is_walk))
+            self._robot.when(lambda: not self.move_is_active(), lambda: _settle(promise))
+            return promise.future
+        self._robot.stop(lambda command: self._is_own_walk(command) and command in self._waiting())
         ways = [("walk", _way(here, there)) for here, there in pairwise(places)]
-        return play_script(self._robot, one_by_one(ways), True, stopped=False)
+        walking = play_script(self._robot, one_by_one(ways), True, stopped=False)
+        if len(ways) > 1:
+            self._along = walking
+        return walking
+
+    def _waiting(self) -> tuple[Command, ...]:
+        return self._robot.actor.schedule.waiting
+
+    def _is_own_walk(self, command: Command) -> bool:
+        return isinstance(command.action, Walk) and self._robot.is_asked_here(command)
+
+    def _goes_elsewhere(self, place: Sequence[float]) -> bool:
+        """Let a walk to a place go to another one; False when there is none that can."""
+        with self._robot.lock:
+            going = self._robot.robot.going
+            is_going = any(map(self._is_own_walk, self._robot.actor.schedule.running))
+            is_one_way = self._along is None or self._along.done
+            return (
+                is_going
+                and is_one_way
+                and going is not None
+                and going.replace(np.array(place, dtype=float))
+            )
 
     @method("move::v(fff)", "move::v(fffm)")
     def move(self, x: float, y: float, theta: float, config: Any = ()) -> None:
@@ -582,6 +617,14 @@ def _number(command: Command) -> int:
 
 def _is_walk(command: Command) -> bool:
     return isinstance(command.action, (Walk, Turn, WalkFreely))
+
+
+def _settle(promise: Promise) -> None:
+    """Answer who walked: the robot stands, there or where it was stopped."""
+    if promise.is_cancelled:
+        promise.cancelled()
+    else:
+        promise.set(True)
 
 
 def _way(here: Sequence[float], there: Sequence[float]) -> dict[str, float]:

@@ -258,6 +258,38 @@ def test_a_robot_behind_naoqi_does_what_programs_ask(theatre: Theatre, free_port
     assert robot.posture() == "Sit"
 
 
+WALKS_ON = """
+from nep_core import Robot, wait
+Robot("NAO").start_walking(100)
+wait(600)
+"""
+STANDS_S = 6.0
+"""A second without being asked and the end of a step; the rest is for a slow computer."""
+
+
+@pytest.mark.skipif(not hasattr(signal, "SIGKILL"), reason="there are no such signals here")
+@pytest.mark.parametrize("driver", ["virtual", "naoqi"])
+def test_a_robot_stands_soon_after_its_program_alone_is_killed(
+    theatre: Theatre, tmp_path: Path, free_port: int, driver: str
+) -> None:
+    walking = "NAO"
+    if driver == "naoqi":
+        walking = "Served"
+        theatre.ready(robot=walking, naoqi_port=free_port)
+    theatre.ready(robot="NAO", driver=driver, address=f"127.0.0.1:{free_port}")
+    file = tmp_path / "walks_on.py"
+    file.write_text(WALKS_ON)
+    program = theatre.start_node("cognitive/program", "walks_on", file=str(file))
+    until(theatre.robot_states, lambda one: one.robot == walking and one.base[0] > 0.3)
+
+    os.kill(program.pid, signal.SIGKILL)
+    killed_s = time.monotonic()
+    until(theatre.robot_states, lambda one: one.robot == walking and not one.moving)
+
+    assert time.monotonic() - killed_s < STANDS_S
+    Robot("NAO").walk(0.1)  # the next program has a robot that works
+
+
 def test_a_wrong_address_ends_the_node_with_a_sentence(theatre: Theatre) -> None:
     node = theatre.start(driver="naoqi", address="http://nao")
 

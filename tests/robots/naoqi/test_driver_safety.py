@@ -2,21 +2,26 @@
 
 from __future__ import annotations
 
+import math
 import os
 import signal
 import time
 from collections.abc import Callable, Iterator
 from contextlib import ExitStack
+from pathlib import Path
 
 import pytest
 from driver_stage import DriverStage
 from recording_nao import RecordingNao
 
 from nep_core.networks.zmq_networks import PeerNetwork
-from nep_core.wire.messages import ACTION_REQUEST, ActionRequest
-from nep_core.wire.pubsub import Publisher
+from nep_core.processes.launcher import Launcher
+from nep_core.program.robot import Robot
+from nep_core.program.tasks import current_task
+from nep_core.wire.messages import ACTION_REQUEST, NODE_STATE, ActionRequest, NodeState
+from nep_core.wire.pubsub import Publisher, Subscriber
 from robots.naoqi.discovery import FOLDER_VARIABLE
-from tests.node_running import NodeRunner
+from tests.node_running import NodeRunner, until
 
 KILLS = ("ALMotion.killAll", "ALMotion.killTasksUsingResources", "ALMotion.killTask")
 AT_ONCE = (
@@ -119,6 +124,34 @@ def test_a_free_walk_ends_by_itself_when_the_link_freezes(nao, stages) -> None:
     assert not nao.named("ALMotion.moveToward", "ALMotion.move")
     assert nao.served.state().base == place
     nao.is_frozen = False
+
+
+def test_a_free_walk_goes_on_without_standing_after_each_step(nao, stages) -> None:
+    stage = stages(nao)
+    stage.meet()
+    walking(nao, stage, "walk_freely", forward=1.0)
+
+    begun_m, begun_s = nao.served.state().base[0], time.monotonic()
+    stage.until(lambda: nao.served.state().base[0] > begun_m + 0.4)
+    needed_s = time.monotonic() - begun_s
+    stage.ask("stop", "stop")
+    stage.until(lambda: not stage.driver.moving)
+
+    alone_s = 0.4 / 0.04 * 1.74  # ten legs with a stand after each
+    assert needed_s < 0.7 * alone_s
+    assert not nao.walks and not nao.served.state().fallen
+
+
+def test_a_long_way_is_walked_in_legs_and_ends_where_it_should(quick_nao, stages) -> None:
+    stage = stages(quick_nao)
+    stage.meet()
+
+    end = stage.do("walk", forward_m=1.2, left_m=0.3, turn_deg=60)
+
+    legs = [call.values for call in quick_nao.named("ALMotion.moveTo")]
+    assert end.state == "done" and len(legs) == 3
+    assert all(math.hypot(x, y) <= 0.5 for x, y, _ in legs)
+    assert quick_nao.served.state().base == pytest.approx((1.2, 0.3, math.radians(60)), abs=0.02)
 
 
 def test_a_hot_motor_and_a_low_battery_stop_new_walks(quick_nao, stages) -> None:
@@ -274,3 +307,34 @@ def test_a_robot_stands_soon_after_its_node_is_killed_or_stands_still(
         runner.close()
 
     assert nao.served.state().base == place
+
+
+@pytest.mark.skipif(not hasattr(signal, "SIGSTOP"), reason="there are no such signals here")
+def test_a_robot_whose_node_crashed_in_a_free_walk_stands_and_works_again(
+    nao: RecordingNao, network: PeerNetwork, tmp_path: Path
+) -> None:
+    states = Subscriber(NODE_STATE, NodeState, network=network)
+    robot = Robot("NAO")
+    with Launcher(logs=tmp_path, master=network.master) as launcher:
+        launcher.hear(network)
+        node = launcher.launch("action/nao", "nao", {"driver": "naoqi", "address": nao.address})
+        until(states, lambda told: told.event == "connected")
+        robot.start_walking(100)  # which is asked for again as long as somebody answers
+        until_s = time.monotonic() + 20.0
+        while nao.served.state().base[0] < 0.1:
+            assert time.monotonic() < until_s
+            time.sleep(0.05)
+
+        os.kill(node.pid, signal.SIGKILL)
+        killed_s = time.monotonic()
+        while nao.walks:
+            assert time.monotonic() - killed_s < STANDS_S
+            time.sleep(0.05)
+        place = nao.served.state().base
+        until(states, lambda told: told.event == "connected")
+        time.sleep(1.0)
+
+        assert nao.served.state().base == place
+        robot.walk(0.1)
+        assert nao.served.state().base[0] == pytest.approx(place[0] + 0.1, abs=0.03)
+        current_task().end_undone()

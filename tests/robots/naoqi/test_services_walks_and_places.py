@@ -28,6 +28,34 @@ def test_several_places_are_seen_from_where_the_walk_starts(theatre: NaoqiTheatr
     assert place == pytest.approx([0.1, 0.1, math.pi / 2.0], abs=0.03)
 
 
+def test_a_place_asked_for_in_a_walk_takes_the_place_of_the_first(theatre: NaoqiTheatre) -> None:
+    walking = theatre.service("ALMotion").begin("moveTo", 1.0, 0.0, 0.0)
+    theatre.until(lambda: theatre.state().base[0] > 0.1)
+
+    theatre.call("ALMotion", "moveTo", 0.2, 0.0, -0.5)
+
+    x, y, theta = theatre.call("ALMotion", "getRobotPosition", True)
+    assert walking.result(5.0) is True
+    assert theta == pytest.approx(-0.5, abs=0.02)
+    assert x < 0.8 and y == pytest.approx(0.0, abs=0.02)
+    assert not theatre.call("ALMotion", "moveIsActive") and not theatre.state().fallen
+
+
+def test_a_walk_whose_place_is_changed_again_and_again_does_not_stand_in_between(
+    real_time: NaoqiTheatre,
+) -> None:
+    motion, begun_s = real_time.service("ALMotion"), time.monotonic()
+    while time.monotonic() - begun_s < 6.0:
+        motion.begin("moveTo", 0.04, 0.0, 0.0)
+        time.sleep(0.1)
+    gone_m = motion.call("getRobotPosition", True)[0]
+    motion.call("waitUntilMoveIsFinished")
+
+    legs_alone_m = 0.04 * 6.0 / 1.74
+    assert gone_m > 2.0 * legs_alone_m  # it would be 3.5 times on a quiet computer
+    assert motion.call("getRobotPosition", True)[0] - gone_m < 0.13
+
+
 def test_walking_on_lasts_until_it_is_stopped(theatre: NaoqiTheatre) -> None:
     theatre.call("ALMotion", "moveToward", 1.0, 0.0, 0.0)
     theatre.until(lambda: theatre.state().base[0] > 0.05)

@@ -15,8 +15,6 @@ from pytestqt.qtbot import QtBot
 from nep_core.places import NODES_VARIABLE
 from nep_studio.blocks.edits.content import SetField
 from nep_studio.blocks.operations.copying import copy, paste
-from nep_studio.project.trust import Approvals
-from nep_studio.run.installation import studio_language
 from nep_studio.run.plan import PlannedNode
 from nep_studio.settings import ShowOptions
 from nep_studio.ui.plugins.show import ShowMode
