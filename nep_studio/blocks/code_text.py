@@ -137,6 +137,13 @@ def compile_quietly(text: str) -> CodeType:
         raise CodeTextRefused("Python cannot read this.") from error
 
 
+def parse_lines(text: str) -> ast.Module:
+    """The tree of Python in a block, statements or a value, or raise CodeTextRefused."""
+    tree = _parse(text, "exec")
+    assert isinstance(tree, ast.Module)
+    return tree
+
+
 def _parse(text: str, mode: str) -> ast.Module | ast.Expression:
     try:
         with warnings.catch_warnings(action="ignore"):

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
-from contextlib import contextmanager
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import AbstractContextManager, contextmanager
 from dataclasses import dataclass, field
 
 import msgspec
@@ -22,8 +22,9 @@ from .edits.content import (
     SetField,
 )
 from .edits.placing import CreateBlocks, DeleteBlocks, MoveBlocks
-from .edits.project import AddVariable, RemovePage
+from .edits.project import AddVariable, RemovePage, RenameVariable
 from .errors import EditRefused
+from .generate.renaming import NO_ROBOTS, names_followed
 from .language import Language
 from .places import NewStack, Place
 from .procedures import DEFINE, header_of
@@ -264,6 +265,10 @@ class Editor:
         reason = why_not(edit, self.project, self.language)
         if reason is not None:
             raise EditRefused(reason)
+        if isinstance(edit, RenameVariable | ChangeProcedure):
+            with self.transaction(label or edit.label), self.renaming():
+                self.history.apply(edit)
+            return
         if not isinstance(edit, SetField) or not (followers := self._followers(edit)):
             self.history.apply(edit, label)
             return
@@ -271,6 +276,14 @@ class Editor:
             self.history.apply(edit)
             for slot in followers:
                 self._follow(edit.block, slot)
+
+    def renaming(self, robots: Mapping[str, str] = NO_ROBOTS) -> AbstractContextManager[None]:
+        """What gets another name meanwhile gets it in people's own Python too.
+
+        ``robots`` are the new names of robots by the old ones. Raises EditRefused where a name
+        cannot be written: the transaction around it takes all back.
+        """
+        return names_followed(self.project, self.language, self.apply, robots)
 
     def create(self, block_type: str, place: Place) -> str:
         """Make a block with its default values; gives its id."""

@@ -41,7 +41,8 @@ def lost_lines(
                 return {functions[stack].lineno}
         raise CodeUnread(refused.sentence, 1, checklist=refused.checklist) from refused
     except CodeTextRefused as refused:
-        raise CodeUnread(refused.sentence, 1) from refused
+        checklist = ("Undo the last change of the code.",)
+        raise CodeUnread(refused.sentence, 1, checklist=checklist) from refused
     made = read_source(code.text)
     _require_own_names(source, parts)
     lost = _lost_functions(editor, source, code, made, functions)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 import itertools
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Collection, Iterator, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 
@@ -270,29 +270,13 @@ class ProgramGenerator:
         Own Python may put values into variables, but nothing else has a name that it makes.
         """
         made = frozenset(name for own in outside.values() for name in own.read.set_here)
-        defined = {name for own in outside.values() for name in own.read.defined}
+        defined = frozenset(name for own in outside.values() for name in own.read.defined)
         listed = [entry.name for entry in robot_entries(self._project, self._language)]
         used = set[str]()
         for stack, chain in written.items():
             yield
             used |= self._robots_in(stack, chain)
-        table = NameTable(made)
-        robots: dict[str, str] = {}
-        for name in [*listed, *sorted(used - {ALL_ROBOTS}), ALL_ROBOTS]:
-            if name not in robots:
-                text = "all_robots" if name == ALL_ROBOTS else name.lower()
-                robots[name] = table.give(text, "robot")
-        table = NameTable({*robots.values(), *defined})
-        variables = {v.id: table.give(v.name, "variable") for v in self._project.variables}
-        table = NameTable({*robots.values(), *variables.values(), *made})
-        procedures = {p: table.give(words(self._project.procedures[p]), "block") for p in headers}
-        names = ProgramNames(robots, variables, procedures, outside=made)
-        taken = names.taken()
-        for p in headers:
-            local = NameTable(taken)
-            for parameter in parameters(self._project.procedures[p]):
-                names.parameters[f"{p}.{parameter.id}"] = local.give(parameter.name, "value")
-        return names
+        return give_names(self._project, listed, used, list(headers), made, defined)
 
     def _robots_in(self, stack: str, chain: list[str]) -> frozenset[str]:
         revision = self._project.revisions.get(stack, 0)
@@ -373,6 +357,39 @@ class ProgramGenerator:
             line = f"{identifier} = {show(call('Robot', which))}"
             lines.append((line, entries.get(name, "")))
         return lines
+
+
+def give_names(
+    project: Project,
+    listed: Sequence[str],
+    used: Collection[str],
+    own_blocks: Sequence[str],
+    made: frozenset[str],
+    defined: frozenset[str],
+) -> ProgramNames:
+    """The Python names of a project's robots, variables and own blocks, each its own.
+
+    ``listed`` are the robots of the Robots page, ``used`` those that blocks name, ``own_blocks``
+    the ids of those that are defined; ``made`` are the names to which own Python outside of all
+    functions gives a meaning, ``defined`` those of them that are no plain values.
+    """
+    table = NameTable(made)
+    robots: dict[str, str] = {}
+    for name in [*listed, *sorted(set(used) - {ALL_ROBOTS}), ALL_ROBOTS]:
+        if name not in robots:
+            text = "all_robots" if name == ALL_ROBOTS else name.lower()
+            robots[name] = table.give(text, "robot")
+    table = NameTable({*robots.values(), *defined})
+    variables = {v.id: table.give(v.name, "variable") for v in project.variables}
+    table = NameTable({*robots.values(), *variables.values(), *made})
+    procedures = {p: table.give(words(project.procedures[p]), "block") for p in own_blocks}
+    names = ProgramNames(robots, variables, procedures, outside=made)
+    taken = names.taken()
+    for p in own_blocks:
+        local = NameTable(taken)
+        for parameter in parameters(project.procedures[p]):
+            names.parameters[f"{p}.{parameter.id}"] = local.give(parameter.name, "value")
+    return names
 
 
 def generate_program(project: Project, language: Language) -> Code:

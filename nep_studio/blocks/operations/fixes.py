@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import itertools
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 
 from nep_studio.blocks.checks.diagnostic import Diagnostic
 from nep_studio.blocks.deployment import (
@@ -147,6 +147,36 @@ def use_real_robot(editor: Editor, name: str, address: str, label: str) -> str:
         editor.apply(SetField(block, "driver", REAL))
         editor.apply(SetField(block, "address", address))
     return block
+
+
+def rename_robot(editor: Editor, block: str, name: str) -> None:
+    """Give a robot of the Robots page another name, as one step; raises EditRefused.
+
+    The blocks that name it follow, and the Python that people wrote. They stay where they are
+    while another robot has the old name, or the new one is that of another.
+    """
+    definition = editor.language.definitions[editor.project.blocks[block].type]
+    old = str(definition.value(editor.project.blocks[block], "name"))
+    others = {
+        entry.name
+        for entry in robot_entries(editor.project, editor.language)
+        if entry.block_id != block
+    }
+    is_followed = old.strip() != "" and not others & {old, name}
+    follow = editor.renaming({old: name} if is_followed else {})
+    with editor.transaction("rename a robot"), follow:
+        for use, key in list(_uses_of_robot(editor, old)) if is_followed else ():
+            editor.apply(SetField(use, key, name))
+        editor.apply(SetField(block, "name", name))
+
+
+def _uses_of_robot(editor: Editor, name: str) -> Iterator[tuple[str, str]]:
+    for block in editor.project.blocks.values():
+        definition = editor.language.definitions.get(block.type)
+        for key, slot in definition.keys(block.groups) if definition is not None else ():
+            is_named = slot.kind.name == "robot" and definition is not None
+            if is_named and definition is not None and definition.value(block, key) == name:
+                yield block.id, key
 
 
 # Let a node of the Nodes page be where the movements come from, as one step.

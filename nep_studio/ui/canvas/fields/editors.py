@@ -12,14 +12,14 @@ from PySide6.QtWidgets import QToolTip, QWidget
 from nep_studio.blocks.definitions import Slot
 from nep_studio.blocks.language import Language
 from nep_studio.blocks.operations.wrapping import add_part, move_part, remove_part, set_collapsed
-from nep_studio.blocks.program import Project, split_slot
+from nep_studio.blocks.program import ROBOT_BLOCK, Project, split_slot
 from nep_studio.ui.words import tr
 
 from .angle import AnglePopup
 from .choice import CHOSEN, ChoicePopup, GesturePopup
 from .colour import ColourPopup
 from .comments import Comments
-from .field_edit import Editing, FieldEdit, ParameterEdit, page_rect_of
+from .field_edit import Editing, FieldEdit, ParameterEdit, RobotNameEdit, page_rect_of
 from .line_editor import LineEditor, LinesEditor
 from .naming import RobotPopup, VariablePopup
 from .number import NUMBERS
@@ -235,7 +235,9 @@ class FieldEditors(QObject):
         if slot is None:
             return None
         if slot.kind.name == "parameter":
-            return ParameterEdit(editor, block, key, slot)
+            return ParameterEdit(editor, block, key, slot, self.canvas.attempt)
+        if there.type == ROBOT_BLOCK and key == "name":
+            return RobotNameEdit(editor, block, key, slot, self.canvas.attempt)
         return FieldEdit(editor, block, key, slot) if slot.kind.typed else None
 
     def open_comment(self, block: str) -> None:

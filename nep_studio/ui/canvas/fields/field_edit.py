@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import TYPE_CHECKING, Protocol
 
 from PySide6.QtCore import QPoint, QRect, QRectF, QSize, Qt
@@ -13,6 +14,7 @@ from nep_studio.blocks.definitions import Slot
 from nep_studio.blocks.editor import Editor
 from nep_studio.blocks.edits.content import ChangeProcedure, SetField
 from nep_studio.blocks.errors import EditRefused
+from nep_studio.blocks.operations.fixes import rename_robot
 from nep_studio.blocks.procedures import procedure_of
 from nep_studio.blocks.program import Parameter, Procedure
 from nep_studio.blocks.slots import FieldValue, why_not_name
@@ -47,6 +49,10 @@ class Editing(Protocol):
 
     def end(self) -> None:
         """The editing is over; what follows is another step of undo."""
+
+
+Attempt = Callable[[Callable[[], object]], bool]
+"""Makes a change, and tells the person why not when it is refused."""
 
 
 class FieldEdit:
@@ -88,10 +94,27 @@ class FieldEdit:
         self._editor.history.seal()
 
 
+class RobotNameEdit(FieldEdit):
+    """Gives a robot another name as it is typed; when the editing ends, all that name it follow."""
+
+    def __init__(self, editor: Editor, block: str, key: str, slot: Slot, attempt: Attempt) -> None:
+        super().__init__(editor, block, key, slot)
+        self._before, self._attempt = self.value, attempt
+
+    def end(self) -> None:
+        """Rename the robot everywhere, as one step; it keeps its name where that cannot be."""
+        name = self.value
+        if name is not None and name != self._before:
+            self.restore()
+            self._attempt(lambda: rename_robot(self._editor, self.block, str(name)))
+        super().end()
+
+
 class ParameterEdit:
     """Gives a parameter of an own block another name, when the editing ends."""
 
-    def __init__(self, editor: Editor, block: str, key: str, slot: Slot) -> None:
+    def __init__(self, editor: Editor, block: str, key: str, slot: Slot, attempt: Attempt) -> None:
+        self._attempt = attempt
         self.block, self.key, self.slot = block, key, slot
         self._editor = editor
         procedure_id = procedure_of(editor.project.blocks[block].type)
@@ -120,8 +143,10 @@ class ParameterEdit:
         """Rename the parameter in the header, in the calls, and in the blocks that give it."""
         if self._name != self.slot.label:
             changed = self._renamed(self._name)
-            self._editor.change_procedure(
-                changed.id, changed.parts, gives_value=changed.gives_value
+            self._attempt(
+                lambda: self._editor.change_procedure(
+                    changed.id, changed.parts, gives_value=changed.gives_value
+                )
             )
 
     def _renamed(self, name: str) -> Procedure:

@@ -9,6 +9,7 @@ from PySide6.QtGui import QHelpEvent
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication, QToolTip
 
+from nep_studio.blocks.edits.content import SetField
 from nep_studio.blocks.places import InStack
 from nep_studio.ui.canvas.fields.line_editor import LineEditor
 
@@ -283,3 +284,43 @@ def test_resting_over_a_field_tells_what_it_takes(controller_of) -> None:
 
     assert QToolTip.text() == "times: a number"
     QToolTip.hideText()
+
+
+def test_a_robot_is_renamed_with_all_that_names_it_in_one_step(controller_of) -> None:
+    desk = controller_of("robots.robot", name="NAO")
+    editor = desk.editor
+    rule = editor.create("event.started", editor.new_stack("behaviour", 0, 0))
+    stack = editor.project.stack_of(rule).id
+    say = editor.create("robot.say", InStack(stack, 1))
+    code = editor.create("code.lines", InStack(stack, 2))
+    editor.apply(SetField(code, "code", "nao.say('nao')"))
+    desk.steps = editor.history.steps
+
+    desk.click("name")
+    desk.widget.setText("")
+    QTest.keyClicks(desk.widget, "Otto")
+    desk.click_elsewhere()
+
+    assert (desk.value("name"), desk.value("robot", say)) == ("Otto", "Otto")
+    assert desk.value("code", code) == "otto.say('nao')"
+    assert desk.new_steps() == 1
+
+
+def test_a_robot_that_python_cannot_follow_keeps_its_name_and_the_person_is_told(
+    controller_of,
+) -> None:
+    desk = controller_of("robots.robot", name="NAO")
+    editor, told = desk.editor, []
+    rule = editor.create("event.started", editor.new_stack("behaviour", 0, 0))
+    code = editor.create("code.lines", InStack(editor.project.stack_of(rule).id, 1))
+    editor.apply(SetField(code, "code", "otto = nao.say('nao')"))
+    desk.canvas.news.refused.connect(lambda sentence: told.append(str(sentence)))
+    desk.steps = editor.history.steps
+
+    desk.click("name")
+    desk.widget.setText("")
+    QTest.keyClicks(desk.widget, "Otto")
+    desk.click_elsewhere()
+
+    assert desk.value("name") == "NAO" and desk.new_steps() == 0
+    assert ["otto" in sentence for sentence in told] == [True]
