@@ -444,7 +444,11 @@ class Interpreter:
         slot = definition.slots[key.partition(".")[0]]
         if plugged is not None:
             value = self.value(plugged)
-            return told(value) if slot.kind.becomes_text and block.type not in _AS_IT_IS else value
+            if slot.kind.becomes_text:
+                return value if block.type in _AS_IT_IS else told(value)
+            if slot.kind.name == "list":
+                return items_of(value)
+            return number(value) if slot.kind.is_number else value
         if slot.kind.name == "boolean":
             return False
         if slot.kind.name == "list":
@@ -545,7 +549,7 @@ def _text(value: Value) -> Value:
 _AS_KIND: dict[str, Callable[[Value], Value]] = {
     "number": number,
     "text": _text,
-    "boolean": lambda value: value,
+    "boolean": is_yes,
     "list": items_of,
     "any": lambda value: value,
 }
@@ -611,8 +615,8 @@ def _length(value: Value) -> int:
 
 
 def _letter(run: Interpreter, block: Block) -> Value:
-    text = str(run.slot(block, "text"))
-    return text[place(run.slot(block, "number"), "start", len(text))]
+    wanted, text = run.slot(block, "number"), str(run.slot(block, "text"))
+    return text[place(wanted, "start", len(text))]
 
 
 def _case(run: Interpreter, block: Block) -> Value:
@@ -623,12 +627,13 @@ def _case(run: Interpreter, block: Block) -> Value:
 
 
 def _replace(run: Interpreter, block: Block) -> Value:
-    text, part, new = (str(run.slot(block, key)) for key in ("text", "part", "new"))
+    text, new, part = (str(run.slot(block, key)) for key in ("text", "new", "part"))
     return text.replace(part, new) if part else text
 
 
 def _find_in_text(run: Interpreter, block: Block) -> Value:
-    return str(run.slot(block, "text")).find(str(run.slot(block, "part"))) + 1
+    part, text = str(run.slot(block, "part")), str(run.slot(block, "text"))
+    return text.find(part) + 1
 
 
 def _filled(run: Interpreter, block: Block) -> Value:
@@ -644,13 +649,13 @@ def _contains(run: Interpreter, block: Block) -> Value:
 
 
 def _find(run: Interpreter, block: Block) -> Value:
-    items, item = items_of(run.slot(block, "list")), run.slot(block, "item")
+    item, items = run.slot(block, "item"), items_of(run.slot(block, "list"))
     return next((n for n, one in enumerate(items, 1) if equal(item, one)), 0)
 
 
 def _at(run: Interpreter, block: Block) -> tuple[list, int]:
-    items = items_of(run.slot(block, "list"))
-    return items, place(run.slot(block, "number"), run._choice(block, "end"), len(items))
+    wanted, items = run.slot(block, "number"), items_of(run.slot(block, "list"))
+    return items, place(wanted, run._choice(block, "end"), len(items))
 
 
 def _get(run: Interpreter, block: Block) -> Value:
@@ -664,8 +669,9 @@ def _take(run: Interpreter, block: Block) -> Value:
 
 
 def _part(run: Interpreter, block: Block) -> Value:
+    first, last = run.slot(block, "first"), run.slot(block, "last")
     items = items_of(run.slot(block, "list"))
-    first, last = whole(run.slot(block, "first")), whole(run.slot(block, "last"))
+    first, last = whole(first), whole(last)
     return [item for n, item in enumerate(items, 1) if first <= n <= last]
 
 
@@ -821,15 +827,15 @@ def _add(run: Interpreter, block: Block) -> None:
 
 
 def _set_item(run: Interpreter, block: Block) -> None:
+    wanted, items = run.slot(block, "number"), items_of(run.slot(block, "list"))
     value = run.slot(block, "value")
-    items, index = _at(run, block)
-    items[index] = value
+    items[place(wanted, run._choice(block, "end"), len(items))] = value
 
 
 def _insert(run: Interpreter, block: Block) -> None:
-    value, items = run.slot(block, "value"), items_of(run.slot(block, "list"))
-    index = place(run.slot(block, "number"), run._choice(block, "end"), len(items) + 1)
-    items.insert(index, value)
+    value, wanted = run.slot(block, "value"), run.slot(block, "number")
+    items = items_of(run.slot(block, "list"))
+    items.insert(place(wanted, run._choice(block, "end"), len(items) + 1), value)
 
 
 def _remove(run: Interpreter, block: Block) -> None:

@@ -17,6 +17,7 @@ from random_language import Maker
 from reference_interpreter import GivenUp, Interpreter
 
 import nep_core
+from nep_core.program import behavior
 from nep_core.program.tasks import Part, RuleStopped, Task
 from nep_studio.blocks.errors import CodeRefused
 from nep_studio.blocks.generate.program import generate_program
@@ -76,6 +77,7 @@ def stand_ins(monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
 def played(text: str) -> list[str]:
     """What the Python says, with “error” at the end if its rule ends by one."""
     Listener.said, Runner.error = [], None
+    behavior._turns.clear()  # another program may have a block at the same place
     names: dict[str, Any] = {"__name__": "__main__"}
     exec(compile(text, "program.py", "exec"), names)
     if Runner.error is None or isinstance(Runner.error, RuleStopped):

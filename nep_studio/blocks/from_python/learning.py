@@ -64,18 +64,24 @@ def word_pattern(text: str) -> tuple[re.Pattern[str], list[int]] | None:
 
 @dataclass(frozen=True, slots=True)
 class Known:
-    """What is known of the kinds of slots: where it is enough, the Python of a block is plain."""
+    """What is known of slots: where it is enough, the Python of a block is plain.
 
-    is_plain: bool
+    ``may_swap`` says that they may be worked out in another order, ``shows_text`` that one sees
+    that they hold texts.
+    """
+
+    may_swap: bool
+    shows_text: bool
     number: int
     value: int
     items: int
 
 
 KNOWN = (
-    Known(True, WHOLE, TEXT, LIST),
-    Known(True, NUMBER, NUMBER, LIST),
-    Known(False, ANY, ANY, ANY),
+    Known(True, True, WHOLE, TEXT, LIST),
+    Known(True, True, NUMBER, NUMBER, LIST),
+    Known(False, False, ANY, ANY, ANY),
+    Known(False, True, ANY, ANY, ANY),
 )
 
 # Makes the Python of a new block with markers in its slots.
@@ -148,13 +154,13 @@ class Learner(Expressions):
 
     def shows_text(self, block: Block, key: str) -> bool:
         """As this variant has it."""
-        if self._known.is_plain:
+        if self._known.shows_text:
             self.must_show.add(key)
-        return self._known.is_plain
+        return self._known.shows_text
 
     def may_swap(self, first: ast.expr, second: ast.expr) -> bool:
         """As this variant has it."""
-        return self._known.is_plain
+        return self._known.may_swap
 
     def kinds_at(self, key: str) -> int:
         """As this variant has it."""
@@ -237,6 +243,8 @@ class Pattern:
     """The slots that take a value of any kind: what Python calls looks at it while it runs."""
     is_range: bool = False
     """Whether it counts with range(...), which ends before its end."""
+    fractions: frozenset[str] = frozenset()
+    """Slots of which one at least may hold a number that is not whole: else it is written so."""
 
 
 @dataclass(slots=True)
@@ -394,7 +402,11 @@ def _patterns(definition: Definition, language: Language) -> Iterator[Pattern]:
                     size = sum(_says(inner) for node in nodes for inner in ast.walk(node))
                     free = frozenset(learner.free if learner.api & VALUES else ())
                     clear = frozenset(learner.must_show)
-                    yield Pattern(definition, nodes, fields, groups, keys, size, clear, free)
+                    fractions = _numbers(definition, keys) - typed if known is not KNOWN[0] else ()
+                    yield Pattern(
+                        *(definition, nodes, fields, groups, keys, size, clear, free),
+                        fractions=frozenset(fractions),
+                    )
 
 
 def _group_counts(definition: Definition) -> Iterator[dict[str, int]]:
@@ -428,7 +440,7 @@ def _choices(
 
 def _variants(definition: Definition, keys: Sequence[str]) -> Iterator[tuple[frozenset[str], str]]:
     """With numbers typed or plugged in; then each time with one slot left as it is when new."""
-    numbers = [key for key in keys if definition.slots[split_slot(key)[0]].kind.is_number]
+    numbers = sorted(_numbers(definition, keys))
     if len(numbers) > MOST_MIXED:
         numbers = []
     counts = range(len(numbers) + 1)
@@ -438,6 +450,11 @@ def _variants(definition: Definition, keys: Sequence[str]) -> Iterator[tuple[fro
         for key in keys:
             if isinstance(definition.defaults.get(split_slot(key)[0]), int | float):
                 yield typed, key
+
+
+def _numbers(definition: Definition, keys: Sequence[str]) -> frozenset[str]:
+    """The slots that take numbers."""
+    return frozenset(k for k in keys if definition.slots[split_slot(k)[0]].kind.is_number)
 
 
 def _says(node: ast.AST) -> bool:
@@ -477,7 +494,10 @@ class CodeUnread(BlocksError):
 
 @dataclass(slots=True)
 class Made:
-    """A block with all that is inside it; ``text`` is its Python without the margin."""
+    """A block with all that is inside it; ``text`` is its Python without the margin.
+
+    ``written`` is how many values in it stay Python.
+    """
 
     type: str
     fields: dict[str, FieldValue] = field(default_factory=dict)
@@ -486,6 +506,7 @@ class Made:
     groups: dict[str, int] = field(default_factory=dict)
     comment: str = ""
     text: str = ""
+    written: int = 0
 
     def inner(self) -> Iterator[Made]:
         """The blocks directly inside."""

@@ -83,15 +83,5 @@ def _loose(reader: StatementReader, nodes: list[ast.stmt]) -> list[Made]:
         is_call = isinstance(value, ast.Call) and (not found or found[0][0].type == code)
         if found and not is_call:
             return [found[0][0]]
-        if isinstance(value, ast.Constant) and (made := _constant(reader, value)):
-            return [made]
     return reader.chain(nodes, 0, 0)
 
-
-def _constant(reader: StatementReader, node: ast.Constant) -> Made | None:
-    """The block of a number or a text that stands alone."""
-    is_text = isinstance(node.value, str)
-    block_type = reader.values.type_of("text" if is_text else "number")
-    made = Made(block_type)
-    is_filled = bool(block_type) and reader.values.fill(made, "text" if is_text else "number", node)
-    return made if is_filled else None

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import ast
 from collections import Counter
-from collections.abc import Collection, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 from nep_studio.blocks.code_text import CodeTextRefused, read_lines
@@ -133,19 +133,36 @@ class StatementReader:
         first = nodes[0]
         if first.lineno in self._kept:
             return None
+        found = min(self._candidates(nodes), key=lambda one: one[0].written, default=None)
+        if found is None:
+            return None
+        made, count, bodies = found
+        for key, body in bodies.items():
+            made.bodies[key] = self.body(body)
+        return made, count
+
+    def _candidates(
+        self, nodes: Sequence[ast.stmt]
+    ) -> Iterator[tuple[Made, int, Mapping[str, list[ast.stmt]]]]:
+        """The blocks that the first statements are, how many these are, and what is in bodies.
+
+        Ends with the first of which no value stays Python.
+        """
+        first = nodes[0]
         if isinstance(first, ast.Expr) and isinstance(first.value, ast.Call):
             for made in self.values.called(first.value):
                 if not self._language.definitions[made.type].is_value:
-                    return made, 1
+                    yield made, 1, {}
+                    if not made.written:
+                        return
         for pattern in self._learned.statements.get(beginning(first), ()):
             count = len(pattern.nodes)
             found = match(pattern, nodes[:count]) if count <= len(nodes) else None
             made_from = self.values.made_from(pattern, found) if found is not None else None
             if made_from is not None and found is not None:
-                for key, body in found.bodies.items():
-                    made_from.bodies[key] = self.body(body)
-                return made_from, count
-        return None
+                yield made_from, count, found.bodies
+                if not made_from.written:
+                    return
 
     def _keep_code(self, made: list[Made], code: list[ast.stmt], begin: int) -> int:
         """Put statements that are no blocks into one code block; gives the line after which."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import ast
-from collections.abc import Collection, Iterator, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import partial
 
@@ -24,7 +24,7 @@ from nep_studio.blocks.slots import TEXT_RESULTS, FieldValue, constant
 from ..deployment import names_used, robot_entries
 from ..editor import Editor
 from ..generate.expressions import known_whole
-from ..generate.kinds import ANY, NUMBER, RESULT_KINDS, TEXT, kinds_of
+from ..generate.kinds import ANY, LIST, NUMBER, RESULT_KINDS, TEXT, WHOLE, are, kinds_of, note
 from ..generate.names import RESERVED, python_name
 from ..operations.fixes import append_entry
 from ..program import (
@@ -92,6 +92,7 @@ def names_in(
     """
     names = _known(editor)
     names.kinds = _kinds_given(tree, names)
+    _note_kinds(tree, names.kinds)
     for node in tree.body:
         match node:
             case ast.Assign(
@@ -183,6 +184,16 @@ def _kinds_given(tree: ast.Module, names: SourceNames) -> dict[str, int]:
             case ast.AugAssign(target=ast.Name(id=name)) | ast.For(target=ast.Name(id=name)):
                 found[name] = ANY
     return {name: kinds for name, kinds in found.items() if kinds and name not in names.variables}
+
+
+def _note_kinds(tree: ast.Module, kinds: Mapping[str, int]) -> None:
+    """Note the kinds of variables wherever they are read, and no value of an own block has them."""
+    for top in tree.body:
+        is_given = isinstance(top, ast.FunctionDef)
+        given = {one.arg for one in top.args.args} if is_given else ()  # type: ignore[attr-defined]
+        for node in ast.walk(top):
+            if isinstance(node, ast.Name) and node.id in kinds and node.id not in given:
+                note(node, kinds[node.id])
 
 
 def _require_variables(names: SourceNames, tree: ast.Module) -> None:
@@ -306,15 +317,38 @@ _MAKES = {"as_list": "list", "as_number": "number", "bool": "boolean"}
 
 
 def _kinds_of_parameters(function: ast.FunctionDef, tree: ast.Module) -> list[str]:
-    """The kinds of the values of an own block, where a call makes sure of one."""
-    kinds = ["any"] * len(function.args.args)
-    for node in ast.walk(tree):
-        if not isinstance(node, ast.Call) or getattr(node.func, "id", "") != function.name:
-            continue
-        for place, given in enumerate(node.args[: len(kinds)]):
-            if isinstance(given, ast.Call) and isinstance(given.func, ast.Name):
-                kinds[place] = _MAKES.get(given.func.id, kinds[place])
+    """The kinds of the values of an own block, where a call makes sure of one.
+
+    Or where all that it is given are lists, or variables that begin as one.
+    """
+    calls = [
+        node.args
+        for node in ast.walk(tree)
+        if isinstance(node, ast.Call) and getattr(node.func, "id", "") == function.name
+    ]
+    lists = {
+        target.id
+        for node in tree.body
+        if isinstance(node, ast.Assign) and isinstance(node.value, ast.List) and not node.value.elts
+        for target in node.targets
+        if isinstance(target, ast.Name)
+    }
+    kinds = []
+    for place in range(len(function.args.args)):
+        given = [arguments[place] for arguments in calls if place < len(arguments)]
+        kinds.append(_kind_of_parameter(given, lists))
     return kinds
+
+
+def _kind_of_parameter(given: Sequence[ast.expr], lists: Collection[str]) -> str:
+    for node in given:
+        is_made = isinstance(node, ast.Call) and getattr(node.func, "id", "") in _MAKES
+        if is_made and not _is_junction(node):
+            return _MAKES[node.func.id]  # type: ignore[attr-defined]
+    names = [node.id for node in given if isinstance(node, ast.Name)]
+    others = [node for node in given if not isinstance(node, ast.Name)]
+    is_list = lists.issuperset(names) and all(kinds_of(node) == LIST for node in others)
+    return "list" if names and is_list else "any"
 
 
 def _shared(tree: ast.Module, *, loose: bool) -> Iterator[str]:
@@ -531,13 +565,14 @@ class ValueReader:
             return True
         plugged = None
         if slot.kind.pluggable and is_free:
-            found = self.blocks(node)
+            found = self.blocks(_within(node, self._made(slot)))
             plugged = next((made for made, result in found if result in slot.kind.fits), None)
         elif slot.kind.pluggable:
             plugged = self.plugged(slot, node, is_clear=is_clear)
         if plugged is None:
             return False
         made.inputs[key] = plugged
+        made.written += plugged.written
         return True
 
     def field(self, slot: Slot, node: ast.expr, made: Made, key: str) -> FieldValue | None:
@@ -557,8 +592,7 @@ class ValueReader:
         """
         kind, may_be = slot.kind, self.names.may_be
         if not kind.becomes_text:
-            inner = _within(node, ("as_number",) if kind.is_number else _MADE.get(kind.name, ()))
-            inner = _within(node, ("bool",)) if _is_junction(node) else inner
+            inner = _within(node, self._made(slot))
             needed = NUMBER if kind.is_number else RESULT_KINDS.get(kind.name, ANY)
             if inner is node and kind.name != "boolean" and not may_be(node, needed):
                 return None
@@ -568,18 +602,24 @@ class ValueReader:
             is_shown = not is_clear or not may_be(node, ANY & ~TEXT)
             others = frozenset({"any"}) if is_shown and may_be(node, TEXT) else frozenset()
             others |= TEXT_RESULTS
-            found = sorted(self.blocks(node), key=lambda made: made[1] not in TEXT_RESULTS)
+            found = sorted(self.blocks(node), key=_is_no_text)
             return next((made for made, result in found if result in others), None)
         return next((made for made, result in self.blocks(inner) if result in others), None)
 
+    def _made(self, slot: Slot) -> tuple[str, ...]:
+        """The functions that make a value what a slot needs."""
+        return ("as_number",) if slot.kind.is_number else _MADE.get(slot.kind.name, ())
+
     def blocks(self, node: ast.expr) -> list[tuple[Made, str]]:
         """The value blocks that make an expression, with their results, the best first."""
+        if _is_junction(node):
+            node = _within(node, ("bool",))
         known = self._known.get(id(node))
         if known is None:
             if self._depth > _DEEPEST:
                 return []
             self._depth += 1
-            found = list(self._blocks(node))
+            found = sorted(self._blocks(node), key=lambda made: made[0].written)
             known = self._known[id(node)] = node, found  # kept, so that its id stays its own
             self._depth -= 1
         return known[1]
@@ -635,6 +675,8 @@ class ValueReader:
     def made_from(self, pattern: Pattern, found: Found) -> Made | None:
         """The block of a pattern with what was found in it but its bodies, or None."""
         made = Made(pattern.definition.id, dict(pattern.fields), groups=dict(pattern.groups))
+        if pattern.fractions and not pattern.free and _are_whole(found, pattern.fractions):
+            return None
         is_join = pattern.definition.generator == "join"
         clear = frozenset() if is_join else pattern.clear
         for key, node in found.slots.items():
@@ -683,6 +725,8 @@ class ValueReader:
         definitions = self.language.definitions
         if isinstance(node, ast.Name):
             yield from self._named(node.id)
+        if (typed := self._typed(node)) is not None:
+            yield typed
         if isinstance(node, ast.Call):
             for made in self.called(node):
                 if definitions[made.type].is_value:
@@ -696,7 +740,19 @@ class ValueReader:
             yield converted
         code = self.type_of("code_value")
         if code and not isinstance(node, ast.Constant) and _is_code(node):
-            yield Made(code, {"code": ast.unparse(node)}), definitions[code].result
+            yield Made(code, {"code": ast.unparse(node)}, written=1), definitions[code].result
+
+    def _typed(self, node: ast.expr) -> tuple[Made, str] | None:
+        """The block in which a number or a text is typed that stands in Python, and its result."""
+        value = _constant(node)
+        generator = "text" if isinstance(value, str) else "number"
+        block_type = self.type_of(generator)
+        if value is None or isinstance(value, bool) or not block_type:
+            return None
+        definition = self.language.definitions[block_type]
+        if definition.slots[generator].why_not(value) is not None:
+            return None
+        return Made(block_type, {generator: value}), definition.result
 
     def _converted(self, node: ast.expr) -> tuple[Made, str] | None:
         """The block of a text or a number that is made of the value in it, and its result."""
@@ -708,7 +764,8 @@ class ValueReader:
             fits = definition.slots[generator].kind.fits - TEXT_RESULTS
             for made, result in self.blocks(inner):
                 if result in fits:
-                    return Made(block_type, inputs={generator: made}), definition.result
+                    whole = Made(block_type, inputs={generator: made}, written=made.written)
+                    return whole, definition.result
         return None
 
     def _named(self, name: str) -> Iterator[tuple[Made, str]]:
@@ -727,6 +784,16 @@ class ValueReader:
             return self.names.variables.get(node.id) if kind == "variable" else None
         value = _constant(node)
         return None if value is None else slot.kind.from_python(value)
+
+
+def _are_whole(found: Found, keys: Collection[str]) -> bool:
+    """Whether all numbers that were found are surely whole ones."""
+    return all(are(kinds_of(found.slots[key]), WHOLE) for key in keys if key in found.slots)
+
+
+def _is_no_text(made: tuple[Made, str]) -> tuple[int, bool]:
+    """Sorts blocks with their results: those of texts first, unless more of it stays Python."""
+    return made[0].written, made[1] not in TEXT_RESULTS
 
 
 def _constant(node: ast.AST) -> str | int | float | bool | None:

@@ -98,6 +98,12 @@ def may_swap(first: ast.expr, second: ast.expr) -> bool:
     return max(effects) == 0
 
 
+def as_truth(node: ast.expr) -> ast.expr:
+    """A value; what “and” and “or” give is a truth, whatever goes in."""
+    is_other = isinstance(node, ast.BoolOp) and not are(kinds_of(node), TRUTH)
+    return call("bool", node) if is_other else node
+
+
 def compare(left: ast.expr, sign: ast.cmpop, right: ast.expr) -> ast.Compare:
     """A comparison of two values."""
     return ast.Compare(left, [sign], [right])
@@ -182,13 +188,15 @@ class Expressions:
         """What is in a slot, of whatever kind: the block plugged into it, else its field."""
         plugged = self.plugged(block, key)
         if plugged is not None:
-            return self.value(plugged)
+            return as_truth(self.value(plugged))
         definition = self.definition(block)
         slot = definition.slots[split_slot(key)[0]]
         return self._field(block, key, slot.kind, definition.value(block, key))
 
     def fitting(self, node: ast.expr, kind: Kind) -> ast.expr:
         """A value as a kind of slot needs it; what cannot be that is refused while it runs."""
+        if kind.name != "boolean":
+            node = as_truth(node)
         kinds = kinds_of(node)
         if kind.is_number:
             return node if are(kinds, NUMBER) else self.api_call("as_number", node)
@@ -196,9 +204,22 @@ class Expressions:
             return node if are(kinds, LIST) else self.api_call("as_list", node)
         if kind.becomes_text:
             return node if are(kinds, TEXT) else self.told(node)
-        if isinstance(node, ast.BoolOp) and kind.name != "boolean" and not are(kinds, TRUTH):
-            return call("bool", node)
         return node
+
+    def values_in(
+        self, block: Block, *keys: str, then: ast.expr | None = None
+    ) -> list[ast.expr]:
+        """What is in slots that a function looks at itself; ``then`` is worked out after them.
+
+        What does not fit is refused before anything is worked out that does something besides.
+        """
+        definition, made = self.definition(block), [self.value_in(block, key) for key in keys]
+        after = [*made[1:], *([] if then is None else [then])]
+        for number, key in enumerate(keys):
+            if any(map(_effects, after[number:])):
+                kind = definition.slots[split_slot(key)[0]].kind
+                made[number] = self.fitting(made[number], kind)
+        return made
 
     def told(self, node: ast.expr) -> ast.expr:
         """A value as a text."""

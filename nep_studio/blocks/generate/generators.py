@@ -299,11 +299,12 @@ def _text_replace(code: Expressions, block: Block) -> ast.expr:
 
 
 def _letter(code: Expressions, block: Block) -> ast.expr:
-    number = code.value_in(block, "number")
+    text = code.slot(block, "text")
+    (number,) = code.values_in(block, "number", then=text)
     place = known_whole(number)
     if place is not None and place > 0 and code.shows_text(block, "text"):
-        return note(ast.Subscript(code.slot(block, "text"), constant(place - 1)), TEXT)
-    return code.api_call("letter_of", number, code.slot(block, "text"))
+        return note(ast.Subscript(text, constant(place - 1)), TEXT)
+    return code.api_call("letter_of", number, text)
 
 
 def _emotion(code: Expressions, block: Block) -> ast.expr:
@@ -325,9 +326,9 @@ class _Place:
     options: dict[str, ast.expr]
 
 
-def _place(code: Expressions, block: Block) -> _Place:
+def _place(code: Expressions, block: Block, then: ast.expr | None = None) -> _Place:
     """Item 1 from the start is item 0 of Python, item 1 from the end is item -1."""
-    number, items = code.value_in(block, "number"), code.value_in(block, "list")
+    number, items = code.values_in(block, "number", "list", then=then)
     is_from_end = code.choice(block, "end") == "end"
     options: dict[str, ast.expr] = {"from_end": ast.Constant(True)} if is_from_end else {}
     place, index = known_whole(number), None
@@ -357,7 +358,7 @@ def _random_item(code: Expressions, block: Block) -> ast.expr:
 
 
 def _part(code: Expressions, block: Block) -> ast.expr:
-    first, last, items = (code.value_in(block, key) for key in ("first", "last", "list"))
+    first, last, items = code.values_in(block, "first", "last", "list")
     low, high = known_whole(first), known_whole(last)
     is_plain = low is not None and low > 0 and high is not None and high >= 0
     if low is None or not is_plain or not are(kinds_of(items), LIST):
@@ -663,7 +664,8 @@ def _add(code: Expressions, block: Block) -> list[Piece]:
 
 
 def _set_item(code: Expressions, block: Block) -> list[Piece]:
-    at, value = _place(code, block), code.slot(block, "value")
+    value = code.slot(block, "value")
+    at = _place(code, block, then=value)
     if at.index is not None and code.may_swap(at.items, value):
         return [f"{show(ast.Subscript(at.items, at.index))} = {show(value)}"]
     return [show(code.api_call("set_item", at.number, at.items, value, **at.options))]

@@ -118,6 +118,9 @@ def kinds_of(node: ast.expr) -> int:
             return FRACTION
         case ast.List():
             return LIST
+        case ast.Subscript(value=value, slice=index) if are(kinds_of(value), TEXT | LIST):
+            is_same = isinstance(index, ast.Slice) or are(kinds_of(value), TEXT)
+            return kinds_of(value) if is_same else ANY
         case ast.Call(func=ast.Name(id=name)):
             return _CALLS.get(name, NUMBER if name in ("abs", "min", "max", "round") else ANY)
         case ast.Call(func=ast.Attribute(attr=name)):
@@ -131,8 +134,8 @@ def _of_constant(value: object) -> int:
 
 
 def _of_operation(op: ast.operator, left: int, right: int) -> int:
-    if isinstance(op, ast.Add) and are(left | right, TEXT):
-        return TEXT
+    if isinstance(op, ast.Add) and TEXT in (left, right):
+        return TEXT  # or it is refused
     if not are(left | right, NUMBER):
         return ANY
     if isinstance(op, ast.Div):
