@@ -65,11 +65,15 @@ def test_a_changed_rule_changes_its_button(human: Human, window: MainWindow, qtb
     qtbot.waitUntil(lambda: words(panel) == ["Say “goodbye”"])
 
 
+NOTHING_HAPPENS = ("event.started", "goal.when_goal", "code.program")
+"""Hats for which a person does nothing."""
+
+
 def hats_and_questions() -> list[str]:
     return [
         one.id
         for one in LANGUAGE.definitions.values()
-        if (one.shape == "hat" and one.id not in ("event.started", "goal.when_goal"))
+        if (one.shape == "hat" and one.id not in NOTHING_HAPPENS)
         or (one.is_value and one.category.id in ("sensing", "robot_senses"))
     ]
 
