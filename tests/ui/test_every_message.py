@@ -27,6 +27,7 @@ OF_A_ROBOT = "told as “NAO could not ...” by nep_core/program/actions.py, wh
 OF_A_PROGRAM = "told by the master to a program that somebody wrote with the page docs/wire.md"
 FOR_AUTHORS = "told to those who write descriptions of blocks; the sentence names the place"
 SAYS_WHY = "why a place refuses blocks that are dragged or typed; the program stays as it was"
+WHAT_IT_BRINGS = "the error itself tells what to try: it is given only what nobody has approved"
 ALL_IS_WELL = "it tells that something is well again, or done as it was asked"
 
 WITHOUT_IN = {
@@ -42,6 +43,7 @@ WITHOUT_IN = {
 
 WITHOUT = {
     "ready_s is {ready_s}, but 0 to {most_ready_s} s can be": PASSED_ON,
+    "stop_s is {stop_s}, but 0 to {most_stop_s} s can be": PASSED_ON,
     "its command has an empty word": PASSED_ON,
     'the topic "{topic}" does not begin with /': PASSED_ON,
     '"{name}" cannot name a setting: use letters, digits and _': PASSED_ON,
@@ -49,6 +51,9 @@ WITHOUT = {
     'the setting "{name}" has a minimum above its maximum': PASSED_ON,
     'the setting "{name}" has no choices': PASSED_ON,
     "A registration names its instance and its node.": OF_A_PROGRAM,
+    "Names are written without control characters.": OF_A_PROGRAM,
+    "()": WHAT_IT_BRINGS,
+    "left": WHAT_IT_BRINGS,
     "reason": SAYS_WHY,
     "reason or 'A letter or a digit is needed.'": SAYS_WHY,
     "There is no block for this.": NO_HAND,
