@@ -26,8 +26,8 @@ PASSED_ON = "the reason of another message; that one tells what to try"
 OF_A_ROBOT = "told as “NAO could not ...” by nep_core/program/actions.py, which adds what to try"
 OF_A_PROGRAM = "told by the master to a program that somebody wrote with the page docs/wire.md"
 FOR_AUTHORS = "told to those who write descriptions of blocks; the sentence names the place"
+OF_ITS_CLASS = "its class has its sentence and its checklist, wherever it is raised"
 SAYS_WHY = "why a place refuses blocks that are dragged or typed; the program stays as it was"
-WHAT_IT_BRINGS = "the error itself tells what to try: it is given only what nobody has approved"
 ALL_IS_WELL = "it tells that something is well again, or done as it was asked"
 
 WITHOUT_IN = {
@@ -52,8 +52,6 @@ WITHOUT = {
     'the setting "{name}" has no choices': PASSED_ON,
     "A registration names its instance and its node.": OF_A_PROGRAM,
     "Names are written without control characters.": OF_A_PROGRAM,
-    "()": WHAT_IT_BRINGS,
-    "left": WHAT_IT_BRINGS,
     "reason": SAYS_WHY,
     "reason or 'A letter or a digit is needed.'": SAYS_WHY,
     "There is no block for this.": NO_HAND,
@@ -63,6 +61,8 @@ WITHOUT = {
     "This block has no place for blocks inside it.": NO_HAND,
     "There is no kind of field called “{name}”.": FOR_AUTHORS,
     "error": PASSED_ON,
+    "()": OF_ITS_CLASS,
+    "left": OF_ITS_CLASS,
     "title | problem.sentence": ALL_IS_WELL,
     "title": ALL_IS_WELL,
     "message.title | message.sentence": ALL_IS_WELL,
