@@ -15,6 +15,7 @@ from pytestqt.qtbot import QtBot
 from nep_core.places import NODES_VARIABLE
 from nep_studio.blocks.edits.content import SetField
 from nep_studio.blocks.operations.copying import copy, paste
+from nep_studio.run.installation import studio_language
 from nep_studio.run.plan import PlannedNode
 from nep_studio.settings import ShowOptions
 from nep_studio.ui.plugins.show import ShowMode
@@ -42,7 +43,7 @@ from tests.nep_studio.run.hostile_projects import (
     value,
 )
 from tests.ui.running.window_use import press, state_is
-from tests.ui.window.conftest import answer, chooser, english, home, studio, window
+from tests.ui.window.conftest import answer, chooser, home, studio, window
 
 __all__ = ["answer", "chooser", "home", "studio", "window"]
 
@@ -62,7 +63,7 @@ def make(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Maker]:
     folder = tmp_path / "from a stranger"
     folder.mkdir()
     with ExitStack() as ending:
-        yield Maker(folder, english(), ending)
+        yield Maker(folder, studio_language(), ending)
 
 
 class Dozen:
