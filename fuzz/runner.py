@@ -281,6 +281,7 @@ class Run:
     def _turn(self, *arguments: str) -> int | None:
         """One child's work; after a hang or a death, the number to go on from; None: all done."""
         self._child = child = Child(self._target, self._module, *arguments)
+        began_s = time.monotonic()
         try:
             for told in child.told(self._hangs_s):
                 self._progress(child)
@@ -298,6 +299,7 @@ class Run:
             self._child = None
         if number < 0:
             raise ChildProcessError(f"{self._target.name} cannot be tried: {words}")
+        self.tally.seconds += time.monotonic() - began_s
         self.tally.done += number + 1 if "--file" in arguments else number + 1 - self._first
         data = self._input(arguments, number)
         if kind == "hangs" and self._makes_smaller and not self._again(kind, [data]):
