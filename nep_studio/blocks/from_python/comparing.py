@@ -10,7 +10,7 @@ from nep_studio.blocks.code_text import CodeTextRefused, compile_quietly
 from nep_studio.blocks.editor import Editor
 from nep_studio.blocks.errors import CodeRefused
 from nep_studio.blocks.generate.names import API
-from nep_studio.blocks.generate.program import generate_program
+from nep_studio.blocks.generate.program import ProgramGenerator
 from nep_studio.blocks.generate.source_map import Code
 
 from .learning import CodeUnread
@@ -25,20 +25,21 @@ def lost_lines(
     source: Source,
     parts: Sequence[Part],
     functions: Mapping[str, ast.FunctionDef],
-) -> set[int]:
+) -> tuple[set[int], dict[str, int]]:
     """The lines of what would be lost or changed, so that it is kept as Python instead.
 
-    ``functions`` are those of the text by the stacks that are to make them. Raises CodeUnread for
-    what cannot be kept either.
+    With the kinds of the values of the program, by name. ``functions`` are those of the text by the
+    stacks that are to make them. Raises CodeUnread for what cannot be kept either.
     """
+    generator = ProgramGenerator(editor.project, editor.language)
     try:
-        code = generate_program(editor.project, editor.language)
+        code = generator.generate()
         compile_quietly(code.text)
     except CodeRefused as refused:
         if refused.block in editor.project.blocks:
             stack = editor.project.stack_of(refused.block).id
             if stack in functions:
-                return {functions[stack].lineno}
+                return {functions[stack].lineno}, generator.kinds()
         raise CodeUnread(refused.sentence, 1, checklist=refused.checklist) from refused
     except CodeTextRefused as refused:
         checklist = ("Undo the last change of the code.",)
@@ -47,7 +48,7 @@ def lost_lines(
     _require_own_names(source, parts)
     lost = _lost_functions(editor, source, code, made, functions)
     lost |= _lost_around(source, made)
-    return lost or _lost_comments(source, made, functions)
+    return lost or _lost_comments(source, made, functions), generator.kinds()
 
 
 def _require_own_names(source: Source, parts: Sequence[Part]) -> None:

@@ -18,7 +18,7 @@ from nep_studio.blocks.program import Project
 from .learning import CodeUnread, Made, beginning, blocks_of, learned
 from .outside import Part
 from .source import Source, end_of
-from .values import SourceNames, ValueReader, match, names_in
+from .values import Hints, SourceNames, ValueReader, match, names_in
 
 # Read statements as chains of blocks; what has no block becomes a code block.
 
@@ -234,8 +234,11 @@ def read_rules(
     parts: Sequence[Part],
     kept: Collection[int] = (),
     known: Collection[str] = (),
+    hints: Hints | None = None,
 ) -> list[ReadRule]:
     """The functions of a program; robots, variables and own blocks that lack are made.
+
+    ``hints`` are what is known of it when it was read before.
 
     The statements, and the bodies of functions, that begin in lines that are ``kept`` become code
     blocks. A function whose text is ``known`` is not read: its chain is empty. It may hold what
@@ -244,7 +247,8 @@ def read_rules(
     left = Counter(known)
     functions = [(p.function, p.line, p.text) for p in parts if p.function is not None]
     as_code = {function.name for function, _, _ in functions if function.lineno in kept}
-    names = names_in(editor, source.tree, [function for function, _, _ in functions], as_code)
+    own = [function for function, _, _ in functions]
+    names = names_in(editor, source.tree, own, as_code, hints=hints)
     reader = StatementReader(editor.language, names, source, kept)
     rules = []
     for node, after, above in functions:

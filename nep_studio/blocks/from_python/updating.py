@@ -32,6 +32,7 @@ from .mistakes import too_deep
 from .outside import Part, parts_of
 from .reading import ReadRule, create_chain, create_outside, read_rules
 from .source import Source, read_source
+from .values import Hints
 
 log = logging.getLogger(__name__)
 
@@ -179,17 +180,25 @@ def update_from_python(editor: Editor, text: str) -> None:
 
 
 def _update_until_same(editor: Editor, source: Source) -> None:
-    """Change the blocks; what would not be said again by them is kept as Python, or refused."""
+    """Change the blocks; what would not be said again by them is kept as Python, or refused.
+
+    Where something would not, all is read once more first, with what is known then.
+    """
     kept = set[int]()
+    hints: Hints | None = None
     anew = False
     while True:
         try:
             with editor.transaction("change the code"):
-                parts, functions = _update(editor, source, kept, anew)
-                lost = lost_lines(editor, source, parts, functions)
+                parts, functions = _update(editor, source, kept, anew, hints)
+                lost, found = lost_lines(editor, source, parts, functions)
                 if lost:
                     raise _Differs(lost)
         except _Differs as differs:
+            if hints is None:
+                hints = Hints(found, differs.lines)
+                continue
+            hints = Hints(found, hints.differed)
             if differs.lines <= kept:
                 raise CodeUnread(
                     differs.sentence,
@@ -215,16 +224,19 @@ class _Differs(Exception):
 
 
 def _update(
-    editor: Editor, source: Source, kept: set[int], anew: bool
+    editor: Editor, source: Source, kept: set[int], anew: bool, hints: Hints | None
 ) -> tuple[list[Part], dict[str, ast.FunctionDef]]:
     """Change the stacks whose lines have changed; ``anew``, make those anew.
+
+    ``hints`` are what is known of the text when it was read before.
 
     Gives the parts of the text, and the function that each stack is to make.
     """
     parts = parts_of(source, kept)
     code = _code(editor)
     written = _written(editor.project, code)
-    rules = read_rules(editor, source, parts, kept, [] if anew else [w.text for w in written])
+    known_texts = [] if anew else [w.text for w in written]
+    rules = read_rules(editor, source, parts, kept, known_texts, hints)
     left = {stack.stack: stack for stack in written}
     same = [
         None if rule.chain else _take(left, (w for w in left.values() if w.text == rule.text))

@@ -24,7 +24,17 @@ from nep_studio.blocks.slots import TEXT_RESULTS, FieldValue, constant
 from ..deployment import names_used, robot_entries
 from ..editor import Editor
 from ..generate.expressions import known_whole
-from ..generate.kinds import ANY, LIST, NUMBER, RESULT_KINDS, TEXT, WHOLE, are, kinds_of, note
+from ..generate.kinds import (
+    ANY,
+    LIST,
+    NUMBER,
+    RESULT_KINDS,
+    TEXT,
+    WHOLE,
+    are,
+    kinds_of,
+    note,
+)
 from ..generate.names import RESERVED, python_name
 from ..operations.fixes import append_entry
 from ..program import (
@@ -57,22 +67,24 @@ from .outside import HEADERS
 class SourceNames:
     """What identifiers stand for: names of robots, ids of variables, own blocks.
 
-    ``parameters`` are the values of the own block that is being read, by identifier. ``kinds`` are
-    those of the values that the text itself gives to variables, as far as their form tells.
+    ``parameters`` are the values of the own block that is being read, by identifier.
     """
 
     robots: dict[str, str] = field(default_factory=dict)
     variables: dict[str, str] = field(default_factory=dict)
     procedures: dict[str, Procedure] = field(default_factory=dict)
     parameters: dict[str, str] = field(default_factory=dict)
-    kinds: dict[str, int] = field(default_factory=dict)
 
-    def may_be(self, node: ast.expr, kinds: int) -> bool:
-        """Whether a value can be of these kinds, as far as the text tells."""
-        if isinstance(node, ast.Name):
-            is_given = node.id in self.kinds and node.id not in self.parameters
-            return not is_given or bool(self.kinds[node.id] & kinds)
-        return bool(kinds_of(node) & kinds)
+
+@dataclass(frozen=True, slots=True)
+class Hints:
+    """What is known of a text that was read before.
+
+    The kinds of its values by name, and the lines that its blocks would say in another way.
+    """
+
+    kinds: Mapping[str, int]
+    differed: Collection[int]
 
 
 def names_in(
@@ -82,6 +94,7 @@ def names_in(
     as_code: Collection[str] = (),
     *,
     loose: bool = False,
+    hints: Hints | None = None,
 ) -> SourceNames:
     """Find what the names of a text stand for in a project, and make there what lacks.
 
@@ -91,8 +104,7 @@ def names_in(
     they put values into becomes variables too.
     """
     names = _known(editor)
-    names.kinds = _kinds_given(tree, names)
-    _note_kinds(tree, names.kinds)
+    _note_kinds(tree, _kinds_given(tree, names) if hints is None else hints.kinds)
     for node in tree.body:
         match node:
             case ast.Assign(
@@ -105,7 +117,7 @@ def names_in(
         names.procedures.pop(name, None)
     assigned: list[str] = []
     for node in of_functions.values():
-        _note_procedure(editor, names, node, tree)
+        _note_procedure(editor, names, node, tree, _lists(tree, hints))
         if node.name not in as_code:
             assigned += _kept(node, tree)
     for name in [*assigned, *_begun(tree), *_shared(tree, loose=loose)]:
@@ -187,13 +199,18 @@ def _kinds_given(tree: ast.Module, names: SourceNames) -> dict[str, int]:
 
 
 def _note_kinds(tree: ast.Module, kinds: Mapping[str, int]) -> None:
-    """Note the kinds of variables wherever they are read, and no value of an own block has them."""
+    """Note the kinds of variables, and of values of own blocks, wherever they stand in a text."""
     for top in tree.body:
-        is_given = isinstance(top, ast.FunctionDef)
-        given = {one.arg for one in top.args.args} if is_given else ()  # type: ignore[attr-defined]
+        known = kinds
+        if isinstance(top, ast.FunctionDef):
+            given = {one.arg: kinds.get(f"{top.name}({one.arg})", 0) for one in top.args.args}
+            known = {**kinds, **given}
         for node in ast.walk(top):
-            if isinstance(node, ast.Name) and node.id in kinds and node.id not in given:
-                note(node, kinds[node.id])
+            if isinstance(node, ast.Name) and (found := known.get(node.id)):
+                note(node, found)
+            elif isinstance(node, ast.Call) and isinstance(node.func, ast.Name):
+                if found := known.get(f"{node.func.id}()"):
+                    note(node, found)
 
 
 def _require_variables(names: SourceNames, tree: ast.Module) -> None:
@@ -295,7 +312,11 @@ def _add_robot(editor: Editor, name: str) -> None:
 
 
 def _note_procedure(
-    editor: Editor, names: SourceNames, node: ast.FunctionDef, tree: ast.Module
+    editor: Editor,
+    names: SourceNames,
+    node: ast.FunctionDef,
+    tree: ast.Module,
+    lists: Collection[str],
 ) -> None:
     wanted = [argument.arg for argument in node.args.args]
     gives_value = any(isinstance(n, ast.Return) and n.value is not None for n in ast.walk(node))
@@ -304,7 +325,7 @@ def _note_procedure(
         return
     own = [
         Parameter(editor.project.new_id("a"), name.replace("_", " "), kind)
-        for name, kind in zip(wanted, _kinds_of_parameters(node, tree), strict=True)
+        for name, kind in zip(wanted, _kinds_of_parameters(node, tree, lists), strict=True)
     ]
     procedure = Procedure(
         editor.project.new_id("p"), (node.name.replace("_", " ").strip(), *own), gives_value
@@ -316,28 +337,34 @@ def _note_procedure(
 _MAKES = {"as_list": "list", "as_number": "number", "bool": "boolean"}
 
 
-def _kinds_of_parameters(function: ast.FunctionDef, tree: ast.Module) -> list[str]:
+def _kinds_of_parameters(
+    function: ast.FunctionDef, tree: ast.Module, lists: Collection[str]
+) -> list[str]:
     """The kinds of the values of an own block, where a call makes sure of one.
 
-    Or where all that it is given are lists, or variables that begin as one.
+    Or where all that it is given are lists, or variables that begin as one for no other reason.
     """
     calls = [
         node.args
         for node in ast.walk(tree)
         if isinstance(node, ast.Call) and getattr(node.func, "id", "") == function.name
     ]
-    lists = {
-        target.id
-        for node in tree.body
-        if isinstance(node, ast.Assign) and isinstance(node.value, ast.List) and not node.value.elts
-        for target in node.targets
-        if isinstance(target, ast.Name)
-    }
     kinds = []
     for place in range(len(function.args.args)):
         given = [arguments[place] for arguments in calls if place < len(arguments)]
         kinds.append(_kind_of_parameter(given, lists))
     return kinds
+
+
+def _lists(tree: ast.Module, hints: Hints | None) -> frozenset[str]:
+    """The variables that begin as a list, and would not when the text was read before."""
+    found = set[str]()
+    for node in tree.body:
+        match node:
+            case ast.Assign(targets=[ast.Name(id=name)], value=ast.List(elts=[])):
+                if hints is not None and node.lineno in hints.differed:
+                    found.add(name)
+    return frozenset(found)
 
 
 def _kind_of_parameter(given: Sequence[ast.expr], lists: Collection[str]) -> str:
@@ -590,17 +617,17 @@ class ValueReader:
 
         Where the block makes a number, a list or a text of a value, the value alone is in it.
         """
-        kind, may_be = slot.kind, self.names.may_be
+        kind = slot.kind
         if not kind.becomes_text:
             inner = _within(node, self._made(slot))
             needed = NUMBER if kind.is_number else RESULT_KINDS.get(kind.name, ANY)
-            if inner is node and kind.name != "boolean" and not may_be(node, needed):
+            if inner is node and kind.name != "boolean" and not _may_be(node, needed):
                 return None
             return next((made for made, result in self.blocks(inner) if result in kind.fits), None)
         inner, others = _within(node, _TOLD), kind.fits - TEXT_RESULTS
         if inner is node:
-            is_shown = not is_clear or not may_be(node, ANY & ~TEXT)
-            others = frozenset({"any"}) if is_shown and may_be(node, TEXT) else frozenset()
+            is_shown = not is_clear or not _may_be(node, ANY & ~TEXT)
+            others = frozenset({"any"}) if is_shown and _may_be(node, TEXT) else frozenset()
             others |= TEXT_RESULTS
             found = sorted(self.blocks(node), key=_is_no_text)
             return next((made for made, result in found if result in others), None)
@@ -698,11 +725,22 @@ class ValueReader:
         return made if self._choose_masters(made) else None
 
     def _is_clear_join(self, made: Made, found: Found) -> bool:
-        """Whether a part of a sum shows that it is a text: else it is a sum of numbers."""
-        typed = any(key not in made.inputs for key in found.slots)
-        results = (self.language.definitions[inner.type].result for inner in made.inputs.values())
-        told = any(_within(node, _TOLD) is not node for node in found.slots.values())
-        return typed or told or any(result in TEXT_RESULTS for result in results)
+        """Whether a part of a sum shows that it is a text: else it is a sum of numbers.
+
+        A block that joins tells one that is a text anyway only where it is the first, and no other
+        shows it.
+        """
+        told, clear = set[str](), set[str]()
+        for key, node in found.slots.items():
+            inner = _within(node, _TOLD)
+            is_text = key not in made.inputs or (
+                self.language.definitions[made.inputs[key].type].result in TEXT_RESULTS
+            )
+            if is_text or (inner is not node and kinds_of(inner) != TEXT):
+                clear.add(key)
+            elif inner is not node:
+                told.add(key)
+        return bool(clear) if not told else not clear and told == {"item.1"}
 
     def _choose_masters(self, made: Made) -> bool:
         """Choose what a choice depends on where Python does not say it: the arm of a joint."""
@@ -791,16 +829,21 @@ def _are_whole(found: Found, keys: Collection[str]) -> bool:
     return all(are(kinds_of(found.slots[key]), WHOLE) for key in keys if key in found.slots)
 
 
+def _may_be(node: ast.expr, kinds: int) -> bool:
+    """Whether a value can be of these kinds, as far as the text tells."""
+    return bool(kinds_of(node) & kinds)
+
+
 def _is_no_text(made: tuple[Made, str]) -> tuple[int, bool]:
     """Sorts blocks with their results: those of texts first, unless more of it stays Python."""
     return made[0].written, made[1] not in TEXT_RESULTS
 
 
 def _constant(node: ast.AST) -> str | int | float | bool | None:
-    if isinstance(node, ast.UnaryOp) and isinstance(node.op, ast.USub):
-        inner = _constant(node.operand)
-        is_number = isinstance(inner, int | float) and not isinstance(inner, bool)
-        return -inner if is_number else None  # type: ignore[operator]
+    match node:
+        case ast.UnaryOp(op=ast.USub(), operand=ast.Constant(value=int() | float() as number)):
+            is_said = not isinstance(number, bool) and (number != 0 or isinstance(number, float))
+            return -number if is_said else None  # a block says -0
     if isinstance(node, ast.Constant) and isinstance(node.value, str | int | float):
         return node.value
     return None

@@ -57,7 +57,7 @@ def known_whole(node: ast.expr) -> int | None:
     match node:
         case ast.Constant(value=int(value)) if type(value) is int:
             return value
-        case ast.UnaryOp(op=ast.USub(), operand=ast.Constant(value=int(value))):
+        case ast.UnaryOp(op=ast.USub(), operand=ast.Constant(value=int(value))) if value:
             return -value
     return None
 

@@ -27,7 +27,15 @@ from nep_studio.blocks.slots import Setting, constant
 
 from .expressions import Expressions, call, literal, method_call, refusing, show
 from .generators import REPORTERS
-from .kinds import FactReader, Facts, Kinds, together
+from .kinds import (
+    FactReader,
+    Facts,
+    Kinds,
+    parameter_key,
+    result_key,
+    together,
+    variable_key,
+)
 from .names import MODULES, NameTable, ProgramNames
 from .rules import HATS, Line, RuleWriter
 from .source_map import Code
@@ -92,6 +100,7 @@ class ProgramGenerator:
         self._facts: dict[str, tuple[object, Facts]] = {}
         self._kinds = Kinds()
         self._kinds_for: object = None
+        self._written_with = ProgramNames({}, {})
         self._robots: dict[str, tuple[int, frozenset[str]]] = {}
         self._chains: dict[str, tuple[object, Chain]] = {}
         self._robot_slots = {
@@ -99,6 +108,23 @@ class ProgramGenerator:
             for definition in language.definitions.values()
             for slot in definition.slots.values()
             if slot.kind.name == "robot"
+        }
+
+    def kinds(self) -> dict[str, int]:
+        """The kinds of what the program keeps, as it was written last, by the names in Python.
+
+        What an own block gives back is called ``name()``, what it is given ``name(value)``.
+        """
+        names, kinds = self._written_with, self._kinds
+        own = [(p, self._project.procedures[p], name) for p, name in names.procedures.items()]
+        return {
+            **{name: kinds.of(variable_key(v)) for v, name in names.variables.items()},
+            **{f"{name}()": kinds.of(result_key(p)) for p, _, name in own},
+            **{
+                f"{name}({names.parameters[f'{p}.{one.id}']})": kinds.of(parameter_key(p, one.id))
+                for p, procedure, name in own
+                for one in parameters(procedure)
+            },
         }
 
     def generate(self) -> Code:
@@ -116,6 +142,7 @@ class ProgramGenerator:
         headers = self._headers(written)
         outside = self._outside(written)
         names = yield from self._names(written, headers, outside)
+        self._written_with = names
         sharing = yield from self._sharing(written, names)
         self._kinds = yield from self._kinds_in(written, names)
         functions = NameTable(names.taken())
