@@ -139,7 +139,8 @@ class StatementReader:
                     return made, 1
         for pattern in self._learned.statements.get(beginning(first), ()):
             count = len(pattern.nodes)
-            found = match(pattern, nodes[:count]) if count <= len(nodes) else None
+            is_kept = any(node.lineno in self._kept for node in nodes[:count])
+            found = match(pattern, nodes[:count]) if count <= len(nodes) and not is_kept else None
             made_from = self.values.made_from(pattern, found) if found is not None else None
             if made_from is not None and found is not None:
                 for key, body in found.bodies.items():
