@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ast
 import re
+import symtable
 import unicodedata
 import warnings
 from collections.abc import Iterator, Mapping
@@ -81,13 +82,22 @@ def read_outside(text: str) -> CodeText:
     lines = _visible_lines(text)
     tree = _parse("\n".join(lines), "exec")
     compile_quietly("\n".join(lines))
-    read, made = _names(tree)
+    of_program = frozenset(_of_program(symtable.symtable("\n".join(lines), "program.py", "exec")))
+    read, made = (names & of_program for names in _names(tree))
     body = tree.body if isinstance(tree, ast.Module) else []
     defined = frozenset(name for node in body for name in made_by(node))
     targets = [target for node in body for target in _targets(node)]
     values = frozenset(t.id for t in targets if isinstance(t, ast.Name))
     inside = frozenset(lines_inside_texts(tree))
     return CodeText(tuple(lines), inside, read, made, values | defined, defined, not body)
+
+
+def _of_program(table: symtable.SymbolTable) -> Iterator[str]:
+    """The names that stand for what is outside of all functions, wherever they are."""
+    is_outside = table.get_type() == "module"
+    yield from (s.get_name() for s in table.get_symbols() if is_outside or s.is_global())
+    for inner in table.get_children():
+        yield from _of_program(inner)
 
 
 def _targets(node: ast.stmt) -> list[ast.expr]:

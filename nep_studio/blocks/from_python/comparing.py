@@ -17,7 +17,7 @@ from .learning import CodeUnread
 from .outside import HEADERS, Part, is_frame
 from .reading import as_block
 from .source import Source, begin_of, read_source
-from .values import locals_of, names_made
+from .values import functions_of, locals_of, names_made
 
 
 def lost_lines(
@@ -107,10 +107,10 @@ def _lost_functions(
 
 def _differing(there: ast.FunctionDef, again: ast.FunctionDef) -> set[int]:
     """The lines of what differs between a function and the one that blocks make."""
-    _require_same_scope(there, again)
-    if not there.decorator_list and not (
-        there.name == again.name and _same(there.args, again.args)
-    ):
+    is_so_called = there.name == again.name and _same(there.args, again.args)
+    if not _require_same_scope(there, again):
+        return {there.lineno}
+    if not there.decorator_list and not is_so_called:
         return {there.lineno}
     if not _same(there.decorator_list, again.decorator_list):
         return {there.lineno}
@@ -121,11 +121,20 @@ def _differing(there: ast.FunctionDef, again: ast.FunctionDef) -> set[int]:
     return lost
 
 
-def _require_same_scope(there: ast.FunctionDef, again: ast.FunctionDef) -> None:
-    """What a rule has for itself in the text cannot become one of the whole program, or back."""
-    ours, theirs = locals_of(there), locals_of(again)
-    for name, line in ours.items():
-        if name not in theirs and _is_shared(again, name) and there.decorator_list:
+def _require_same_scope(there: ast.FunctionDef, again: ast.FunctionDef) -> bool:
+    """Whether what a function has for itself in the text stays its own among the blocks.
+
+    Raises CodeUnread for a rule that has it: nothing else than blocks can be made of its function.
+    """
+    both = list(functions_of(there)), list(functions_of(again))
+    inner = len(both[0]) if len(both[0]) == len(both[1]) else 1  # else lines differ anyway
+    for ours, theirs in zip(both[0][:inner], both[1][:inner], strict=True):
+        own = locals_of(theirs)
+        for name, line in locals_of(ours).items():
+            if name in own or not _is_shared(theirs, name):
+                continue
+            if not there.decorator_list:
+                return False
             raise CodeUnread(
                 "“{name}” is a variable of the whole program, and this rule has one of its own.",
                 line,
@@ -135,9 +144,10 @@ def _require_same_scope(there: ast.FunctionDef, again: ast.FunctionDef) -> None:
                 ),
                 name=name,
             )
+    return True
 
 
-def _is_shared(function: ast.FunctionDef, name: str) -> bool:
+def _is_shared(function: ast.FunctionDef | ast.AsyncFunctionDef, name: str) -> bool:
     return any(isinstance(n, ast.Global) and name in n.names for n in ast.walk(function))
 
 

@@ -157,7 +157,8 @@ class StatementReader:
                         return
         for pattern in self._learned.statements.get(beginning(first), ()):
             count = len(pattern.nodes)
-            found = match(pattern, nodes[:count]) if count <= len(nodes) else None
+            is_kept = any(node.lineno in self._kept for node in nodes[:count])
+            found = match(pattern, nodes[:count]) if count <= len(nodes) and not is_kept else None
             made_from = self.values.made_from(pattern, found) if found is not None else None
             if made_from is not None and found is not None:
                 yield made_from, count, found.bodies

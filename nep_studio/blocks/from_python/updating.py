@@ -87,8 +87,10 @@ class ChainUpdater:
         """Change the blocks of a chain, from its end on; disabled ones stay where they are."""
         blocks = self._editor.project.blocks
         enabled = [index for index, block in enumerate(old) if not blocks[block].disabled]
-        before = [self._text(old[index]) for index in enabled]
-        matcher = SequenceMatcher(None, before, [made.text for made in wanted], autojunk=False)
+        # Python that is kept as it is may read as the blocks do that would say it otherwise
+        before = [(self._text(old[i]), self._is_code(blocks[old[i]].type)) for i in enabled]
+        after = [(made.text, self._is_code(made.type)) for made in wanted]
+        matcher = SequenceMatcher(None, before, after, autojunk=False)
         for what, i, end, j, until in reversed(matcher.get_opcodes()):
             if what == "equal":
                 continue
@@ -138,6 +140,10 @@ class ChainUpdater:
     def _create(self, chain: Sequence[Made], place: Place) -> None:
         roots, blocks = blocks_of(self._editor.project, self._editor.language, chain)
         self._editor.apply(CreateBlocks(roots, blocks, place))
+
+    def _is_code(self, block_type: str) -> bool:
+        definition = self._editor.language.definitions.get(block_type)
+        return definition is not None and definition.generator == "code_lines"
 
     def _text(self, block: str) -> str:
         """The lines that a block makes with all inside it, without their margin."""

@@ -199,7 +199,8 @@ class Facts:
     for a list (LIST) or to which a text is appended (TEXT), ``set_to`` the kinds to which blocks
     set variables, by how these look. ``used`` are the variables that it uses: ``early`` those that
     may be read there before they are set there, ``apart`` those in functions of their own.
-    ``written`` is what Python in it names.
+    ``written`` is what Python in it names; ``begun`` are the names that it does no more with than
+    to give them a plain value, each with the kinds of it, and of what is in it if it is a list.
     """
 
     put: frozenset[tuple[str, Given]] = frozenset()
@@ -213,6 +214,7 @@ class Facts:
     """Whether it defines an own block."""
     is_open: bool = True
     """Whether it may come to its end without giving something back."""
+    begun: frozenset[tuple[str, int, int]] = frozenset()
 
 
 _WHOLE_RESULTS = frozenset(
@@ -261,6 +263,7 @@ class FactReader:
         self._early: set[str] = set()
         self._apart: set[str] = set()
         self._written: set[str] = set()
+        self._begun: set[tuple[str, int, int]] = set()
         self._procedure = ""
 
     def read(self, chain: Sequence[str]) -> Facts:
@@ -288,6 +291,7 @@ class FactReader:
             frozenset(self._written),
             bool(self._procedure),
             end is not None,
+            frozenset(self._begun),
         )
 
     def _block(self, block: Block, definition: Definition) -> None:
@@ -307,7 +311,10 @@ class FactReader:
             self._call(block)
         elif generator in _CODE:
             text = str(definition.value(block, "code"))
-            if not text.startswith(_HARMLESS):
+            begun = begun_in(text) if generator == "program_lines" else None
+            if begun is not None:
+                self._begun |= begun
+            elif not text.startswith(_HARMLESS):
                 self._written |= names_in_code(text)
 
     def _inputs(self, block: Block, definition: Definition) -> None:
@@ -515,6 +522,37 @@ def names_in_code(text: str) -> frozenset[str]:
 
 
 @lru_cache(maxsize=1024)
+def begun_in(text: str) -> frozenset[tuple[str, int, int]] | None:
+    """The names to which Python gives plain values, with their kinds and those of their items.
+
+    None where it does anything else, besides importing and telling what it is for.
+    """
+    found = set[tuple[str, int, int]]()
+    tree = _tree(text)
+    for node in tree.body if tree is not None else [ast.Pass()]:
+        match node:
+            case ast.Import() | ast.ImportFrom() | ast.Expr(value=ast.Constant()):
+                continue
+            case (
+                ast.Assign(targets=[ast.Name(id=name)], value=value)
+                | ast.AnnAssign(target=ast.Name(id=name), value=ast.expr() as value)
+            ) if _is_plain(value):
+                found.add((name, kinds_of(value), 0))
+            case ast.Assign(targets=[ast.Name(id=name)], value=ast.List(elts=items)) if all(
+                map(_is_plain, items)
+            ):
+                found.add((name, LIST, _all(map(kinds_of, items))))
+            case _:
+                return None
+    return frozenset(found)
+
+
+def _is_plain(value: ast.expr) -> bool:
+    inner = value.operand if isinstance(value, ast.UnaryOp) else value
+    return isinstance(inner, ast.Constant) and type(inner.value) in (str, int, float, bool)
+
+
+@lru_cache(maxsize=1024)
 def gives_back(text: str) -> bool:
     """Whether Python that a person wrote ends its function itself, at one place at least."""
     tree = _tree(text)
@@ -577,6 +615,13 @@ def together(facts: Mapping[str, Facts], project: Project, names: ProgramNames) 
     written = frozenset().union(*(one.written for one in facts.values()))
     if written:
         known.update(_written(written, project, names))
+    for name, of_value, of_items in frozenset[tuple[str, int, int]]().union(
+        *(one.begun for one in facts.values())
+    ):
+        for variable, so_called in names.variables.items():
+            if so_called == name:
+                known[variable_key(variable)] = known.get(variable_key(variable), 0) | of_value
+                known[ITEMS] = known.get(ITEMS, 0) | of_items
     has_changed = True
     while has_changed:
         has_changed = False
@@ -624,6 +669,7 @@ def _own(facts: Mapping[str, Facts], names: ProgramNames) -> dict[str, frozenset
         for variable in one.used:
             users.setdefault(variable, []).append(stack)
     written = frozenset().union(*(one.written for one in facts.values()))
+    written |= {name for one in facts.values() for name, _, _ in one.begun}
     found: dict[str, set[str]] = {}
     for variable, stacks in users.items():
         one = facts[stacks[0]]
