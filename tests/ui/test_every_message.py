@@ -51,7 +51,6 @@ WITHOUT = {
     'the setting "{name}" has a minimum above its maximum': PASSED_ON,
     'the setting "{name}" has no choices': PASSED_ON,
     "A registration names its instance and its node.": OF_A_PROGRAM,
-    "Names are written without control characters.": OF_A_PROGRAM,
     "reason": SAYS_WHY,
     "reason or 'A letter or a digit is needed.'": SAYS_WHY,
     "There is no block for this.": NO_HAND,
