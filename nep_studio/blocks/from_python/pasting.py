@@ -84,4 +84,3 @@ def _loose(reader: StatementReader, nodes: list[ast.stmt]) -> list[Made]:
         if found and not is_call:
             return [found[0][0]]
     return reader.chain(nodes, 0, 0)
-

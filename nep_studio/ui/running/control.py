@@ -7,10 +7,11 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from PySide6.QtCore import QObject, Signal
+from PySide6.QtCore import QObject, QTimer, Signal
 from PySide6.QtWidgets import QWidget
 
 from nep_studio.blocks.checks.diagnostic import Diagnostic, Severity
+from nep_studio.blocks.code_text import plainly
 from nep_studio.blocks.deployment import names_used, node_entries, robot_entries
 from nep_studio.blocks.edits.content import SetExtra
 from nep_studio.blocks.errors import CodeRefused
@@ -76,6 +77,8 @@ class RunControl(QObject):
         """What the nodes of the open project follow from, as it was when it was last told."""
         self._troubles: dict[int, Message] = {}
         """What was told of lines of the program while it ran."""
+        self._marked: Message | None = None
+        """What was told of a project that brings more than blocks."""
         self._told_of_end: Message | None = None
         """What went wrong with the last run; it is over when the next one begins."""
         self.runner.told.connect(self._on_told)
@@ -112,6 +115,40 @@ class RunControl(QObject):
         self.stop()
         self.stage.clear()
         self.breakpoints.clear()
+        self._withdraw_mark()
+        QTimer.singleShot(0, self, self._mark_strange)
+
+    def _mark_strange(self) -> None:
+        """Say that the open project brings what nobody here has approved; nothing runs yet."""
+        if self._document is None or self._marked is not None or not self._strange():
+            return
+        self._marked = Message(
+            "info",
+            tr("“{name}” brings more than blocks", name=plainly(self._document.title)),
+            tr("You are asked about it before it runs."),
+            answers=(Answer(tr("See what it brings…"), self._show_strange),),
+        )
+        self._host.services.messages.tell(self._marked)
+
+    def _strange(self) -> Sequence[Concern]:
+        """What nobody here has approved in the open project."""
+        if self._document is None:
+            return ()
+        self._keep_own()
+        project, language = self._document.project, self._host.services.language
+        found = concerns_of(project, language, self._document.folder)
+        return self.runner.local.gate.unapproved(found)
+
+    def _show_strange(self) -> None:
+        if left := self._strange():
+            self._ask(left, self.runner.run)
+        else:
+            self._withdraw_mark()
+
+    def _withdraw_mark(self) -> None:
+        if self._marked is not None:
+            self._host.services.messages.withdraw(self._marked)
+            self._marked = None
 
     def try_example(self, path: Path) -> None:
         """Open an example, and run it; only it, should the person go elsewhere instead."""
@@ -274,6 +311,7 @@ class RunControl(QObject):
 
         def approve() -> None:
             self.runner.local.gate.approve(concerns)
+            self._withdraw_mark()
             if self._document is not None:
                 self._document.authorship.look_again()
             start()

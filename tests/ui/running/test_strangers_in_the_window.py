@@ -13,6 +13,7 @@ from PySide6.QtWidgets import QLabel, QWidget
 from pytestqt.qtbot import QtBot
 
 from nep_core.places import NODES_VARIABLE
+from nep_studio import paths
 from nep_studio.blocks.edits.content import SetField
 from nep_studio.blocks.operations.copying import copy, paste
 from nep_studio.run.installation import studio_language
@@ -523,3 +524,27 @@ def test_screen_readers_hear_what_each_text_is(
 
     assert names == ["Python, one line, page Behaviour · inside folded blocks"]
     dialog.reject()
+
+
+def test_a_strangers_project_is_marked_when_it_is_opened(
+    stranger: Callable[..., Trap], window: MainWindow, qtbot: QtBot
+) -> None:
+    trap = stranger(lines)
+    cards = window.message_area.cards
+
+    qtbot.waitUntil(lambda: any("more than blocks" in one.message.title for one in cards))
+    mark = next(one.message for one in cards if "more than blocks" in one.message.title)
+    mark.answers[0].do()
+    dialog = asked(window, qtbot)
+    assert not trap.has_sprung()
+    dialog.accept()
+
+    qtbot.waitUntil(trap.has_sprung, timeout=LONG_MS)
+    assert mark not in [one.message for one in cards]
+
+
+def test_a_project_of_blocks_alone_is_not_marked(window: MainWindow, qtbot: QtBot) -> None:
+    open_in(window, qtbot, paths.examples() / "karate_greeting.nep")
+    qtbot.wait(A_WHILE_MS)
+
+    assert not [one for one in window.message_area.cards if one.message.kind == "info"]
