@@ -106,7 +106,9 @@ def names_in(
     they put values into becomes variables too.
     """
     names = _known(editor)
-    _note_kinds(tree, _kinds_given(tree, names) if hints is None else hints.kinds)
+    begun = _begun_otherwise(tree, hints)
+    known = _kinds_given(tree, names) if hints is None else hints.kinds
+    _note_kinds(tree, {name: ANY if name in begun else kinds for name, kinds in known.items()})
     for node in tree.body:
         match node:
             case ast.Assign(
@@ -119,7 +121,7 @@ def names_in(
         names.procedures.pop(name, None)
     assigned: list[str] = []
     for node in of_functions.values():
-        _note_procedure(editor, names, node, tree, _begun_otherwise(tree, hints))
+        _note_procedure(editor, names, node, tree, begun)
         if node.name not in as_code:
             assigned += _kept(node, tree)
     for name in [*assigned, *_begun(tree), *_shared(tree, loose=loose)]:
@@ -729,7 +731,7 @@ class ValueReader:
             is_free = key in pattern.free
             if not self.fill(made, key, node, is_clear=key in clear, is_free=is_free):
                 return None
-        if is_join and not self._is_clear_join(made, found):
+        if is_join and not self._is_clear_join(made, found, is_shown=bool(pattern.clear)):
             return None
         if pattern.is_range and not _has_rounds(made):
             return None
@@ -743,11 +745,10 @@ class ValueReader:
             made.fields["variable"] = self.names.variables[found.variable]
         return made if self._choose_masters(made) else None
 
-    def _is_clear_join(self, made: Made, found: Found) -> bool:
+    def _is_clear_join(self, made: Made, found: Found, *, is_shown: bool) -> bool:
         """Whether a part of a sum shows that it is a text: else it is a sum of numbers.
 
-        A block that joins tells one that is a text anyway only where it is the first, and no other
-        shows it.
+        Where ``is_shown`` is false, Python tells the first part as a text though it may be one.
         """
         told, clear = set[str](), set[str]()
         for key, node in found.slots.items():
@@ -759,7 +760,7 @@ class ValueReader:
                 clear.add(key)
             elif inner is not node:
                 told.add(key)
-        return bool(clear) if not told else not clear and told == {"item.1"}
+        return not told and bool(clear) == is_shown
 
     def _choose_masters(self, made: Made) -> bool:
         """Choose what a choice depends on where Python does not say it: the arm of a joint."""
