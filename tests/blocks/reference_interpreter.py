@@ -66,6 +66,8 @@ WORDS = {
 
 def told(value: Value, language: str = "en") -> str:
     """A value as a text."""
+    if isinstance(value, list):
+        _require_small(value)
     true, false, last, between, mark = WORDS[language]
     if isinstance(value, bool):
         return true if value else false
@@ -103,7 +105,20 @@ def kind(value: Value) -> str:
     return {str: "text", list: "list"}.get(type(value), "number")
 
 
+def _require_small(value: list) -> None:
+    """Give up on lists that are in each other so often that nobody can go through them."""
+    left, seen = [value], 0
+    while left:
+        items = left.pop()
+        seen += len(items)
+        if seen > MOST_STEPS:
+            raise GivenUp
+        left += [item for item in items if isinstance(item, list)]
+
+
 def equal(one: Value, other: Value) -> bool:
+    if isinstance(one, list) and isinstance(other, list):
+        _require_small(one)
     if kind(one) != kind(other):
         return False
     if isinstance(one, list) and isinstance(other, list):

@@ -185,13 +185,18 @@ def update_from_python(editor: Editor, text: str) -> None:
         ) from error
 
 
+MOST_READINGS = 3
+"""How often a text is read, each time with more that is known of its values."""
+
+
 def _update_until_same(editor: Editor, source: Source) -> None:
     """Change the blocks; what would not be said again by them is kept as Python, or refused.
 
-    Where something would not, all is read once more first, with what is known then.
+    Where something would not, all is read again first, with what is known then.
     """
     kept = set[int]()
     hints: Hints | None = None
+    readings = 1
     anew = False
     while True:
         try:
@@ -201,10 +206,10 @@ def _update_until_same(editor: Editor, source: Source) -> None:
                 if lost:
                     raise _Differs(lost)
         except _Differs as differs:
-            if hints is None:
-                hints = Hints(found, differs.lines)
+            known, hints = hints, Hints(found, hints.differed if hints else differs.lines)
+            if hints != known and readings < MOST_READINGS:
+                readings += 1
                 continue
-            hints = Hints(found, hints.differed)
             if differs.lines <= kept:
                 raise CodeUnread(
                     differs.sentence,

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+import itertools
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import partial
@@ -30,6 +31,7 @@ from ..generate.kinds import (
     NUMBER,
     RESULT_KINDS,
     TEXT,
+    TRUTH,
     WHOLE,
     are,
     kinds_of,
@@ -104,7 +106,9 @@ def names_in(
     they put values into becomes variables too.
     """
     names = _known(editor)
-    _note_kinds(tree, _kinds_given(tree, names) if hints is None else hints.kinds)
+    begun = _begun_otherwise(tree, hints)
+    known = _kinds_given(tree, names) if hints is None else hints.kinds
+    _note_kinds(tree, {name: ANY if name in begun else kinds for name, kinds in known.items()})
     for node in tree.body:
         match node:
             case ast.Assign(
@@ -117,7 +121,7 @@ def names_in(
         names.procedures.pop(name, None)
     assigned: list[str] = []
     for node in of_functions.values():
-        _note_procedure(editor, names, node, tree, _lists(tree, hints))
+        _note_procedure(editor, names, node, tree, begun)
         if node.name not in as_code:
             assigned += _kept(node, tree)
     for name in [*assigned, *_begun(tree), *_shared(tree, loose=loose)]:
@@ -316,7 +320,7 @@ def _note_procedure(
     names: SourceNames,
     node: ast.FunctionDef,
     tree: ast.Module,
-    lists: Collection[str],
+    begun: Mapping[str, str],
 ) -> None:
     wanted = [argument.arg for argument in node.args.args]
     gives_value = any(isinstance(n, ast.Return) and n.value is not None for n in ast.walk(node))
@@ -325,7 +329,7 @@ def _note_procedure(
         return
     own = [
         Parameter(editor.project.new_id("a"), name.replace("_", " "), kind)
-        for name, kind in zip(wanted, _kinds_of_parameters(node, tree, lists), strict=True)
+        for name, kind in zip(wanted, _kinds_of_parameters(node, tree, begun), strict=True)
     ]
     procedure = Procedure(
         editor.project.new_id("p"), (node.name.replace("_", " ").strip(), *own), gives_value
@@ -334,48 +338,66 @@ def _note_procedure(
     names.procedures[node.name] = procedure
 
 
-_MAKES = {"as_list": "list", "as_number": "number", "bool": "boolean"}
+_MAKES = {
+    **{"as_list": "list", "as_number": "number", "bool": "boolean"},
+    **{"as_text": "text", "str": "text"},
+}
 
 
 def _kinds_of_parameters(
-    function: ast.FunctionDef, tree: ast.Module, lists: Collection[str]
-) -> list[str]:
-    """The kinds of the values of an own block, where a call makes sure of one.
+    function: ast.FunctionDef, tree: ast.Module, begun: Mapping[str, str]
+) -> Iterator[str]:
+    """The kinds of the values of an own block, as its calls and its definition show them.
 
-    Or where all that it is given are lists, or variables that begin as one for no other reason.
+    ``begun`` are the kinds of variables that would begin otherwise if no block took them for that.
     """
     calls = [
         node.args
         for node in ast.walk(tree)
         if isinstance(node, ast.Call) and getattr(node.func, "id", "") == function.name
     ]
-    kinds = []
-    for place in range(len(function.args.args)):
+    for place, argument in enumerate(function.args.args):
         given = [arguments[place] for arguments in calls if place < len(arguments)]
-        kinds.append(_kind_of_parameter(given, lists))
-    return kinds
+        shown = itertools.chain(
+            map(_kind_made, given), _kinds_begun(function, argument.arg, given, begun)
+        )
+        fitting = (kind for kind in shown if _may_all_be(given, kind))
+        yield next(fitting, "any")
 
 
-def _lists(tree: ast.Module, hints: Hints | None) -> frozenset[str]:
-    """The variables that begin as a list, and would not when the text was read before."""
-    found = set[str]()
-    for node in tree.body:
+def _kind_made(node: ast.expr) -> str:
+    """The kind that a call makes of a value for an own block, or an empty text."""
+    is_made = isinstance(node, ast.Call) and not _is_junction(node)
+    return _MAKES.get(getattr(node.func, "id", ""), "") if is_made else ""  # type: ignore[attr-defined]
+
+
+def _kinds_begun(
+    function: ast.FunctionDef, parameter: str, given: Sequence[ast.expr], begun: Mapping[str, str]
+) -> Iterator[str]:
+    """The kinds that variables have by being given to an own block, or by being set in it."""
+    if any(isinstance(node, ast.Name) and begun.get(node.id) == "list" for node in given):
+        yield "list"
+    for node in ast.walk(function):
         match node:
-            case ast.Assign(targets=[ast.Name(id=name)], value=ast.List(elts=[])):
+            case ast.Assign(targets=[ast.Name(id=name)], value=ast.Name(id=value)):
+                if value == parameter:
+                    yield begun.get(name, "")
+
+
+def _may_all_be(given: Sequence[ast.expr], kind: str) -> bool:
+    return bool(kind) and all(_may_be(node, RESULT_KINDS[kind]) for node in given)
+
+
+def _begun_otherwise(tree: ast.Module, hints: Hints | None) -> dict[str, str]:
+    """The kinds with which variables begin, but would not when the text was read before."""
+    found: dict[str, str] = {}
+    for node in tree.body if hints is not None else ():
+        match node:
+            case ast.Assign(targets=[ast.Name(id=name)], value=value):
                 if hints is not None and node.lineno in hints.differed:
-                    found.add(name)
-    return frozenset(found)
-
-
-def _kind_of_parameter(given: Sequence[ast.expr], lists: Collection[str]) -> str:
-    for node in given:
-        is_made = isinstance(node, ast.Call) and getattr(node.func, "id", "") in _MAKES
-        if is_made and not _is_junction(node):
-            return _MAKES[node.func.id]  # type: ignore[attr-defined]
-    names = [node.id for node in given if isinstance(node, ast.Name)]
-    others = [node for node in given if not isinstance(node, ast.Name)]
-    is_list = lists.issuperset(names) and all(kinds_of(node) == LIST for node in others)
-    return "list" if names and is_list else "any"
+                    kinds = {LIST: "list", TEXT: "text", TRUTH: "boolean"}
+                    found[name] = kinds.get(kinds_of(value), "")
+    return found
 
 
 def _shared(tree: ast.Module, *, loose: bool) -> Iterator[str]:
@@ -626,8 +648,7 @@ class ValueReader:
             return next((made for made, result in self.blocks(inner) if result in kind.fits), None)
         inner, others = _within(node, _TOLD), kind.fits - TEXT_RESULTS
         if inner is node:
-            is_shown = not is_clear or not _may_be(node, ANY & ~TEXT)
-            others = frozenset({"any"}) if is_shown and _may_be(node, TEXT) else frozenset()
+            others = frozenset({"any"}) if not is_clear and _may_be(node, TEXT) else frozenset()
             others |= TEXT_RESULTS
             found = sorted(self.blocks(node), key=_is_no_text)
             return next((made for made, result in found if result in others), None)
@@ -710,7 +731,7 @@ class ValueReader:
             is_free = key in pattern.free
             if not self.fill(made, key, node, is_clear=key in clear, is_free=is_free):
                 return None
-        if is_join and not self._is_clear_join(made, found):
+        if is_join and not self._is_clear_join(made, found, is_shown=bool(pattern.clear)):
             return None
         if pattern.is_range and not _has_rounds(made):
             return None
@@ -724,11 +745,10 @@ class ValueReader:
             made.fields["variable"] = self.names.variables[found.variable]
         return made if self._choose_masters(made) else None
 
-    def _is_clear_join(self, made: Made, found: Found) -> bool:
+    def _is_clear_join(self, made: Made, found: Found, *, is_shown: bool) -> bool:
         """Whether a part of a sum shows that it is a text: else it is a sum of numbers.
 
-        A block that joins tells one that is a text anyway only where it is the first, and no other
-        shows it.
+        Where ``is_shown`` is false, Python tells the first part as a text though it may be one.
         """
         told, clear = set[str](), set[str]()
         for key, node in found.slots.items():
@@ -740,7 +760,7 @@ class ValueReader:
                 clear.add(key)
             elif inner is not node:
                 told.add(key)
-        return bool(clear) if not told else not clear and told == {"item.1"}
+        return not told and bool(clear) == is_shown
 
     def _choose_masters(self, made: Made) -> bool:
         """Choose what a choice depends on where Python does not say it: the arm of a joint."""
