@@ -24,7 +24,7 @@ from nep_studio.blocks.generate.source_map import Code
 from nep_studio.blocks.operations.selection import chain_around
 from nep_studio.blocks.places import InBody, InInput, InStack, NewStack, Place
 from nep_studio.blocks.procedures import procedure_of
-from nep_studio.blocks.program import Block, Project
+from nep_studio.blocks.program import Block, Project, split_slot
 
 from .comparing import lost_lines
 from .learning import CodeUnread, Made, blocks_of
@@ -130,8 +130,9 @@ class ChainUpdater:
                 continue
             if key in block.inputs:
                 editor.apply(DeleteBlocks(block.inputs[key], 1))
-            wanted = made.fields.get(key)
-            if wanted is not None and definition.value(block, key) != wanted:
+            # what the Python does not say is as in a new block
+            wanted = made.fields.get(key, definition.defaults.get(split_slot(key)[0]))
+            if key not in made.inputs and definition.value(block, key) != wanted:
                 editor.apply(SetField(block.id, key, wanted))
             if key in made.inputs:
                 self._create([made.inputs[key]], InInput(block.id, key))
