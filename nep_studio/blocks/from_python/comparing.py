@@ -215,12 +215,24 @@ def _lost_comments(
                 checklist=("Write it on a line of its own, above what it is about.",),
             )
         inner: ast.stmt = around[0]
+        parts = set[int]()
         for node in ast.walk(around[0]):
-            if isinstance(node, ast.stmt) and _holds(node, line) and node.lineno >= inner.lineno:
+            parts |= {id(one) for one in _else_ifs(node)}
+            if not isinstance(node, ast.stmt) or id(node) in parts:
+                continue
+            if _holds(node, line) and node.lineno >= inner.lineno:
                 inner = node
         lost.add(inner.lineno)
         lost.add(around[0].lineno) if inner.lineno == line else None
     return lost
+
+
+def _else_ifs(node: ast.AST) -> list[ast.stmt]:
+    """The “elif” of an “if”, which is a part of it and no statement of its own."""
+    is_one = isinstance(node, ast.If) and len(node.orelse) == 1
+    inner = node.orelse[0] if isinstance(node, ast.If) and is_one else None
+    is_part = isinstance(inner, ast.If) and inner.col_offset == getattr(node, "col_offset", -1)
+    return [inner] if inner is not None and is_part else []
 
 
 def _said(source: Source) -> Counter[str]:

@@ -13,7 +13,7 @@ from itertools import pairwise
 
 from faults import Words
 from nep_studio.blocks.code_text import CodeTextRefused, read_outside
-from nep_studio.blocks.deployment import OUTSIDE_BLOCK, chains
+from nep_studio.blocks.deployment import OUTSIDE_BLOCK, chains, names_used, robot_entries
 from nep_studio.blocks.editor import Editor
 from nep_studio.blocks.edits.content import SetComment, SetField
 from nep_studio.blocks.edits.placing import CreateBlocks, DeleteBlocks, MoveBlocks
@@ -21,10 +21,12 @@ from nep_studio.blocks.errors import BlocksError, CodeRefused, EditRefused
 from nep_studio.blocks.generate.expressions import comment_lines
 from nep_studio.blocks.generate.program import generate_program
 from nep_studio.blocks.generate.source_map import Code
+from nep_studio.blocks.operations.finding import why_not_robot_name
+from nep_studio.blocks.operations.fixes import rename_robot
 from nep_studio.blocks.operations.selection import chain_around
 from nep_studio.blocks.places import InBody, InInput, InStack, NewStack, Place
 from nep_studio.blocks.procedures import procedure_of
-from nep_studio.blocks.program import Block, Project
+from nep_studio.blocks.program import Block, Project, split_slot
 
 from .comparing import lost_lines
 from .learning import CodeUnread, Made, blocks_of
@@ -131,8 +133,9 @@ class ChainUpdater:
                 continue
             if key in block.inputs:
                 editor.apply(DeleteBlocks(block.inputs[key], 1))
-            wanted = made.fields.get(key)
-            if wanted is not None and definition.value(block, key) != wanted:
+            # what the Python does not say is as in a new block
+            wanted = made.fields.get(key, definition.defaults.get(split_slot(key)[0]))
+            if key not in made.inputs and definition.value(block, key) != wanted:
                 editor.apply(SetField(block.id, key, wanted))
             if key in made.inputs:
                 self._create([made.inputs[key]], InInput(block.id, key))
@@ -244,6 +247,7 @@ def _update(
     Gives the parts of the text, and the function that each stack is to make.
     """
     parts = parts_of(source, kept)
+    _rename_robot(editor, source)
     code = _code(editor)
     written = _written(editor.project, code)
     known_texts = [] if anew else [w.text for w in written]
@@ -271,6 +275,26 @@ def _update(
     _put_in_order(editor, _update_outside(editor, parts, firsts))
     stacks = [editor.project.stack_of(first).id for first in firsts]
     return parts, dict(zip(stacks, (rule.function for rule in rules), strict=True))
+
+
+def _rename_robot(editor: Editor, source: Source) -> None:
+    """Give a robot the name that it has in the text, where the text has no other for it."""
+    said = set[str]()
+    for node in source.tree.body:
+        match node:
+            case ast.Assign(value=ast.Call(func=ast.Name(id="Robot"), args=[given])):
+                texts = (one.value for one in ast.walk(given) if isinstance(one, ast.Constant))
+                said |= {text for text in texts if isinstance(text, str)}
+    project, language = editor.project, editor.language
+    listed = {entry.name: entry.block_id for entry in robot_entries(project, language)}
+    used = names_used(project, language, "robot")
+    gone = [name for name in listed if name in used and name not in said]
+    new = [name for name in said if name not in listed]
+    if len(gone) == len(new) == 1 and why_not_robot_name(editor, new[0]) is None:
+        try:
+            rename_robot(editor, listed[gone[0]], new[0])
+        except EditRefused:  # Python that is to be read anew names it in another way
+            log.debug("a robot keeps its name until the text is read")
 
 
 def _update_outside(editor: Editor, parts: Sequence[Part], firsts: Sequence[str]) -> list[str]:

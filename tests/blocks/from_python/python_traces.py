@@ -92,3 +92,10 @@ def trace_of(text: str, monkeypatch: pytest.MonkeyPatch) -> list[str]:
         except Exception as error:
             trace.append(f"{type(error).__name__} at once")
     return trace
+
+
+def assert_does_the_same(made: str, text: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Two texts give the same trace; but a variable that nobody begins is 0 among blocks."""
+    was = trace_of(text, monkeypatch)
+    if "NameError" not in was:
+        assert trace_of(made, monkeypatch) == was

@@ -16,7 +16,7 @@ from nep_studio.blocks.from_python.updating import update_from_python
 from nep_studio.blocks.generate.program import generate_program
 from nep_studio.blocks.program import Project
 from tests.blocks.from_python.python_pieces import IN_RULE, OUTSIDE, TOP
-from tests.blocks.from_python.python_traces import trace_of
+from tests.blocks.from_python.python_traces import assert_does_the_same
 
 HEAD = '"""T. Made with NEP Studio."""\nfrom nep_core import Behavior, Robot, together, wait\n\n'
 MADE = 'nao = Robot("NAO")\nbehavior = Behavior("T")\n'
@@ -68,9 +68,7 @@ def test_each_line_is_kept_or_refused_with_its_line(language, text, monkeypatch)
     made = generate_program(editor.project, language).text
     for ours, theirs in zip(said(text), said(made), strict=True):
         assert not ours - theirs
-    was = trace_of(text, monkeypatch)
-    if "NameError" not in was:  # a variable that nobody begins is 0 among blocks
-        assert trace_of(made, monkeypatch) == was
+    assert_does_the_same(made, text, monkeypatch)
     loaded = Editor(from_bytes(to_bytes(editor.project), "x", language), language)
     assert generate_program(loaded.project, language).text == made
     update_from_python(loaded, made)
