@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import signal
 import socket
+import threading
 import time
 from collections.abc import Iterator
 from contextlib import closing, suppress
@@ -14,6 +15,7 @@ from PySide6.QtCore import QTimer
 
 from nep_studio.blocks.edits.content import SetField
 from nep_studio.run.plan import PlannedNode
+from tests.robots.naoqi.driver_stage import DriverStage, ServedNao
 from tests.ui.faults.conftest import Scene
 
 FIRST = "Show me a karate chop!"
@@ -128,6 +130,42 @@ def test_a_robot_whose_address_takes_calls_but_never_answers_is_told(
     stage.until(lambda: stage.runner.board.nodes["NAO"].health == "ready")
     assert len(stage.alarms) == 1
     assert stage.alarms[0].checklist
+
+
+@pytest.fixture
+def driven_nao() -> Iterator[tuple[ServedNao, DriverStage]]:
+    """A robot behind NAOqi, and another program that drives it."""
+    nao = ServedNao(speed=10.0)
+    other = DriverStage(nao.address)
+    other.meet()
+    is_over = threading.Event()
+
+    def drive() -> None:
+        while not is_over.is_set():
+            other.step()
+
+    driving = threading.Thread(target=drive)
+    driving.start()
+    yield nao, other
+    is_over.set()
+    driving.join()
+    other.close()
+    nao.close()
+
+
+def test_a_robot_that_another_program_drives_is_taken_over_by_a_button(
+    stage: Scene, driven_nao: tuple[ServedNao, DriverStage]
+) -> None:
+    nao, other = driven_nao
+    stage.runner.start_node(use_address(stage, nao.address), is_wanted=True)
+    stage.until(lambda: "NAO is driven by somebody else" in stage.shown)
+    assert other.event == "connected"
+
+    stage.press_answer("NAO is driven by somebody else", "Take it over")
+
+    stage.until(lambda: other.driver.connection.fault.code == "taken_over")
+    stage.until(lambda: stage.runner.board.nodes["NAO"].health == "ready")
+    stage.until(lambda: "NAO is driven by somebody else" not in stage.shown)
 
 
 def use_address(stage: Scene, address: str) -> PlannedNode:

@@ -54,6 +54,17 @@ def test_a_wrong_address_offers_the_robot_on_the_screen_and_the_address() -> Non
     assert tuple(map(str, notice.problem.checklist)) == steps
 
 
+def test_a_robot_that_another_drives_can_be_taken_over() -> None:
+    told = fault_of("NAO is driven by Ana on desk.", code="driven")
+    after = changed(event="connection_failed", health="warning", fault=told)
+
+    notice = notice_of(READY, after, replace(OURS, has_block=True, address="10.0.0.9"))
+
+    assert notice is not None
+    assert notice.fixes == ("use_virtual", "take_over")
+    assert "is driven by somebody else" in notice.problem.title
+
+
 def test_a_killed_node_that_is_started_again_says_so() -> None:
     told = Outcome("karate", -9).fault(again=True)
     after = changed(event="crashed", health="crashed", fault=told)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Literal
 
 from faults import Text, Words
@@ -29,6 +29,7 @@ Fix = Literal[
     "show_log",
     "show_settings",
     "use_virtual",
+    "take_over",
     "test_connection",
     "change_address",
     "run",
@@ -36,6 +37,8 @@ Fix = Literal[
 ]
 
 WELL = frozenset({"ready", "busy"})
+ROBOT_DRIVEN = "driven"
+"""What a real robot's node tells when another program drives the robot."""
 BAD = frozenset({"frozen", "warning", "crashed", "stopped"})
 """What may have to be told."""
 
@@ -100,9 +103,14 @@ def _no_connection(status: NodeStatus, at: Circumstances) -> Notice:
     where = tr(
         "The program could not reach {name} at {address}.", name=status.name, address=at.address
     )
-    title = tr("{name} does not answer", name=status.name)
+    fixes: tuple[Fix, ...]
+    if fault.code == ROBOT_DRIVEN:
+        title = tr("{name} is driven by somebody else", name=status.name)
+        fixes = ("use_virtual", "take_over")
+    else:
+        title = tr("{name} does not answer", name=status.name)
+        fixes = ("use_virtual", "test_connection", "change_address")
     problem = Problem(title, fault.sentence or where, fault.checklist)
-    fixes: tuple[Fix, ...] = ("use_virtual", "test_connection", "change_address")
     told = fixes if at.has_block else ()
     return Notice(status.name, f"connection {at.address}", "error", problem, told)
 
@@ -252,6 +260,7 @@ class NodeFixes:
             "show_log": (tr("Show its log"), lambda: self._open_log(name)),
             "show_settings": (tr("Show its settings"), lambda: self._show_settings(name)),
             "use_virtual": (tr("Use the robot on the screen"), lambda: self._use_virtual(name)),
+            "take_over": (tr("Take it over"), lambda: self._take_over(name)),
             "test_connection": (
                 tr("Find it and test the connection"),
                 lambda: self._host.ask("connecting.open", name),
@@ -296,6 +305,13 @@ class NodeFixes:
             self._host.services.messages.refuse(refusal.sentence, refusal.checklist)
             return
         self.start(name)  # the running one is as it was before, so it is started anew
+
+    def _take_over(self, name: str) -> None:
+        """Drive a robot that another program drives, which is told so; until the next Run."""
+        plan = self.plan_of(name)
+        if plan is not None:
+            asking = replace(plan, parameters={**plan.parameters, "take_over": True})
+            self._host.services.runner.start_node(asking, is_wanted=True)
 
     def _robot_block(self, name: str) -> str:
         block = self.block_of(name)
