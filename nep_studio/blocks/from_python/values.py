@@ -324,6 +324,7 @@ def _note_procedure(
 ) -> None:
     wanted = [argument.arg for argument in node.args.args]
     gives_value = any(isinstance(n, ast.Return) and n.value is not None for n in ast.walk(node))
+    gives_value = gives_value or (_never_ends(node.body) and _is_value(node.name, tree))
     known = names.procedures.get(node.name)
     if known is not None and len(parameters(known)) == len(wanted):
         return
@@ -336,6 +337,25 @@ def _note_procedure(
     )
     editor.apply(AddProcedure(procedure, len(editor.project.procedures)))
     names.procedures[node.name] = procedure
+
+
+def _never_ends(body: Sequence[ast.stmt]) -> bool:
+    """Whether a function stops its rule, or goes on forever, wherever it comes to."""
+    match body[-1]:
+        case ast.Expr(value=ast.Call(func=ast.Name(id="stop_rule"))):
+            return True
+        case ast.While(test=ast.Constant(value=True)):
+            return True
+        case ast.If(body=inner, orelse=[_, *_] as others):
+            return _never_ends(inner) and _never_ends(others)
+    return False
+
+
+def _is_value(name: str, tree: ast.Module) -> bool:
+    """Whether a function is called somewhere for what it gives."""
+    called = [n for n in ast.walk(tree) if isinstance(n, ast.Call)]
+    alone = {id(n.value) for n in ast.walk(tree) if isinstance(n, ast.Expr)}
+    return any(getattr(n.func, "id", "") == name and id(n) not in alone for n in called)
 
 
 _MAKES = {
