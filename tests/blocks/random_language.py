@@ -302,7 +302,9 @@ class Maker:
         self.dice.shuffle(names)
         change = {"list": names[0], "value": self._leaf()}
         body = [B("list.add", inputs=change), self._say(names[1])]
-        loop = B("control.for_each", {"variable": self._variable()}, {"list": names[2]}, {"do": body})
+        loop = B(
+            "control.for_each", {"variable": self._variable()}, {"list": names[2]}, {"do": body}
+        )
         same = B("variable.set", {"variable": second}, {"value": names[3]})
         return B("control.repeat", {"times": 1}, bodies={"do": [same, loop]})
 

@@ -16,9 +16,10 @@ from nep_studio.blocks.procedures import DEFINE, parameters
 from nep_studio.blocks.program import Project
 
 from .learning import CodeUnread, Made, beginning, blocks_of, learned
+from .naming import Hints, SourceNames, names_in
 from .outside import Part
 from .source import Source, end_of
-from .values import Hints, SourceNames, ValueReader, match, names_in
+from .values import ValueReader, match
 
 # Read statements as chains of blocks; what has no block becomes a code block.
 

@@ -206,9 +206,7 @@ class Expressions:
             return node if are(kinds, TEXT) else self.told(node)
         return node
 
-    def values_in(
-        self, block: Block, *keys: str, then: ast.expr | None = None
-    ) -> list[ast.expr]:
+    def values_in(self, block: Block, *keys: str, then: ast.expr | None = None) -> list[ast.expr]:
         """What is in slots that a function looks at itself; ``then`` is worked out after them.
 
         What does not fit is refused before anything is worked out that does something besides.
