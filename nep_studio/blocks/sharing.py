@@ -12,7 +12,7 @@ from dataclasses import dataclass, field
 
 from .code_text import CodeTextRefused, read_lines
 from .language import Language
-from .procedures import CALL, DEFINE, PARAMETER, procedure_of
+from .procedures import CALL, DEFINE, procedure_of
 from .program import Block, Project
 
 TOGETHER, CODE_LINES, VARIABLE = "control.together", "code.lines", "variable.get"
@@ -77,10 +77,10 @@ def look_at(project: Project, language: Language, chain: list[str]) -> Iterator[
         for variable in variables_set(project, language, block):
             sets[variable].add(path)
         if block.type in CHANGING_LISTS:
-            held = project.blocks.get(block.inputs.get(LIST_SLOT, ""))
+            held = _held(project, block)
             if held is not None and held.type == VARIABLE:
                 lists.add(str(held.fields.get("variable", "")))
-            any_list |= held is not None and held.type.startswith(PARAMETER)
+            any_list |= held is not None and held.type != VARIABLE
         if block.type.startswith(CALL):
             calls[procedure_of(block.type)].add(path)
         if block.type == CODE_LINES:
@@ -107,11 +107,17 @@ def variables_set(project: Project, language: Language, block: Block) -> Iterato
     """The variables into which a block puts something, or into whose lists."""
     definition = language.definitions[block.type]
     if block.type in CHANGING_LISTS:
-        held = project.blocks.get(block.inputs.get(LIST_SLOT, ""))
+        held = _held(project, block)
         if held is not None and held.type == VARIABLE:
             yield str(held.fields.get("variable", ""))
     elif not definition.is_value and "variable" in definition.slots:
         yield str(block.fields.get("variable", ""))
+
+
+def _held(project: Project, block: Block) -> Block | None:
+    """The block in the place of the list that a block changes, or None."""
+    held = project.blocks.get(block.inputs.get(LIST_SLOT, ""))
+    return None if held is None or held.disabled else held
 
 
 def is_slow(language: Language, sharing: Sharing, block: Block) -> bool:

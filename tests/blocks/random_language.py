@@ -12,9 +12,10 @@ from dataclasses import dataclass, field
 from block_building import B, add, build
 
 from nep_studio.blocks.editor import Editor
+from nep_studio.blocks.edits.content import SetExtra, SetFlag
 from nep_studio.blocks.language import Language
 from nep_studio.blocks.places import InStack
-from nep_studio.blocks.program import Parameter, Project
+from nep_studio.blocks.program import LANGUAGE, LANGUAGES, Parameter, Project
 
 NAMES = ["count", "number", "list", "item", "total", "score", "i", "name", "größe", "text", "max"]
 KINDS = ["number", "number", "number", "text", "text", "list", "list", "boolean", "any"]
@@ -74,12 +75,24 @@ class Maker:
         for procedure in self.procedures:
             self._define(procedure)
         self.where = Inside(variables=list(self.kinds))
+        if self._chance(0.2):
+            self.editor.apply(SetExtra(LANGUAGE, self.dice.choice(LANGUAGES[1:])))
         begin = [self._begin(v) for v in self.kinds if self._chance(0.85)]
         end = [self._say(B("variable.get", {"variable": v})) for v in self.kinds]
         rule = [B("event.started"), *begin, *self._chain(self.dice.randint(2, 6)), *end]
         build(self.editor.language, rule, editor=self.editor)
         build(self.editor.language, [B("robots.robot")], page="robots", editor=self.editor)
+        if self._chance(0.2):
+            self._disable()
         return self.editor.project
+
+    def _disable(self) -> None:
+        """Some blocks are switched off, but no header."""
+        blocks = self.editor.project.blocks
+        shapes = {key: self.editor.language.definitions[b.type].shape for key, b in blocks.items()}
+        usual = sorted(key for key, shape in shapes.items() if shape != "hat")
+        for block in self.dice.sample(usual, min(3, len(usual))):
+            self.editor.apply(SetFlag(block, "disabled", True))
 
     def _chance(self, part: float) -> bool:
         return self.dice.random() < part
@@ -102,10 +115,21 @@ class Maker:
         if self._chance(0.3) and procedure.gives_value:
             chain.insert(0, self._recursion(procedure))
         if procedure.gives_value and self._chance(0.9):
-            chain.append(B("my.return", inputs={"value": self._any()}))
+            chain.append(self._end(B("my.return", inputs={"value": self._any()})))
         place = self.editor.new_stack("behaviour", 400, 40)
         for index, block in enumerate([B(f"my.define.{procedure.id}"), *chain]):
             add(self.editor, block, place if index == 0 else InStack(place.stack, index))
+
+    def _end(self, back: B) -> B:
+        """The end of an own block that gives a value: mostly that alone."""
+        leave = B("control.leave_loop")
+        endings = [
+            B("control.forever", bodies={"do": [back]}),
+            B("control.forever", bodies={"do": [leave]}),
+            B("control.stop_rule"),
+            B("control.if", inputs={"condition": self._boolean()}, bodies={"do": [back]}),
+        ]
+        return self.dice.choice(endings) if self._chance(0.12) else back
 
     def _recursion(self, procedure: Procedure) -> B:
         """An own block that uses itself with a smaller number, and ends at 0."""
@@ -143,6 +167,12 @@ class Maker:
             )
         )
 
+    def _known(self) -> list[Procedure]:
+        """The own blocks that may be used here: none uses itself, or those below it."""
+        inside = self.where.procedure
+        above = self.procedures.index(inside) if inside is not None else len(self.procedures)
+        return self.procedures[:above]
+
     def _call(self, procedure: Procedure) -> B:
         inputs = {p.id: self._of(p.kind) for p in procedure.parameters}
         return B(f"my.call.{procedure.id}", inputs=inputs)
@@ -172,13 +202,13 @@ class Maker:
         choices += [self._list_statement, self._list_statement]
         if self.where.depth < DEEPEST:
             choices += [self._if, self._repeat, self._count, self._for_each, self._parts]
-            choices += [self._while]
+            choices += [self._while, self._two_names]
         if self.where.loops and self._chance(0.3):
             return B(self.dice.choice(["control.leave_loop", "control.next_round"]))
         if self.where.depth and self._chance(0.03):
             return B("control.stop_rule")
-        doing = [p for p in self.procedures if not p.gives_value]
-        if doing and self.where.procedure is None and self._chance(0.25):
+        doing = [p for p in self._known() if not p.gives_value]
+        if doing and self._chance(0.25):
             return self._call(self.dice.choice(doing))
         return self.dice.choice(choices)()
 
@@ -256,7 +286,7 @@ class Maker:
             if self._chance(0.5)
         }
         fields = {"variable": self._variable("number"), "first": 1, "last": 3, "step": 1}
-        fields["step"] = self.dice.choice([1, 1, 2, -1, 0.5])
+        fields["step"] = self.dice.choice([1, 1, 2, -1, 0.5, 0.1, -0.3])
         fields["first"] = self.dice.randint(-1, 4)
         return B("control.count", fields, inputs, {"do": self._body(loop=True)})
 
@@ -264,6 +294,19 @@ class Maker:
         body = self._body(loop=True)
         fields = {"variable": self._variable("any" if self._chance(0.9) else "")}
         return B("control.for_each", fields, {"list": self._list()}, {"do": body})
+
+    def _two_names(self) -> B:
+        """A list that has two names is changed by one while it is gone through by the other."""
+        first, second = self._variable("list"), self._variable("any")
+        names = [B("variable.get", {"variable": one}) for one in (first, second, first, second)]
+        self.dice.shuffle(names)
+        change = {"list": names[0], "value": self._leaf()}
+        body = [B("list.add", inputs=change), self._say(names[1])]
+        loop = B(
+            "control.for_each", {"variable": self._variable()}, {"list": names[2]}, {"do": body}
+        )
+        same = B("variable.set", {"variable": second}, {"value": names[3]})
+        return B("control.repeat", {"times": 1}, bodies={"do": [same, loop]})
 
     def _parts(self) -> B:
         kind = self.dice.choice(["control.together", "goal.one_of", "goal.in_turn"])
@@ -299,8 +342,8 @@ class Maker:
         )()
 
     def _any_block(self) -> B:
-        giving = [p for p in self.procedures if p.gives_value]
-        if giving and self.where.procedure is None and self._chance(0.5):
+        giving = [p for p in self._known() if p.gives_value]
+        if giving and self._chance(0.5):
             return self._call(self.dice.choice(giving))
         if self._chance(0.5):
             return self._item()
@@ -378,6 +421,8 @@ class Maker:
             case 4:
                 functions = ["absolute", "root", "minus", "ln", "log10", "exp", "pow10"]
                 fields = {"function": self.dice.choice(functions)}
+                if fields["function"] == "minus":
+                    return B("math.function", fields, {"number": self._small()})
                 return B("math.function", fields, {"number": self._positive()})
             case 5:
                 way = self.dice.choice(["nearest", "nearest", "up", "down"])
@@ -403,6 +448,8 @@ class Maker:
         return B("text.find", inputs={"part": self._leaf(), "text": self._text()})
 
     def _text(self) -> B:
+        if self._chance(0.04):
+            return self._any()
         if not self._deeper():
             return self._get("text") if self._chance(0.5) else self._typed_text()
         self.where.depth += 1
@@ -466,7 +513,7 @@ class Maker:
                 return B("logic.truth", {"truth": self.dice.choice(["true", "false"])})
             return self._get("boolean" if self._chance(0.8) else "any")
         self.where.depth += 1
-        made = self._boolean_block(self.dice.randint(0, 9))
+        made = self._boolean_block(self.dice.randint(0, 11))
         self.where.depth -= 1
         return made
 
@@ -483,7 +530,11 @@ class Maker:
                 return B("logic.compare", fields, {"a": make(), "b": make()})
             case 4:
                 inputs = {"a": self._boolean(), "b": self._boolean()}
-                return B("logic.junction", {"junction": self.dice.choice(["and", "or"])}, inputs)
+                groups = {"more": self.dice.choice([0, 0, 0, 1])}
+                if groups["more"]:
+                    inputs["c.1"] = self._boolean()
+                fields = {"junction": self.dice.choice(["and", "or"])}
+                return B("logic.junction", fields, inputs, groups=groups)
             case 5:
                 return B("logic.not", inputs={"a": self._boolean()})
             case 6:
@@ -494,6 +545,10 @@ class Maker:
                 return B("text.contains", inputs={"text": self._text(), "part": self._leaf()})
             case 8:
                 return B("list.contains", inputs={"list": self._list(), "item": self._any()})
+            case 9:
+                return B("text.is_empty", inputs={"text": self._text()})
+            case 10:
+                return B("list.is_empty", inputs={"list": self._list()})
         inputs = {"number": self._number(), "divisor": self._positive()}
         return B("logic.divisible", inputs=inputs)
 

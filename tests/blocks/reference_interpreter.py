@@ -60,21 +60,25 @@ WORDS = {
     "es": ("verdadero", "falso", " y ", ", ", ","),
     "fr": ("vrai", "faux", " et ", ", ", ","),
     "it": ("vero", "falso", " e ", ", ", ","),
-    "ja": ("真", "偽", "、", "、", "."),
+    "ja": ("真", "偽", " と ", ", ", "."),
 }
 
 
-def told(value: Value, language: str = "en") -> str:
+_spoken = ["en"]
+"""The language of the program that is run."""
+
+
+def told(value: Value) -> str:
     """A value as a text."""
     if isinstance(value, list):
         _require_small(value)
-    true, false, last, between, mark = WORDS[language]
+    true, false, last, between, mark = WORDS[_spoken[0]]
     if isinstance(value, bool):
         return true if value else false
     if isinstance(value, str):
         return value
     if isinstance(value, list):
-        items = [told(item, language) for item in value]
+        items = [told(item) for item in value]
         return last.join([between.join(items[:-1]), items[-1]]) if items[1:] else "".join(items)
     return _digits(value).replace(".", mark)
 
@@ -329,6 +333,7 @@ class Interpreter:
 
     def run(self) -> list[str]:
         """What is said; ends with “error” where the rule ends by one."""
+        _spoken[0] = self.project.spoken_language
         start = next(
             stack
             for stack in self.project.pages["behaviour"]

@@ -12,7 +12,8 @@ from nep_core import Robot
 from nep_studio.blocks.definition_files import load_profile
 from nep_studio.blocks.definitions import Group, SentenceError, Slot, parse
 from nep_studio.blocks.errors import DefinitionError
-from nep_studio.blocks.from_python.values import SourceNames, ValueReader
+from nep_studio.blocks.from_python.naming import SourceNames
+from nep_studio.blocks.from_python.values import ValueReader
 from nep_studio.blocks.generate.names import API
 from nep_studio.blocks.generate.program import generate_program
 from nep_studio.blocks.text import sentence

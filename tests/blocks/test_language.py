@@ -19,6 +19,7 @@ from reference_interpreter import GivenUp, Interpreter
 import nep_core
 from nep_core.program import behavior
 from nep_core.program.tasks import Part, RuleStopped, Task
+from nep_core.program.values import speak
 from nep_studio.blocks.errors import CodeRefused
 from nep_studio.blocks.generate.program import generate_program
 from nep_studio.blocks.language import Language
@@ -51,7 +52,8 @@ class Runner:
 
     error: BaseException | None
 
-    def __init__(self, _name: str, **_options: object) -> None:
+    def __init__(self, _name: str, language: str = "en", **_options: object) -> None:
+        speak(language)
         self._starts: list[Callable[[], object]] = []
 
     def when_started(self, action: Callable[[], object]) -> Callable[[], object]:
@@ -72,6 +74,7 @@ def stand_ins(monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
         patched.setattr(nep_core, "Robot", Listener, raising=False)
         patched.setattr(nep_core, "Behavior", Runner, raising=False)
         yield
+    speak("en")
 
 
 def played(text: str) -> list[str]:
@@ -125,6 +128,8 @@ def test_their_python_reads_back_to_the_same(part: int, language: Language) -> N
             continue
         read = read_program(text, language, Project())
         assert generate_program(read, language).text == text, f"program {seed}"
+        written = {b.type for b in read.blocks.values() if b.type.startswith("code.")}
+        assert not written, f"program {seed} keeps Python that blocks made"
 
 
 def test_most_random_programs_can_be_judged(language: Language) -> None:

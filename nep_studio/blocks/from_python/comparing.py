@@ -14,10 +14,10 @@ from nep_studio.blocks.generate.program import ProgramGenerator
 from nep_studio.blocks.generate.source_map import Code
 
 from .learning import CodeUnread
+from .naming import functions_of, locals_of, names_made
 from .outside import HEADERS, Part, is_frame
 from .reading import as_block
 from .source import Source, begin_of, read_source
-from .values import functions_of, locals_of, names_made
 
 
 def lost_lines(

@@ -10,11 +10,11 @@ from nep_studio.blocks.operations.copying import Clip, copy
 from nep_studio.blocks.program import Project
 
 from .learning import CodeUnread, Made
+from .naming import names_in
 from .outside import HERE, is_frame, is_made_docstring, parts_of
 from .reading import StatementReader, create_chain, create_outside, scratch_of
 from .source import Source, read_source
 from .updating import update_from_python
-from .values import names_in
 
 
 def read_snippet(text: str, language: Language, base: Project) -> Clip:

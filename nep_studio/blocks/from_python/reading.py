@@ -16,9 +16,10 @@ from nep_studio.blocks.procedures import DEFINE, parameters
 from nep_studio.blocks.program import Project
 
 from .learning import CodeUnread, Made, beginning, blocks_of, learned
+from .naming import Hints, SourceNames, names_in
 from .outside import Part
 from .source import Source, end_of
-from .values import Hints, SourceNames, ValueReader, match, names_in
+from .values import ValueReader, match
 
 # Read statements as chains of blocks; what has no block becomes a code block.
 
@@ -57,13 +58,15 @@ class StatementReader:
         begin, left = after, _without_global(nodes)
         while left:
             found = self._statement(left, begin)
-            is_end = found is None or len(left) == found[1]
+            is_end = found is None or not _without_end(left[found[1] :])
             if found is None or (self._language.definitions[found[0].type].is_last and not is_end):
                 code.append(left.pop(0))
                 continue
             begin = self._keep_code(made, code, begin)
             used = left[: found[1]]
             del left[: found[1]]
+            if self._language.definitions[found[0].type].is_last:
+                left.clear()
             self._describe(found[0], used, begin)
             made.append(found[0])
             begin = end_of(used)
@@ -199,6 +202,14 @@ def as_block(node: ast.stmt) -> ast.stmt:
 def _without_pass(body: Sequence[ast.stmt]) -> list[ast.stmt]:
     kept = _without_global(body)
     return [] if len(kept) == 1 and isinstance(kept[0], ast.Pass) else kept
+
+
+def _without_end(nodes: Sequence[ast.stmt]) -> Sequence[ast.stmt]:
+    """Statements below a block, without what an own block gives at its end by itself."""
+    match nodes:
+        case [ast.Return(value=ast.Constant(value=0))]:
+            return []
+    return nodes
 
 
 def _without_global(body: Sequence[ast.stmt]) -> list[ast.stmt]:

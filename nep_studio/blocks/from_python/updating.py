@@ -31,10 +31,10 @@ from nep_studio.blocks.program import Block, Project, split_slot
 from .comparing import lost_lines
 from .learning import CodeUnread, Made, blocks_of
 from .mistakes import too_deep
+from .naming import Hints
 from .outside import Part, parts_of
 from .reading import ReadRule, create_chain, create_outside, read_rules
 from .source import Source, read_source
-from .values import Hints
 
 log = logging.getLogger(__name__)
 

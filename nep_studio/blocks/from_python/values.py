@@ -1,59 +1,26 @@
-"""Expressions in a Python text as values of blocks, with what the names in it stand for."""
+"""Expressions in a Python text as values of blocks."""
 
 from __future__ import annotations
 
 import ast
-import itertools
-from collections.abc import Collection, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Sequence
 from dataclasses import dataclass, field
 from functools import partial
 
-from nep_studio.blocks.code_text import (
-    CodeTextRefused,
-    made_by,
-    outside_functions,
-    read_value,
-)
+from nep_studio.blocks.code_text import CodeTextRefused, read_value
 from nep_studio.blocks.definitions import Definition, Slot
-from nep_studio.blocks.edits.content import AddProcedure, SetExtra
-from nep_studio.blocks.edits.project import RenameProject
 from nep_studio.blocks.language import Language
-from nep_studio.blocks.procedures import CALL, PARAMETER, parameters, words
+from nep_studio.blocks.procedures import CALL, PARAMETER, parameters
 from nep_studio.blocks.program import split_slot
 from nep_studio.blocks.slots import TEXT_RESULTS, FieldValue, constant
 
-from ..deployment import names_used, robot_entries
-from ..editor import Editor
 from ..generate.expressions import known_whole
-from ..generate.kinds import (
-    ANY,
-    LIST,
-    NUMBER,
-    RESULT_KINDS,
-    TEXT,
-    TRUTH,
-    WHOLE,
-    are,
-    kinds_of,
-    note,
-)
-from ..generate.names import RESERVED, python_name
-from ..operations.fixes import append_entry
-from ..program import (
-    ALL_ROBOTS,
-    LANGUAGE,
-    LANGUAGES,
-    ON_ERROR,
-    ROBOT_BLOCK,
-    Parameter,
-    Procedure,
-)
+from ..generate.kinds import ANY, NUMBER, RESULT_KINDS, TEXT, WHOLE, are, kinds_of
 from .learning import (
     BODY,
     PART,
     SLOT,
     VARIABLE_NAME,
-    CodeUnread,
     Made,
     Pattern,
     beginning,
@@ -62,363 +29,7 @@ from .learning import (
     position_of,
     word_pattern,
 )
-from .outside import HEADERS
-
-
-@dataclass(slots=True)
-class SourceNames:
-    """What identifiers stand for: names of robots, ids of variables, own blocks.
-
-    ``parameters`` are the values of the own block that is being read, by identifier.
-    """
-
-    robots: dict[str, str] = field(default_factory=dict)
-    variables: dict[str, str] = field(default_factory=dict)
-    procedures: dict[str, Procedure] = field(default_factory=dict)
-    parameters: dict[str, str] = field(default_factory=dict)
-
-
-@dataclass(frozen=True, slots=True)
-class Hints:
-    """What is known of a text that was read before.
-
-    The kinds of its values by name, and the lines that its blocks would say in another way.
-    """
-
-    kinds: Mapping[str, int]
-    differed: Collection[int]
-
-
-def names_in(
-    editor: Editor,
-    tree: ast.Module,
-    functions: Sequence[ast.FunctionDef],
-    as_code: Collection[str] = (),
-    *,
-    loose: bool = False,
-    hints: Hints | None = None,
-) -> SourceNames:
-    """Find what the names of a text stand for in a project, and make there what lacks.
-
-    ``functions`` are those that become blocks. What an own block's function keeps to itself is a
-    variable too, that only this block uses; unless the function is named in ``as_code``: its lines
-    stay Python. Lines that are in no function are a program's own when they are ``loose``: what
-    they put values into becomes variables too.
-    """
-    names = _known(editor)
-    begun = _begun_otherwise(tree, hints)
-    known = _kinds_given(tree, names) if hints is None else hints.kinds
-    _note_kinds(tree, {name: ANY if name in begun else kinds for name, kinds in known.items()})
-    for node in tree.body:
-        match node:
-            case ast.Assign(
-                targets=[ast.Name(id=name)], value=ast.Call(func=ast.Name(id=made))
-            ) if made in HEADERS:
-                _note(editor, names, name, made, node)
-    of_functions = {node.name: node for node in functions if not node.decorator_list}
-    others = {n.name for n in tree.body if isinstance(n, ast.FunctionDef | ast.ClassDef)}
-    for name in others - of_functions.keys():
-        names.procedures.pop(name, None)
-    assigned: list[str] = []
-    for node in of_functions.values():
-        _note_procedure(editor, names, node, tree, begun)
-        if node.name not in as_code:
-            assigned += _kept(node, tree)
-    for name in [*assigned, *_begun(tree), *_shared(tree, loose=loose)]:
-        if name not in names.robots and name not in names.variables and name not in RESERVED:
-            # A name for a new variable that no other has; its Python name is the same
-            project = editor.project
-            taken = {variable.name for variable in project.variables}
-            names.variables[name] = editor.add_variable(name if name not in taken else f"{name}_")
-    _require_variables(names, tree)
-    return names
-
-
-def _begun(tree: ast.Module) -> Iterator[str]:
-    """The names of plain values that no function has for itself too."""
-    own = {name for function in functions_of(tree) for name in locals_of(function)}
-    for node in tree.body:
-        match node:
-            case ast.Assign(targets=[ast.Name(id=name)], value=ast.Constant() | ast.List()):
-                if name not in own:
-                    yield name
-
-
-def functions_of(tree: ast.AST) -> Iterator[ast.FunctionDef | ast.AsyncFunctionDef]:
-    """All functions, also those in others."""
-    for node in ast.walk(tree):
-        if isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef):
-            yield node
-
-
-def locals_of(function: ast.FunctionDef | ast.AsyncFunctionDef) -> dict[str, int]:
-    """The names that a function has for itself, each with the first line that puts a value there.
-
-    What it is given is not one of them.
-    """
-    return names_made(function.body)
-
-
-def names_made(body: Sequence[ast.stmt]) -> dict[str, int]:
-    """The names to which statements give a meaning where they are, each with the first line."""
-    nodes = [node for part in body for node in outside_functions(part)]
-    shared = {
-        n for node in nodes if isinstance(node, ast.Global | ast.Nonlocal) for n in node.names
-    }
-    made: dict[str, int] = {}
-    for node in sorted(nodes, key=lambda n: getattr(n, "lineno", 0)):
-        for name in made_by(node):
-            if name not in shared:
-                made.setdefault(name, getattr(node, "lineno", body[0].lineno))
-    return made
-
-
-def _kept(function: ast.FunctionDef, tree: ast.Module) -> list[str]:
-    """The names that a function gives values to, and that nothing else in a text has."""
-    elsewhere = {argument.arg for argument in function.args.args} | {"_"}
-    for other in tree.body:
-        named = ast.walk(other) if other is not function else iter(())
-        elsewhere.update(node.id for node in named if isinstance(node, ast.Name))
-    made: dict[str, None] = {}
-    for node in ast.walk(function):
-        if isinstance(node, ast.Global | ast.Nonlocal):
-            elsewhere |= set(node.names)
-        elif isinstance(node, ast.Name) and isinstance(node.ctx, ast.Store):
-            made[node.id] = None
-    return [name for name in made if name not in elsewhere]
-
-
-def _kinds_given(tree: ast.Module, names: SourceNames) -> dict[str, int]:
-    """The kinds of what a text puts into the variables that it makes itself."""
-    found: dict[str, int] = {}
-    for node in ast.walk(tree):
-        match node:
-            case ast.Assign(targets=[ast.Name(id=name)], value=value):
-                found[name] = found.get(name, 0) | kinds_of(value)
-            case ast.Name(id=name, ctx=ast.Store()):
-                found.setdefault(name, 0)
-            case ast.AugAssign(target=ast.Name(id=name)) | ast.For(target=ast.Name(id=name)):
-                found[name] = ANY
-    return {name: kinds for name, kinds in found.items() if kinds and name not in names.variables}
-
-
-def _note_kinds(tree: ast.Module, kinds: Mapping[str, int]) -> None:
-    """Note the kinds of variables, and of values of own blocks, wherever they stand in a text."""
-    for top in tree.body:
-        known = kinds
-        if isinstance(top, ast.FunctionDef):
-            given = {one.arg: kinds.get(f"{top.name}({one.arg})", 0) for one in top.args.args}
-            known = {**kinds, **given}
-        for node in ast.walk(top):
-            if isinstance(node, ast.Name) and (found := known.get(node.id)):
-                note(node, found)
-            elif isinstance(node, ast.Call) and isinstance(node.func, ast.Name):
-                if found := known.get(f"{node.func.id}()"):
-                    note(node, found)
-
-
-def _require_variables(names: SourceNames, tree: ast.Module) -> None:
-    """What is global must be a variable: a robot, a function and “wait” cannot become one."""
-    lines = {
-        name: node.lineno
-        for node in ast.walk(tree)
-        if isinstance(node, ast.Global)
-        for name in node.names
-    }
-    for name, line in lines.items():
-        if name not in names.variables:
-            raise CodeUnread(
-                "“{name}” has a meaning in the program already, and cannot be a variable.",
-                line,
-                checklist=("Give the variable another name.",),
-                name=name,
-            )
-
-
-def _known(editor: Editor) -> SourceNames:
-    names = SourceNames()
-    for entry in robot_entries(editor.project, editor.language):
-        names.robots.setdefault(_safe(entry.name.lower(), "robot"), entry.name)
-    for robot in names_used(editor.project, editor.language, "robot"):
-        names.robots.setdefault(_safe(robot.lower(), "robot"), robot)
-    names.robots.setdefault("all_robots", ALL_ROBOTS)
-    for variable in editor.project.variables:
-        names.variables.setdefault(_safe(variable.name, "variable"), variable.id)
-    for procedure in editor.project.procedures.values():
-        names.procedures.setdefault(_safe(words(procedure), "block"), procedure)
-    return names
-
-
-def _safe(text: str, fallback: str) -> str:
-    name = python_name(text, fallback)
-    return f"{name}_" if name in RESERVED else name
-
-
-def _note(editor: Editor, names: SourceNames, name: str, made: str, node: ast.Assign) -> None:
-    call = node.value
-    assert isinstance(call, ast.Call)
-    match call.args:
-        case _ if call.keywords and not _is_known(call, made):
-            pass
-        case [ast.Constant(value=str(text))] if made == "Behavior":
-            if text != editor.project.name:
-                editor.apply(RenameProject(text))
-            _note_on_error(editor, call)
-            _note_language(editor, call)
-            return
-        case [ast.Constant(value=str(text))]:
-            if text not in names.robots.values():
-                _add_robot(editor, text)
-            names.robots[name] = text
-            return
-        case [ast.List(elts=listed)] if made == "Robot" and all(map(_text_of, listed)):
-            names.robots[name] = ALL_ROBOTS
-            for robot in listed:
-                _add_robot(editor, _text_of(robot))
-            return
-    raise CodeUnread(
-        "{made} needs a name in quotes here.",
-        node.lineno,
-        checklist=('Write the name in quotes, such as "NAO".',),
-        made=made,
-    )
-
-
-def _is_known(call: ast.Call, made: str) -> bool:
-    """Whether the program can keep all that a call names."""
-    return made == "Behavior" and {word.arg for word in call.keywords} <= {ON_ERROR, LANGUAGE}
-
-
-def _text_of(node: ast.expr) -> str:
-    is_text = isinstance(node, ast.Constant) and isinstance(node.value, str)
-    return str(node.value) if is_text else ""  # type: ignore[attr-defined]
-
-
-def _note_on_error(editor: Editor, call: ast.Call) -> None:
-    """Keep whether an error of one rule ends the program."""
-    said = {word.arg: word.value for word in call.keywords}.get(ON_ERROR)
-    is_end = isinstance(said, ast.Constant) and said.value == "end"
-    if is_end != editor.project.ends_on_error:
-        editor.apply(SetExtra(ON_ERROR, "end" if is_end else None))
-
-
-def _note_language(editor: Editor, call: ast.Call) -> None:
-    """The language in which the program tells values; one that is not known stays as it was."""
-    given = {keyword.arg: getattr(keyword.value, "value", "") for keyword in call.keywords}
-    code = given.get(LANGUAGE, LANGUAGES[0])
-    if code in LANGUAGES and code != editor.project.spoken_language:
-        editor.apply(SetExtra(LANGUAGE, None if code == LANGUAGES[0] else code))
-
-
-def _add_robot(editor: Editor, name: str) -> None:
-    if all(e.name != name for e in robot_entries(editor.project, editor.language)):
-        append_entry(editor, "robots", ROBOT_BLOCK, {"name": name})
-
-
-def _note_procedure(
-    editor: Editor,
-    names: SourceNames,
-    node: ast.FunctionDef,
-    tree: ast.Module,
-    begun: Mapping[str, str],
-) -> None:
-    wanted = [argument.arg for argument in node.args.args]
-    gives_value = any(isinstance(n, ast.Return) and n.value is not None for n in ast.walk(node))
-    known = names.procedures.get(node.name)
-    if known is not None and len(parameters(known)) == len(wanted):
-        return
-    own = [
-        Parameter(editor.project.new_id("a"), name.replace("_", " "), kind)
-        for name, kind in zip(wanted, _kinds_of_parameters(node, tree, begun), strict=True)
-    ]
-    procedure = Procedure(
-        editor.project.new_id("p"), (node.name.replace("_", " ").strip(), *own), gives_value
-    )
-    editor.apply(AddProcedure(procedure, len(editor.project.procedures)))
-    names.procedures[node.name] = procedure
-
-
-_MAKES = {
-    **{"as_list": "list", "as_number": "number", "bool": "boolean"},
-    **{"as_text": "text", "str": "text"},
-}
-
-
-def _kinds_of_parameters(
-    function: ast.FunctionDef, tree: ast.Module, begun: Mapping[str, str]
-) -> Iterator[str]:
-    """The kinds of the values of an own block, as its calls and its definition show them.
-
-    ``begun`` are the kinds of variables that would begin otherwise if no block took them for that.
-    """
-    calls = [
-        node.args
-        for node in ast.walk(tree)
-        if isinstance(node, ast.Call) and getattr(node.func, "id", "") == function.name
-    ]
-    for place, argument in enumerate(function.args.args):
-        given = [arguments[place] for arguments in calls if place < len(arguments)]
-        shown = itertools.chain(
-            map(_kind_made, given), _kinds_begun(function, argument.arg, given, begun)
-        )
-        fitting = (kind for kind in shown if _may_all_be(given, kind))
-        yield next(fitting, "any")
-
-
-def _kind_made(node: ast.expr) -> str:
-    """The kind that a call makes of a value for an own block, or an empty text."""
-    is_made = isinstance(node, ast.Call) and not _is_junction(node)
-    return _MAKES.get(getattr(node.func, "id", ""), "") if is_made else ""  # type: ignore[attr-defined]
-
-
-def _kinds_begun(
-    function: ast.FunctionDef, parameter: str, given: Sequence[ast.expr], begun: Mapping[str, str]
-) -> Iterator[str]:
-    """The kinds that variables have by being given to an own block, or by being set in it."""
-    if any(isinstance(node, ast.Name) and begun.get(node.id) == "list" for node in given):
-        yield "list"
-    for node in ast.walk(function):
-        match node:
-            case ast.Assign(targets=[ast.Name(id=name)], value=ast.Name(id=value)):
-                if value == parameter:
-                    yield begun.get(name, "")
-
-
-def _may_all_be(given: Sequence[ast.expr], kind: str) -> bool:
-    return bool(kind) and all(_may_be(node, RESULT_KINDS[kind]) for node in given)
-
-
-def _begun_otherwise(tree: ast.Module, hints: Hints | None) -> dict[str, str]:
-    """The kinds with which variables begin, but would not when the text was read before."""
-    found: dict[str, str] = {}
-    for node in tree.body if hints is not None else ():
-        match node:
-            case ast.Assign(targets=[ast.Name(id=name)], value=value):
-                if hints is not None and node.lineno in hints.differed:
-                    kinds = {LIST: "list", TEXT: "text", TRUTH: "boolean"}
-                    found[name] = kinds.get(kinds_of(value), "")
-    return found
-
-
-def _shared(tree: ast.Module, *, loose: bool) -> Iterator[str]:
-    """The names that the whole program shares: those that functions say are global.
-
-    Lines that are in no function are a program's own too when they are ``loose``.
-    """
-    for node in ast.walk(tree):
-        if isinstance(node, ast.Global):
-            yield from node.names
-    for line in tree.body if loose else ():
-        match line:
-            case ast.AugAssign(target=ast.Name(id=name)):
-                yield name
-            case ast.Assign(targets=[ast.Name(id=name)], value=value) if not (
-                isinstance(value, ast.Call) and getattr(value.func, "id", "") in HEADERS
-            ):
-                yield name
-            case ast.For(target=ast.Name(id=name)) if name != "_":
-                yield name
-
+from .naming import SourceNames, is_junction, may_be, within
 
 # Match Python with a learned pattern: what stands where the markers are.
 
@@ -543,19 +154,6 @@ _TOLD = ("as_text", "str")
 _MADE = {"list": ("as_list",), "boolean": ("bool",)}
 
 
-def _within(node: ast.expr, names: Collection[str]) -> ast.expr:
-    """What is in a call of a function of one of these names; else the node itself."""
-    match node:
-        case ast.Call(func=ast.Name(id=name), args=[inner], keywords=[]) if name in names:
-            return inner
-    return node
-
-
-def _is_junction(node: ast.expr) -> bool:
-    """Whether it is a truth made of “and” or “or”: their blocks give one by themselves."""
-    return isinstance(_within(node, ("bool",)), ast.BoolOp)
-
-
 def _without_int(node: ast.expr) -> ast.expr:
     match node:
         case ast.Call(func=ast.Name(id="int"), args=[inner], keywords=[]):
@@ -614,7 +212,7 @@ class ValueReader:
             return True
         plugged = None
         if slot.kind.pluggable and is_free:
-            found = self.blocks(_within(node, self._made(slot)))
+            found = self.blocks(within(node, self._made(slot)))
             plugged = next((made for made, result in found if result in slot.kind.fits), None)
         elif slot.kind.pluggable:
             plugged = self.plugged(slot, node, is_clear=is_clear)
@@ -641,14 +239,14 @@ class ValueReader:
         """
         kind = slot.kind
         if not kind.becomes_text:
-            inner = _within(node, self._made(slot))
+            inner = within(node, self._made(slot))
             needed = NUMBER if kind.is_number else RESULT_KINDS.get(kind.name, ANY)
-            if inner is node and kind.name != "boolean" and not _may_be(node, needed):
+            if inner is node and kind.name != "boolean" and not may_be(node, needed):
                 return None
             return next((made for made, result in self.blocks(inner) if result in kind.fits), None)
-        inner, others = _within(node, _TOLD), kind.fits - TEXT_RESULTS
+        inner, others = within(node, _TOLD), kind.fits - TEXT_RESULTS
         if inner is node:
-            others = frozenset({"any"}) if not is_clear and _may_be(node, TEXT) else frozenset()
+            others = frozenset({"any"}) if not is_clear and may_be(node, TEXT) else frozenset()
             others |= TEXT_RESULTS
             found = sorted(self.blocks(node), key=_is_no_text)
             return next((made for made, result in found if result in others), None)
@@ -660,8 +258,8 @@ class ValueReader:
 
     def blocks(self, node: ast.expr) -> list[tuple[Made, str]]:
         """The value blocks that make an expression, with their results, the best first."""
-        if _is_junction(node):
-            node = _within(node, ("bool",))
+        if is_junction(node):
+            node = within(node, ("bool",))
         known = self._known.get(id(node))
         if known is None:
             if self._depth > _DEEPEST:
@@ -752,7 +350,7 @@ class ValueReader:
         """
         told, clear = set[str](), set[str]()
         for key, node in found.slots.items():
-            inner = _within(node, _TOLD)
+            inner = within(node, _TOLD)
             is_text = key not in made.inputs or (
                 self.language.definitions[made.inputs[key].type].result in TEXT_RESULTS
             )
@@ -815,7 +413,7 @@ class ValueReader:
     def _converted(self, node: ast.expr) -> tuple[Made, str] | None:
         """The block of a text or a number that is made of the value in it, and its result."""
         for generator, names in (("text", _TOLD), ("number", ("as_number",))):
-            inner, block_type = _within(node, names), self.type_of(generator)
+            inner, block_type = within(node, names), self.type_of(generator)
             if inner is node or not block_type:
                 continue
             definition = self.language.definitions[block_type]
@@ -847,11 +445,6 @@ class ValueReader:
 def _are_whole(found: Found, keys: Collection[str]) -> bool:
     """Whether all numbers that were found are surely whole ones."""
     return all(are(kinds_of(found.slots[key]), WHOLE) for key in keys if key in found.slots)
-
-
-def _may_be(node: ast.expr, kinds: int) -> bool:
-    """Whether a value can be of these kinds, as far as the text tells."""
-    return bool(kinds_of(node) & kinds)
 
 
 def _is_no_text(made: tuple[Made, str]) -> tuple[int, bool]:

@@ -15,7 +15,7 @@ from dataclasses import dataclass, field
 from nep_studio.blocks.arithmetic import typed_number
 from nep_studio.blocks.definitions import Definition, Group, Part, Slot
 from nep_studio.blocks.from_python.learning import Made
-from nep_studio.blocks.from_python.values import SourceNames
+from nep_studio.blocks.from_python.naming import SourceNames
 from nep_studio.blocks.language import Language
 from nep_studio.blocks.operations.finding import folded
 from nep_studio.blocks.slots import FieldValue
