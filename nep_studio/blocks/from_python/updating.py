@@ -171,7 +171,7 @@ def update_from_python(editor: Editor, text: str) -> None:
     blocks; in the others, blocks whose lines are the same do. Disabled rules and loose stacks stay.
     What has no block stays Python, in a rule or outside of all functions.
     """
-    source = read_source(text)
+    source = read_source(text, is_program=True)
     try:
         _update_until_same(editor, source)
     except (BlocksError, EditRefused):
