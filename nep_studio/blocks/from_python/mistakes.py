@@ -47,6 +47,14 @@ _BY_LINE: tuple[tuple[str, Sequence[Words]], ...] = (
         ("Write “elif” and a condition, then a colon.",),
     ),
     (
+        r"^\s*(If|IF|Elif|Else|While|For|Def|Return|Class|Try|Except|Import|From|With)\b",
+        ("Write the words of Python in small letters: “if”, “while”, “def”.",),
+    ),
+    (
+        r"^\s*for\s+\w+\s*(=|from\b|to\b)",
+        ("Write “for i in range(3):” to count, and “for one in names:” to go through a list.",),
+    ),
+    (
         r"^\s*print\s+[^=(\s]",
         ("Write what is printed in brackets behind “print”.",),
     ),
@@ -65,8 +73,15 @@ _BY_LINE: tuple[tuple[str, Sequence[Words]], ...] = (
         r"^\s*(if|elif|else|while|for|def|class|try|except|finally|with|match|case)\b[^:]*$",
         ("Write a colon at the end of this line.",),
     ),
+    (
+        r"^\s*(?!(?:if|elif|while|for|return|not|in|and|or|lambda)\b)"
+        r"[^\W\d]\w*\s+\w+\s*=(?!=)|^\s*\d+[^\W\d]\w*\s*=(?!=)|^\s*\w+-\w+\s*=(?!=)",
+        ("Write the name as one word, such as my_name: it begins with a letter.",),
+    ),
 )
 """What the line itself shows, the surest first."""
+
+_FOREIGN = [row for row in _BY_LINE if row[1] is _OTHER_LANGUAGE]
 
 _BY_MESSAGE: tuple[tuple[str, Sequence[Words]], ...] = (
     ("inconsistent use of tabs", _TABS),
@@ -82,6 +97,8 @@ _BY_MESSAGE: tuple[tuple[str, Sequence[Words]], ...] = (
     ),
     ("perhaps you forgot a comma", ("Is a comma or a sign missing between two values?",)),
     ("invalid non-printable", _SIGNS),
+    ("global declaration", ("Write the “global” line first in the function.",)),
+    ("parameter and global", ("Give the variable another name.",)),
     ("outside function", ("Put it into a function below a “when” line.",)),
     ("outside loop", ("Put it into a “repeat”, “while” or “for each” block.",)),
     ("not properly in loop", ("Put it into a “repeat”, “while” or “for each” block.",)),
@@ -95,7 +112,7 @@ def checklist_of(error: SyntaxError, lines: Sequence[str]) -> Sequence[Words]:
     line = lines[number - 1] if 0 < number <= len(lines) else ""
     if "inconsistent use of tabs" in message or "indent" in message:
         above = lines[number - 2] if number > 1 else ""
-        is_foreign = _fitting(_BY_LINE[6:7], above)
+        is_foreign = _fitting(_FOREIGN, above)
         return (*(is_foreign or ()), *(_TABS if "tabs" in message else _INDENT))
     plain = _without_texts(line)
     found = _keyword_as_name(plain) or _fitting(_BY_LINE, plain)

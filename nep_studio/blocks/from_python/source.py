@@ -111,8 +111,11 @@ class Source:
         return not self.lines[line - 1].strip() or self._is_aside(line)
 
 
-def read_source(text: str) -> Source:
-    """Parse a text; raises CodeUnread with the line."""
+def read_source(text: str, *, is_program: bool = False) -> Source:
+    """Parse a text; raises CodeUnread with the line.
+
+    A program has everything around it that its lines need, such as the loop of a “break”.
+    """
     if len(text) > LONGEST_PROGRAM:
         raise CodeUnread(
             "This is too long to become blocks.", 1, checklist=("Take a part of it at a time.",)
@@ -122,6 +125,8 @@ def read_source(text: str) -> Source:
     try:
         with warnings.catch_warnings(action="ignore"):
             tree = ast.parse(text)
+            if is_program:
+                _require_whole(text, tree, lines)
         comments, alone = _comments(text)
     except SyntaxError as error:
         raise CodeUnread(
@@ -140,6 +145,14 @@ def read_source(text: str) -> Source:
     aside = frozenset(_set_aside(tree, lines))
     alone |= aside & comments.keys()
     return Source(lines, tree, comments, frozenset(alone), inside, aside)
+
+
+def _require_whole(text: str, tree: ast.Module, lines: Sequence[str]) -> None:
+    """Let Python look at a whole program, without running it; raises SyntaxError, CodeUnread."""
+    try:
+        compile(text, "program.py", "exec", dont_inherit=True)
+    except (RecursionError, MemoryError) as error:
+        raise too_deep(tree, lines) from error
 
 
 def _set_aside(tree: ast.Module, lines: Sequence[str]) -> Iterator[int]:

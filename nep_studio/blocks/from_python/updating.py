@@ -89,10 +89,13 @@ class ChainUpdater:
         """Change the blocks of a chain, from its end on; disabled ones stay where they are."""
         blocks = self._editor.project.blocks
         enabled = [index for index, block in enumerate(old) if not blocks[block].disabled]
-        # Python that is kept as it is may read as the blocks do that would say it otherwise
-        before = [(self._text(old[i]), self._is_code(blocks[old[i]].type)) for i in enabled]
-        after = [(made.text, self._is_code(made.type)) for made in wanted]
-        matcher = SequenceMatcher(None, before, after, autojunk=False)
+        before = [self._text(old[index]) for index in enabled]
+        # Python that is kept as it is may read as other blocks do, which would say it otherwise
+        code = {t for i, t in zip(enabled, before, strict=True) if self._is_code(old[i])}
+        is_new = [self._is_code_type(made.type) and made.text not in code for made in wanted]
+        after = [(made.text, new) for made, new in zip(wanted, is_new, strict=True)]
+        same = [(text, False) for text in before]
+        matcher = SequenceMatcher(None, same, after, autojunk=False)
         for what, i, end, j, until in reversed(matcher.get_opcodes()):
             if what == "equal":
                 continue
@@ -144,7 +147,10 @@ class ChainUpdater:
         roots, blocks = blocks_of(self._editor.project, self._editor.language, chain)
         self._editor.apply(CreateBlocks(roots, blocks, place))
 
-    def _is_code(self, block_type: str) -> bool:
+    def _is_code(self, block: str) -> bool:
+        return self._is_code_type(self._editor.project.blocks[block].type)
+
+    def _is_code_type(self, block_type: str) -> bool:
         definition = self._editor.language.definitions.get(block_type)
         return definition is not None and definition.generator == "code_lines"
 
@@ -172,7 +178,7 @@ def update_from_python(editor: Editor, text: str) -> None:
     blocks; in the others, blocks whose lines are the same do. Disabled rules and loose stacks stay.
     What has no block stays Python, in a rule or outside of all functions.
     """
-    source = read_source(text)
+    source = read_source(text, is_program=True)
     try:
         _update_until_same(editor, source)
     except (BlocksError, EditRefused):

@@ -93,6 +93,13 @@ def test_there_are_enough_pieces():
         ("let x = 5;", "language"),
         ("  wait(1)", "spaces"),
         ("\twait(1)", "spaces"),
+        ("If x == 1:", "small letters"),
+        ("for i = 1 to 3:", "range"),
+        ("my name = 3", "one word"),
+        ("2nd = 3", "one word"),
+        ("my-name = 3", "one word"),
+        ("break", "repeat"),
+        ("x = 1\nglobal x", "first"),
     ],
 )
 def test_a_mistake_is_told_with_what_fits_it(language, line, told):
