@@ -27,7 +27,7 @@ from .values import HEADERS, SourceNames, ValueReader, match, names_in
 
 LONGEST_PROGRAM = 2_000_000
 
-_CHECKLIST = (
+CHECKLIST = (
     "Look at this line, and at the one above: is a bracket, a quote or a colon missing?",
     "Are the lines inside a block moved in by the same number of spaces?",
     "Undo the last change of the code.",
@@ -124,11 +124,11 @@ def read_source(text: str) -> Source:
         raise CodeUnread(
             "Python does not understand this: {msg}.",
             error.lineno or 1,
-            checklist=_CHECKLIST,
+            checklist=CHECKLIST,
             msg=error.msg,
         ) from error
     except (ValueError, RecursionError, MemoryError, tokenize.TokenError) as error:
-        raise CodeUnread("Python cannot read this.", 1, checklist=_CHECKLIST) from error
+        raise CodeUnread("Python cannot read this.", 1, checklist=CHECKLIST) from error
     inside = frozenset(lines_inside_texts(tree))
     return Source(tuple(text.split("\n")), tree, comments, frozenset(alone), inside)
 
@@ -209,8 +209,9 @@ class StatementReader:
         hat.comment = self._source.comment_of(node, after)
         first = self._source.first_line(node, after)
         hat.text = self._source.text(first, node.lineno)
-        if as_code:
-            return [hat, self.code(_without_global(node.body), node.lineno)]
+        nodes = _without_global(node.body)
+        if as_code and nodes:
+            return [hat, self.code(nodes, node.lineno)]
         return [hat, *self.body(node.body)]
 
     def code(self, nodes: Sequence[ast.stmt], after: int) -> Made:

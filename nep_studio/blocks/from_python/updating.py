@@ -23,7 +23,7 @@ from nep_studio.blocks.procedures import procedure_of
 from nep_studio.blocks.program import Block, Project
 
 from .learning import CodeUnread, Made, blocks_of
-from .reading import ReadRule, Source, create_chain, read_rules, read_source
+from .reading import CHECKLIST, ReadRule, Source, create_chain, read_rules, read_source
 
 # Change a chain of blocks to another one, keeping the blocks whose Python is the same.
 
@@ -173,6 +173,8 @@ def update_from_python(editor: Editor, text: str) -> None:
             if anew:
                 raise CodeUnread(refused.sentence, 1, checklist=refused.checklist) from refused
             anew = True
+        except RecursionError as error:  # of a tree that Python could still read
+            raise CodeUnread("Python cannot read this.", 1, checklist=CHECKLIST) from error
         else:
             return
 
