@@ -39,6 +39,8 @@ from nodes.sensory.connectors.sensor_logger import read_message
         ("manifests", "not_text.toml", "cannot be used"),
         ("csv", "long_number.csv", "not finite"),
         ("csv", "not_text.csv", "not a text file"),
+        ("python", "only_global.txt", "cannot become blocks"),
+        ("python", "deep_in_rule.txt", "read"),
     ],
 )
 def test_a_bad_file_is_told_in_a_sentence(tmp_path: Path, name: str, kept: str, said: str) -> None:

@@ -118,7 +118,7 @@ def test_too_much_at_once_is_refused(page):
     [
         {"Sec-WebSocket-Key": "名前=="},
         {"Sec-WebSocket-Key": "g=="},
-        {"Sec-WebSocket-Version": "１３"},
+        {"Sec-WebSocket-Version": "\uff11\uff13"},
         {"Upgrade": "websockét"},
     ],
 )
