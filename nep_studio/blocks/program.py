@@ -227,14 +227,16 @@ class Project:
 
         With ``enabled``, disabled blocks are left out with all that is inside them.
         """
-        waiting = list(reversed(roots))
+        blocks, waiting = self.blocks, list(reversed(roots))
         while waiting:
-            block = self.blocks[waiting.pop()]
+            block = blocks[waiting.pop()]
             if enabled and block.disabled:
                 continue
             yield block
-            if block.inputs or block.bodies:
-                waiting.extend(reversed(list(block.children())))
+            for chain in reversed(block.bodies.values()):
+                waiting += reversed(chain)
+            if block.inputs:
+                waiting += reversed(block.inputs.values())
 
     def variable(self, variable_id: str) -> Variable | None:
         """The variable with this id, or None."""
@@ -258,6 +260,8 @@ LONGEST_NUMBER = 9
 
 def split_slot(key: str) -> tuple[str, int]:
     """Take ``also_do.2`` apart into its name and number; the number is 0 outside groups."""
+    if "." not in key:
+        return key, 0
     name, dot, number = key.partition(".")
     is_number = dot and number.isdecimal() and len(number) <= LONGEST_NUMBER
     return (name, int(number)) if is_number else (key, 0)

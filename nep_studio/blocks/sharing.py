@@ -6,6 +6,7 @@ parts of “do together”. An own block runs wherever it is called.
 
 from __future__ import annotations
 
+import itertools
 from collections import defaultdict
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
@@ -60,22 +61,31 @@ class Sharing:
         return self.lists is None or variable in self.lists or (not variable and bool(self.lists))
 
 
+BETWEEN_RESTS = 50
+"""Blocks that are looked at without a rest."""
+
+
 def look_at(project: Project, language: Language, chain: list[str]) -> Iterator[Chain | None]:
     """What a chain does; None wherever it may rest."""
     first = project.blocks[chain[0]]
     sets, python, calls = (defaultdict[str, set[Path]](set) for _ in range(3))
     lists, any_list, takes_time = set[str](), False, False
     waiting: list[tuple[str, Path]] = [(block_id, ()) for block_id in chain]
-    while waiting:
-        yield None
+    blocks, definitions = project.blocks, language.definitions
+    for number in itertools.count():
+        if not waiting:
+            break
+        if number % BETWEEN_RESTS == 0:
+            yield None
         block_id, path = waiting.pop()
-        block = project.blocks[block_id]
-        definition = language.definitions.get(block.type)
+        block = blocks[block_id]
+        definition = definitions.get(block.type)
         if block.disabled or definition is None:
             continue
-        takes_time |= "takes_time" in definition.flags
-        for variable in variables_set(project, language, block):
-            sets[variable].add(path)
+        takes_time = takes_time or "takes_time" in definition.flags
+        if "variable" in block.fields or block.type in CHANGING_LISTS:
+            for variable in variables_set(project, language, block):
+                sets[variable].add(path)
         if block.type in CHANGING_LISTS:
             held = _held(project, block)
             if held is not None and held.type == VARIABLE:
@@ -87,7 +97,8 @@ def look_at(project: Project, language: Language, chain: list[str]) -> Iterator[
             any_list = True
             for name in _names_set(str(definition.value(block, "code"))):
                 python[name].add(path)
-        waiting += [(child, path) for child in block.inputs.values()]
+        if block.inputs:
+            waiting += [(child, path) for child in block.inputs.values()]
         for slot, body in block.bodies.items():
             inside = (*path, (block.id, slot)) if block.type == TOGETHER else path
             waiting += [(child, inside) for child in body]

@@ -319,12 +319,12 @@ class FactReader:
 
     def _inputs(self, block: Block, definition: Definition) -> None:
         for key in block.inputs:
-            slot = definition.slots.get(split_slot(key)[0])
             plugged = self._plugged(block, key)
-            if plugged is None or slot is None or slot.kind.name != "list":
+            inner = self._language.definitions.get(plugged.type) if plugged is not None else None
+            if plugged is None or inner is None or inner.generator != "variable":
                 continue
-            inner = self._language.definitions.get(plugged.type)
-            if inner is not None and inner.generator == "variable":
+            slot = definition.slots.get(split_slot(key)[0])
+            if slot is not None and slot.kind.name == "list":
                 self._taken.add((_variable(plugged), LIST))
 
     def _variable_block(self, block: Block, definition: Definition) -> None:
@@ -494,9 +494,15 @@ class FactReader:
             self._early |= set(self._variables_in(inputs)) - known
 
     def _variables_in(self, roots: Sequence[str]) -> Iterator[str]:
-        for block in self._project.within(roots, enabled=True):
+        blocks, waiting = self._project.blocks, list(roots)
+        while waiting:
+            block = blocks[waiting.pop()]
+            if block.disabled:
+                continue
             if variable := _variable(block):
                 yield variable
+            if block.inputs or block.bodies:
+                waiting += block.children()
 
 
 def _variable(block: Block) -> str:

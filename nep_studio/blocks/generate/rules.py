@@ -412,6 +412,8 @@ def _can_be_torn(line: str, variable: str) -> bool:
 
     Threads take turns at calls and at the ends of loops only: ``n += 1`` is whole by itself.
     """
+    if "(" not in line or (line.count(variable) < 2 and "+=" not in line):
+        return False  # without going through it: most lines
     statement = ast.parse(line).body[0]
     own_call = statement.value if isinstance(statement, ast.Expr) else None
     nodes = list(ast.walk(statement))
