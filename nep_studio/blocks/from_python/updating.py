@@ -230,8 +230,6 @@ def _update_until_same(editor: Editor, source: Source) -> None:
             if anew:
                 raise CodeUnread(refused.sentence, 1, checklist=refused.checklist) from refused
             anew = True
-        except RecursionError as error:  # of a tree that Python could still read
-            raise CodeUnread("Python cannot read this.", 1, checklist=CHECKLIST) from error
         else:
             return
 
