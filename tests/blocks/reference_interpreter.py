@@ -496,6 +496,8 @@ class Interpreter:
         if block.type.startswith("my.call."):
             return self._call(block)
         value = REPORTERS[block.type](self, block)
+        if isinstance(value, str | list) and len(value) > MOST_STEPS:
+            raise GivenUp
         if isinstance(value, float) and not (math.isfinite(value) and abs(value) < LARGEST):
             raise GivenUp
         if isinstance(value, int) and abs(value) > 10**300:

@@ -511,3 +511,45 @@ def test_what_is_added_is_worked_out_before_the_variable_is_read(language):
 
     assert (held["n"], held["w"]) == (3, "aa1")
     assert generate_program(read_program(text, language), language).text == text
+
+
+def test_and_in_a_place_for_a_text_is_a_truth(language):
+    both = with_slots("logic.junction", {"junction": "and"}, a=get(LIST), b=get(WORD))
+
+    assert told(language, both, A_AND_B, ABC) == "true"
+    assert given(language, with_slots("text.length", None, text=both), A_AND_B, ABC) == 4
+
+
+def test_what_is_no_number_is_refused_before_the_next_slot_is_worked_out(language):
+    editor = Editor(Project(), language)
+    done, items = editor.add_variable("done"), editor.add_variable("items")
+    own = editor.add_procedure(["do it"], gives_value=True)
+    body = [put(done, 1), with_slots("my.return", None, value=listed("a", "b"))]
+    item = with_slots("list.get", None, number=get(items), list=B(f"my.call.{own}"))
+    start = [B("event.started"), put(items, listed("a")), put(done, item)]
+    build(language, [B(f"my.define.{own}"), *body], start, editor=editor)
+    text = generate_program(editor.project, language).text
+    held = {}
+    exec(compile(text.replace("\nbehavior.run()\n", "\n"), "program.py", "exec"), held)
+
+    with pytest.raises(ValueRefused):
+        held["when_started"]()
+
+    assert held["done"] == 0
+    assert generate_program(read_program(text, language), language).text == text
+
+
+def test_a_list_in_a_list_that_grows_is_gone_through_as_it_was(language):
+    inner = with_slots("list.get", {"number": 1}, list=get(LIST))
+    loop = with_slots("control.for_each", {"variable": ROUND}, list=inner)
+    grow = with_slots("list.add", None, list=inner, value=get(ROUND))
+    loop.bodies = {"do": [grow]}
+
+    assert run(language, put(LIST, listed(listed(1, 2))), loop)["l"] == [[1, 2, 1, 2]]
+
+
+@pytest.mark.parametrize("number", [0, -2.5, 3])
+def test_a_number_with_its_sign_changed_is_read_back(language, number):
+    minus = with_slots("math.function", {"function": "minus"}, number=number)
+
+    assert given(language, minus) == -number

@@ -421,7 +421,12 @@ def _written(project: Project, code: Code) -> list[_Written]:
             spans[stack] = (spans.get(stack, (number, 0))[0], number)
     found, every = [], code.text.splitlines()
     for stack, (first, last) in spans.items():
-        lines = every[first - 1 : last]
+        hat, numbers = project.stacks[stack].body[0], range(first, last + 1)
+        lines = [
+            line
+            for line, number in zip(every[first - 1 : last], numbers, strict=True)
+            if not (line.startswith("    global ") and code.blocks[number - 1] == hat)
+        ]  # as a text is read: without what the program writes by itself
         headers = (line[4:].partition("(")[0] for line in lines if line.startswith("def "))
         text = textwrap.dedent("\n".join(lines)).rstrip()
         found.append(_Written(stack, next(headers, ""), text))
