@@ -6,6 +6,7 @@ import contextlib
 import hashlib
 import math
 import os
+import re
 import tempfile
 from collections.abc import Iterable
 from dataclasses import dataclass
@@ -14,6 +15,7 @@ from typing import Generic, Literal, TypeVar, cast
 
 from PySide6.QtCore import QByteArray, QLocale, QSettings, QStandardPaths
 
+from faults.files import whole_file
 from nep_core.places import log_folder, portable_folder, private_folder
 
 from .support.portable import kept_name, not_kept, path_of
@@ -98,6 +100,7 @@ class SettingsFile:
         with contextlib.suppress(OSError):  # Qt keeps the mode of a file that is there
             private_folder(folder)
             os.close(os.open(file, os.O_WRONLY | os.O_CREAT, 0o600))
+            _leave_out_streams(file)
         self.values = QSettings(str(file), QSettings.Format.IniFormat)
 
     def value(self, name: str, usual: object) -> object:
@@ -106,6 +109,36 @@ class SettingsFile:
             return self.values.value(name, usual)
         except (RuntimeError, ValueError, OverflowError):  # one of the hundred types of Qt
             return usual
+
+
+# WORKAROUND: QSettings reads "@Variant(...)" as a stream of any of Qt's types, and believes what
+# that says of its size: a few damaged bytes, and the program ends for want of memory
+# (qsettings.cpp, QSettingsPrivate::stringToVariant). Nothing of ours is kept so: "@@" is a text.
+
+_STREAM = re.compile(rb"(?<!@)@(?:Variant|DateTime)\(")
+_LETTER = re.compile(rb"\\x([0-9a-fA-F]+)|\\([0-7]+)")
+_UNHEARD = re.compile(rb"[\s\"\\]")
+"""What may stand between the letters, and QSettings passes over."""
+
+
+def _leave_out_streams(file: Path) -> None:
+    """Take the lines out of a file that QSettings would read as a stream; raises OSError."""
+    data = file.read_bytes()
+    if not _has_stream(data):
+        return
+    left = b"\n".join(line for line in re.split(rb"[\r\n]+", data) if not _has_stream(line))
+    with whole_file(file, is_private=True) as writing:
+        writing.write(b"" if _has_stream(left) else left)  # one that goes over lines
+
+
+def _has_stream(text: bytes) -> bool:
+    return bool(_STREAM.search(_UNHEARD.sub(b"", _LETTER.sub(_letter, text))))
+
+
+def _letter(found: re.Match[bytes]) -> bytes:
+    """An escaped letter as QSettings reads it: by its last 16 bits; b"?" for what is no ASCII."""
+    number = int(found[1][-4:], 16) if found[1] else int(found[2][-6:], 8) & 0xFFFF
+    return bytes((number,)) if number < 128 else b"?"
 
 
 class Kept(Generic[T]):

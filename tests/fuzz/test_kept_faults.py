@@ -7,7 +7,7 @@ import zlib
 from pathlib import Path
 
 import pytest
-from PySide6.QtCore import QSettings
+from PySide6.QtCore import QByteArray, QSettings
 
 from faults import FaultError
 from fuzz.target import SEEDS
@@ -107,6 +107,42 @@ def test_a_setting_of_no_type_of_python_counts_as_not_set(tmp_path: Path) -> Non
 
     assert (settings.theme, settings.language, settings.text_scale) == ("system", "system", 1.0)
     assert isinstance(settings.values, QSettings)
+
+
+STREAM = rb"\0\0\0\x9\x99\x99\x30\0\0\x1)"
+"""A list of Qt of half a milliard values, as the file says."""
+
+
+@pytest.mark.parametrize(
+    "kept",
+    [
+        b"@Variant(" + STREAM,
+        b'a, "@Variant(' + STREAM + b'"',
+        b'""@Variant(' + STREAM,
+        b"\\x40Vari\\141nt(" + STREAM,
+        b"@DateTime(" + STREAM,
+    ],
+)
+def test_a_setting_that_says_it_is_endless_counts_as_not_set(tmp_path: Path, kept: bytes) -> None:
+    file = tmp_path / "settings.ini"
+    file.write_bytes(b"[look]\ntheme=" + kept + b"\nlanguage=de\n[robots]\nsound=no\n")
+
+    settings = Settings(tmp_path)
+
+    assert b"theme" not in file.read_bytes()
+    assert (settings.theme, settings.language, settings.has_sound) == ("system", "de", False)
+
+
+def test_what_is_kept_of_ours_is_found_again_whatever_it_says(tmp_path: Path) -> None:
+    settings = Settings(tmp_path)
+    settings.recent_commands = ["@Variant(x)", "a, b(", "@"]
+    settings.set_state("row", QByteArray(b"\0\x01(@)"))
+    settings.write()
+
+    again = Settings(tmp_path)
+
+    assert again.recent_commands == ["@Variant(x)", "a, b(", "@"]
+    assert again.state("row") == QByteArray(b"\0\x01(@)")
 
 
 def test_a_picture_that_unpacks_to_much_more_than_its_size_has_no_program() -> None:
