@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import ast
 from collections import Counter
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
 
 from nep_studio.blocks.code_text import CodeTextRefused, compile_quietly
 from nep_studio.blocks.editor import Editor
@@ -20,16 +21,29 @@ from .reading import as_block
 from .source import Source, begin_of, read_source
 
 
+@dataclass(frozen=True, slots=True)
+class Lost:
+    """What would be lost or changed: the lines of what is then kept as Python instead.
+
+    ``kinds`` are those of the values of the program, by name; ``places`` the lines of the innermost
+    statements that other blocks might say as they are.
+    """
+
+    lines: set[int]
+    kinds: dict[str, int]
+    places: set[int] = field(default_factory=set)
+
+
 def lost_lines(
     editor: Editor,
     source: Source,
     parts: Sequence[Part],
     functions: Mapping[str, ast.FunctionDef],
-) -> tuple[set[int], dict[str, int]]:
-    """The lines of what would be lost or changed, so that it is kept as Python instead.
+) -> Lost:
+    """What of a text would be lost or changed.
 
-    With the kinds of the values of the program, by name. ``functions`` are those of the text by the
-    stacks that are to make them. Raises CodeUnread for what cannot be kept either.
+    ``functions`` are those of the text by the stacks that are to make them. Raises CodeUnread for
+    what cannot be kept as Python either.
     """
     generator = ProgramGenerator(editor.project, editor.language)
     try:
@@ -39,16 +53,18 @@ def lost_lines(
         if refused.block in editor.project.blocks:
             stack = editor.project.stack_of(refused.block).id
             if stack in functions:
-                return {functions[stack].lineno}, generator.kinds()
+                return Lost({functions[stack].lineno}, generator.kinds())
         raise CodeUnread(refused.sentence, 1, checklist=refused.checklist) from refused
     except CodeTextRefused as refused:
         checklist = ("Undo the last change of the code.",)
         raise CodeUnread(refused.sentence, 1, checklist=checklist) from refused
     made = read_source(code.text)
     _require_own_names(source, parts)
-    lost = _lost_functions(editor, source, code, made, functions)
-    lost |= _lost_around(source, made)
-    return lost or _lost_comments(source, made, functions), generator.kinds()
+    lost, places = _lost_functions(editor, source, code, made, functions)
+    around = _lost_around(source, made)
+    places = places or _setting(source, around)
+    lines = lost | around or _lost_comments(source, made, functions)
+    return Lost(lines, generator.kinds(), places)
 
 
 def _require_own_names(source: Source, parts: Sequence[Part]) -> None:
@@ -83,14 +99,15 @@ def _lost_functions(
     code: Code,
     made: Source,
     functions: Mapping[str, ast.FunctionDef],
-) -> set[int]:
-    """The statements, or functions, that the blocks would make in another way."""
+) -> tuple[set[int], set[int]]:
+    """The statements, or functions, that the blocks would make in another way; the innermost."""
     by_stack: dict[str, ast.FunctionDef] = {}
     for node in made.tree.body:
         block = code.block_at(node.lineno)
         if isinstance(node, ast.FunctionDef) and block in editor.project.blocks:
             by_stack[editor.project.stack_of(str(block)).id] = node
     lost: set[int] = set()
+    places: set[int] = set()
     renamed: dict[str, int] = {}
     for stack, there in functions.items():
         again = by_stack.get(stack)
@@ -98,11 +115,67 @@ def _lost_functions(
             lost.add(there.lineno)
             continue
         lost |= _differing(there, again)
+        places |= set(_innermost(there.body, again.body, there.lineno))
         if again.name != there.name:
             renamed[there.name] = there.lineno
     if not lost:
         _require_no_use(source, renamed)
-    return lost
+    return lost, places
+
+
+def _innermost(there: Sequence[ast.stmt], again: Sequence[ast.stmt], around: int) -> Iterator[int]:
+    """The lines of the innermost statements that differ; of the one around them by their number."""
+    ours, theirs = _without_global(there), _without_global(again)
+    if len(ours) != len(theirs):
+        yield around
+        return
+    for one, other in zip(ours, theirs, strict=True):
+        if _same(one, other):
+            continue
+        inner, bodies = _inside(one), _inside(other)
+        if inner.keys() != bodies.keys() or not _is_so_begun(one, other):
+            yield one.lineno
+            continue
+        is_elif = bool(_else_ifs(one))
+        for name, body in inner.items():
+            found = set(_innermost(body, bodies[name], one.lineno))
+            is_part = is_elif and name == "orelse"
+            yield from {one.lineno if is_part and n == body[0].lineno else n for n in found}
+
+
+def _inside(node: ast.stmt) -> dict[str, list[ast.stmt]]:
+    """The statements in another one, by where they are."""
+    bodies = {name: getattr(node, name, []) for name in ("body", "orelse")}
+    return {name: body for name, body in bodies.items() if body}
+
+
+def _is_so_begun(one: ast.stmt, other: ast.stmt) -> bool:
+    """Whether two statements are the same but for what is in their bodies."""
+    plain = [as_block(one), as_block(other)]
+    parts = [[getattr(n, f, None) for f in n._fields if f not in ("body", "orelse")] for n in plain]
+    return bool(_inside(one)) and type(plain[0]) is type(plain[1]) and _same(*parts)
+
+
+def _setting(source: Source, lines: set[int]) -> set[int]:
+    """The statements that put something into the variables that begin in these lines.
+
+    By the blocks that they are a variable begins with 0, with a text or with a list.
+    """
+    names = set[str]()
+    for node in source.tree.body:
+        match node:
+            case ast.Assign(targets=[ast.Name(id=name)]) if node.lineno in lines:
+                names.add(name)
+    found = set[int]()
+    for function in functions_of(source.tree):
+        for inner in ast.walk(function):
+            match inner:
+                case (
+                    ast.Assign(targets=[ast.Name(id=name)])
+                    | ast.AugAssign(target=ast.Name(id=name))
+                ) if name in names:
+                    found.add(inner.lineno)
+    return found
 
 
 def _differing(there: ast.FunctionDef, again: ast.FunctionDef) -> set[int]:

@@ -43,6 +43,31 @@ class SourceNames:
     parameters: dict[str, str] = field(default_factory=dict)
 
 
+MOST_TURNS = 6
+"""How often statements are read in another of their ways."""
+
+
+@dataclass(slots=True)
+class Turns:
+    """Which of the ways to read it each statement gets its turn, by its line: the best at first.
+
+    ``ways`` is how many a statement has, as far as this is known: as many as it was read in since
+    another one was wanted.
+    """
+
+    taken: dict[int, int] = field(default_factory=dict)
+    ways: dict[int, int] = field(default_factory=dict)
+    left: int = MOST_TURNS
+
+    def go_on(self, lines: Collection[int]) -> bool:
+        """Take the next way of the statements in these lines; False when none has another."""
+        others = [line for line in lines if self.ways.get(line, 2) > 1]
+        for line in others if self.left else ():
+            self.taken[line] = self.taken.get(line, 0) + 1
+        self.left -= 1
+        return bool(others) and self.left >= 0
+
+
 @dataclass(frozen=True, slots=True)
 class Hints:
     """What is known of a text that was read before.
@@ -52,6 +77,7 @@ class Hints:
 
     kinds: Mapping[str, int]
     differed: Collection[int]
+    turns: Turns = field(default_factory=Turns, compare=False)
 
 
 def names_in(
@@ -346,8 +372,20 @@ def _kinds_of_parameters(
         shown = itertools.chain(
             map(_kind_made, given), _kinds_begun(function, argument.arg, given, begun)
         )
-        fitting = (kind for kind in shown if _may_all_be(given, kind))
+        made_there = {_kind_made(node) for node in _given_to_calls(function, argument.arg)}
+        fitting = (kind for kind in shown if kind not in made_there and _may_all_be(given, kind))
         yield next(fitting, "any")
+
+
+def _given_to_calls(function: ast.FunctionDef, parameter: str) -> Iterator[ast.expr]:
+    """The calls that are given a value of an own block, and nothing else.
+
+    What makes it a text there is written only where it may be something else.
+    """
+    for node in ast.walk(function):
+        match node:
+            case ast.Call(args=[ast.Name(id=name)], keywords=[]) if name == parameter:
+                yield node
 
 
 def _kind_made(node: ast.expr) -> str:

@@ -16,12 +16,19 @@ from nep_studio.blocks.procedures import DEFINE, parameters
 from nep_studio.blocks.program import Project
 
 from .learning import CodeUnread, Made, beginning, blocks_of, learned
-from .naming import Hints, SourceNames, names_in
+from .naming import Hints, SourceNames, Turns, names_in
 from .outside import Part
 from .source import Source, end_of
 from .values import ValueReader, match
 
 # Read statements as chains of blocks; what has no block becomes a code block.
+
+
+_Candidate = tuple[Made, int, Mapping[str, list[ast.stmt]]]
+
+
+def _written(candidate: _Candidate) -> int:
+    return candidate[0].written
 
 
 class StatementReader:
@@ -33,9 +40,11 @@ class StatementReader:
         names: SourceNames,
         source: Source,
         kept: Collection[int] = (),
+        turns: Turns | None = None,
     ) -> None:
         self.values = ValueReader(language, names)
         self._kept = kept
+        self._turns = turns or Turns()
         self._language = language
         self._source = source
         self._learned = learned(language)
@@ -136,7 +145,13 @@ class StatementReader:
         first = nodes[0]
         if first.lineno in self._kept:
             return None
-        found = min(self._candidates(nodes), key=lambda one: one[0].written, default=None)
+        turn = self._turns.taken.get(first.lineno, 0)
+        if turn:
+            every = self._ways(nodes)
+            self._turns.ways[first.lineno] = len(every)
+            found = every[turn % len(every)] if every else None
+        else:
+            found = min(self._candidates(nodes), key=_written, default=None)
         if found is None:
             return None
         made, count, bodies = found
@@ -144,19 +159,32 @@ class StatementReader:
             made.bodies[key] = self.body(body)
         return made, count
 
+    def _ways(self, nodes: Sequence[ast.stmt]) -> list[_Candidate]:
+        """All the different blocks that the first statements are, with no more Python than needed.
+
+        The order is that of ``_candidates``.
+        """
+        every = list(self._candidates(nodes, is_best_enough=False))
+        least = min(map(_written, every), default=0)
+        different: list[_Candidate] = []
+        for one in every:
+            if _written(one) == least and one not in different:
+                different.append(one)
+        return different
+
     def _candidates(
-        self, nodes: Sequence[ast.stmt]
-    ) -> Iterator[tuple[Made, int, Mapping[str, list[ast.stmt]]]]:
+        self, nodes: Sequence[ast.stmt], *, is_best_enough: bool = True
+    ) -> Iterator[_Candidate]:
         """The blocks that the first statements are, how many these are, and what is in bodies.
 
-        Ends with the first of which no value stays Python.
+        Ends with the first of which no value stays Python, where that ``is_best_enough``.
         """
         first = nodes[0]
         if isinstance(first, ast.Expr) and isinstance(first.value, ast.Call):
             for made in self.values.called(first.value):
                 if not self._language.definitions[made.type].is_value:
                     yield made, 1, {}
-                    if not made.written:
+                    if is_best_enough and not made.written:
                         return
         for pattern in self._learned.statements.get(beginning(first), ()):
             count = len(pattern.nodes)
@@ -165,7 +193,7 @@ class StatementReader:
             made_from = self.values.made_from(pattern, found) if found is not None else None
             if made_from is not None and found is not None:
                 yield made_from, count, found.bodies
-                if not made_from.written:
+                if is_best_enough and not made_from.written:
                     return
 
     def _keep_code(self, made: list[Made], code: list[ast.stmt], begin: int) -> int:
@@ -261,7 +289,8 @@ def read_rules(
     as_code = {function.name for function, _, _ in functions if function.lineno in kept}
     own = [function for function, _, _ in functions]
     names = names_in(editor, source.tree, own, as_code, hints=hints)
-    reader = StatementReader(editor.language, names, source, kept)
+    turns = hints.turns if hints is not None else None
+    reader = StatementReader(editor.language, names, source, kept, turns)
     rules = []
     for node, after, above in functions:
         last = source.last_line(node.body)

@@ -31,7 +31,7 @@ from nep_studio.blocks.program import Block, Project, split_slot
 from .comparing import lost_lines
 from .learning import CodeUnread, Made, blocks_of
 from .mistakes import too_deep
-from .naming import Hints
+from .naming import Hints, Turns
 from .outside import Part, parts_of
 from .reading import ReadRule, create_chain, create_outside, read_rules
 from .source import Source, read_source
@@ -201,23 +201,28 @@ MOST_READINGS = 3
 def _update_until_same(editor: Editor, source: Source) -> None:
     """Change the blocks; what would not be said again by them is kept as Python, or refused.
 
-    Where something would not, all is read again first, with what is known then.
+    Where something would not, all is read again first, with what is known then, and after that in
+    the other ways in which the statements that differ can be read.
     """
     kept = set[int]()
     hints: Hints | None = None
+    turns = Turns()
     readings = 1
     anew = False
     while True:
         try:
             with editor.transaction("change the code"):
                 parts, functions = _update(editor, source, kept, anew, hints)
-                lost, found = lost_lines(editor, source, parts, functions)
-                if lost:
-                    raise _Differs(lost)
+                lost = lost_lines(editor, source, parts, functions)
+                if lost.lines:
+                    raise _Differs(lost.lines)
         except _Differs as differs:
-            known, hints = hints, Hints(found, hints.differed if hints else differs.lines)
+            differed = hints.differed if hints else differs.lines
+            known, hints = hints, Hints(lost.kinds, differed, turns)
             if hints != known and readings < MOST_READINGS:
                 readings += 1
+                continue
+            if turns.go_on(lost.places):
                 continue
             if differs.lines <= kept:
                 raise CodeUnread(
