@@ -37,6 +37,7 @@ FOR_DEVELOPERS = (
     "imu_profiles",
     "gesture_models",
     "gestures",
+    "language",
     "benchmarks",
     "canvas",
 )
