@@ -115,7 +115,10 @@ def _lost_functions(
             lost.add(there.lineno)
             continue
         lost |= _differing(there, again)
-        places |= set(_innermost(there.body, again.body, there.lineno))
+        inner = set(_innermost(there.body, again.body, there.lineno))
+        places |= inner
+        if inner and not there.decorator_list:
+            places.add(there.lineno)  # its values may be of other kinds
         if again.name != there.name:
             renamed[there.name] = there.lineno
     if not lost:

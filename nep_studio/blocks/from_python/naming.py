@@ -43,8 +43,8 @@ class SourceNames:
     parameters: dict[str, str] = field(default_factory=dict)
 
 
-MOST_TURNS = 6
-"""How often statements are read in another of their ways."""
+MOST_TURNS, TURNS_OF_KINDS = 6, 3
+"""How often statements are read in another of their ways; when own blocks then take any value."""
 
 
 @dataclass(slots=True)
@@ -66,6 +66,11 @@ class Turns:
             self.taken[line] = self.taken.get(line, 0) + 1
         self.left -= 1
         return bool(others) and self.left >= 0
+
+    def kinds_at(self, line: int, kinds: Sequence[str]) -> Sequence[str]:
+        """The kinds of the values of an own block in this line, when those are a guess."""
+        self.ways[line] = 1 if set(kinds) <= {"any"} else 2
+        return ["any"] * len(kinds) if self.taken.get(line, 0) >= TURNS_OF_KINDS else kinds
 
 
 @dataclass(frozen=True, slots=True)
@@ -112,7 +117,7 @@ def names_in(
         names.procedures.pop(name, None)
     assigned: list[str] = []
     for node in of_functions.values():
-        _note_procedure(editor, names, node, tree, begun)
+        _note_procedure(editor, names, node, tree, begun, hints)
         if node.name not in as_code:
             assigned += _kept(node, tree)
     for name in [*assigned, *_begun(tree), *_shared(tree, loose=loose)]:
@@ -312,6 +317,7 @@ def _note_procedure(
     node: ast.FunctionDef,
     tree: ast.Module,
     begun: Mapping[str, str],
+    hints: Hints | None,
 ) -> None:
     wanted = [argument.arg for argument in node.args.args]
     gives_value = any(isinstance(n, ast.Return) and n.value is not None for n in ast.walk(node))
@@ -319,9 +325,12 @@ def _note_procedure(
     known = names.procedures.get(node.name)
     if known is not None and len(parameters(known)) == len(wanted):
         return
+    kinds: Sequence[str] = list(_kinds_of_parameters(node, tree, begun))
+    if hints is not None:
+        kinds = hints.turns.kinds_at(node.lineno, kinds)
     own = [
         Parameter(editor.project.new_id("a"), name.replace("_", " "), kind)
-        for name, kind in zip(wanted, _kinds_of_parameters(node, tree, begun), strict=True)
+        for name, kind in zip(wanted, kinds, strict=True)
     ]
     procedure = Procedure(
         editor.project.new_id("p"), (node.name.replace("_", " ").strip(), *own), gives_value

@@ -2,15 +2,18 @@
 
 from __future__ import annotations
 
-from block_building import B
+import pytest
+from block_building import B, build
 from hypothesis import given
 from hypothesis import strategies as st
 from sound_programs import sound
 
+from nep_studio.blocks.editor import Editor
+from nep_studio.blocks.edits.content import AddProcedure
 from nep_studio.blocks.files import to_bytes
 from nep_studio.blocks.from_python.updating import update_from_python
 from nep_studio.blocks.generate.program import generate_program
-from nep_studio.blocks.program import Project
+from nep_studio.blocks.program import Parameter, Procedure, Project
 from tests.blocks.block_building import read_program
 
 NUMBERS = st.integers(-9, 99) | st.sampled_from([0.5, -2.25, 1e-7])
@@ -214,3 +217,54 @@ def test_any_program_can_be_edited_into_any_other(language, rules, others):
         assert to_bytes(editor.project) == before
         editor.history.redo()
         assert to_bytes(editor.project) == after
+
+
+X, Y = (B("variable.get", {"variable": variable}) for variable in ("v1", "v2"))
+GIVEN = B("my.parameter.own.given")
+SAYS_X = B("robot.say", inputs={"text": X})
+A_TEXT, ONE = B("text.text", {"text": "a"}), B("math.number", {"number": 1})
+ABSOLUTE = B("math.function", {"function": "absolute"}, {"number": ONE})
+ROUNDED = B("math.round", {"way": "nearest"}, {"number": GIVEN})
+DEFINED, STARTED = B("my.define.own"), B("event.started")
+
+
+def set_x(value: B) -> B:
+    return B("variable.set", {"variable": "v1"}, {"value": value})
+
+
+def added(a: B, b: B) -> B:
+    return B("math.arithmetic", {"operation": "add"}, {"a": a, "b": b})
+
+
+def joined(a: B, b: B) -> B:
+    return B("text.join", inputs={"item.1": a, "item.2": b}, groups={"item": 2})
+
+
+SAID_IN_TWO_WAYS = {
+    "added to itself": [[STARTED, set_x(A_TEXT), set_x(added(X, X)), SAYS_X]],
+    "set, not changed": [[STARTED, set_x(A_TEXT), set_x(added(X, ABSOLUTE)), SAYS_X]],
+    "inside": [
+        [STARTED, set_x(A_TEXT), B("control.forever", bodies={"do": [set_x(added(X, X)), SAYS_X]})]
+    ],
+    "joined, not appended": [[STARTED, set_x(ONE), set_x(joined(X, Y)), SAYS_X]],
+    "rounded for nobody": [
+        [DEFINED, B("control.repeat", inputs={"times": ROUNDED}, bodies={"do": [SAYS_X]})]
+    ],
+    "a text for any value": [
+        [DEFINED, set_x(joined(X, GIVEN)), SAYS_X],
+        [STARTED, B("my.call.own", inputs={"given": B("text.text", inputs={"text": Y})})],
+    ],
+}
+
+
+@pytest.mark.parametrize("rules", SAID_IN_TWO_WAYS.values(), ids=SAID_IN_TWO_WAYS)
+def test_what_two_blocks_may_say_is_the_one_that_says_it_here(language, rules):
+    editor = Editor(Project("Ways"), language)
+    editor.apply(AddProcedure(Procedure("own", ("own", Parameter("given", "who", "any"))), 0))
+    build(language, *rules, variables=("x", "y"), editor=editor)
+    text = generate_program(editor.project, language).text
+
+    read = read_program(text, language, Project())
+
+    assert generate_program(read, language).text == text
+    assert not [b for b in read.blocks.values() if b.type.startswith("code.")]
