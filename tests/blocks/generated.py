@@ -138,6 +138,8 @@ def made_by(node: ast.stmt, rule: ast.FunctionDef, language: Language) -> set[st
         case ast.For():
             loops = {d.id for d in language.definitions.values() if "loop" in d.flags}
             return loops - {"control.while", "control.forever", "control.repeat_until"}
+        case ast.With(body=[inner]):  # at_once, around what must not be interrupted
+            return made_by(inner, rule, language)
         case ast.While():
             return {"control.while", "control.forever", "control.repeat_until"}
         case ast.If():
