@@ -15,6 +15,8 @@ from dataclasses import dataclass, field
 from functools import partial
 from typing import Any
 
+import msgspec
+
 from nep_core.errors import ActionFailed, NepError, RobotNotAnswering
 from nep_core.networks.network import Network
 from nep_core.networks.transports import default_network
@@ -58,6 +60,12 @@ class Call:
         states = [r.state for r in self.results.values()]
         if sum(state in _ENDS for state in states) == len(set(self.request.robots)):
             self.ended.set()
+
+    def again(self) -> ActionRequest:
+        """The request for those who may have been started anew since: they do not begin it then."""
+        if len(self.results) < len(set(self.request.robots)):
+            return self.request
+        return msgspec.structs.replace(self.request, args={**self.request.args, "was_known": True})
 
     def silent(self, since_s: float) -> str:
         """A robot that has said nothing since then, or has never; "" when all talk."""
@@ -146,24 +154,39 @@ class ActionClient:
 
     def _end_renewed(self, robots: list[str], request_id: str) -> None:
         with self._renewing:  # nothing asks for it again behind this
-            if self._renewed.pop(request_id, None):
+            call = self._renewed.pop(request_id, None)
+            if call is not None:
+                request_id = call.request.id
                 del self._calls[request_id]
             self.send(robots, "stop", {"request": request_id})
 
     def _renew(self) -> None:
         """Ask again for all that is renewed, as long as there is something."""
+        asked_s = time.monotonic()
         while True:
             time.sleep(RENEWED_S)
-            unanswered_s = time.monotonic() - UNANSWERED_S
+            now_s = time.monotonic()
+            was_late, asked_s = now_s - asked_s > UNLESS_ASKED_S / 2.0, now_s
             with self._renewing:
                 for request_id, call in [*self._renewed.items()]:
-                    if call.ended.is_set() or call.silent(unanswered_s):
-                        del self._renewed[request_id], self._calls[request_id]
+                    if was_late:  # this program stood still: the robot may have ended it meanwhile
+                        self._begin_anew(call)
+                    if call.ended.is_set() or call.silent(now_s - UNANSWERED_S):
+                        del self._renewed[request_id], self._calls[call.request.id]
                     else:
                         with contextlib.suppress(NepError):  # when it leaves the network just now
-                            self._requests.send(call.request)
+                            self._requests.send(call.again())
                 if not self._renewed:
                     return
+
+    def _begin_anew(self, call: Call) -> None:
+        """Let the next request be another one, which a robot does not take for an ended one."""
+        del self._calls[call.request.id]
+        call.request = msgspec.structs.replace(call.request, id=uuid.uuid4().hex)
+        self._calls[call.request.id] = call
+        call.heard_s = dict.fromkeys(call.request.robots, time.monotonic())
+        call.results.clear()
+        call.ended.clear()
 
     def end(self, robots: list[str], action: str, request_id: str) -> None:
         """End an action that was begun in this part of the program."""

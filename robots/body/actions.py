@@ -155,13 +155,15 @@ class WalkFreely(msgspec.Struct, frozen=True):
     """Walk until something else is asked of the legs; each speed is a part of the highest.
 
     ``unless_asked_s``: stop by itself when the same request has not come again for so long, so
-    that a robot whose driver is gone does not walk on; 0 is never.
+    that a robot whose driver is gone does not walk on; 0 is never. ``was_known``: the robot has
+    answered this request already; one that does not know it was started anew, and stays.
     """
 
     forward: Share = 0.0
     left: Share = 0.0
     turn: Share = 0.0
     unless_asked_s: Patience = 0.0
+    was_known: bool = False
 
 
 class StopMoving(msgspec.Struct, frozen=True):

@@ -66,6 +66,8 @@ class Actor:
             limbs = self.driver.limbs(action)
         except ActionFailed as problem:
             return [self._result(request.id, "failed", problem.fault)]
+        if isinstance(action, WalkFreely) and action.was_known:
+            return [self._result(request.id, "cancelled", fault_of("stopped"))]
         ended = self._end_free_walk() if Limb.LEGS in limbs else []
         if isinstance(action, SetAngles):
             self._aim(action)

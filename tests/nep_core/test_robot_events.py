@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import threading
+import time
 
 import pytest
 
 from nep_core.errors import RobotError
 from nep_core.networks.zmq_networks import PeerNetwork
 from nep_core.program import tasks
+from nep_core.program.actions import action_client
 from nep_core.program.behavior import Behavior
 from nep_core.program.human import state_of_word
 from nep_core.program.tasks import current_task, wait, wait_until
@@ -172,3 +174,22 @@ def test_a_walk_is_asked_for_again_until_it_ends_and_not_when_nobody_answers(
 
     assert asked == before
     current_task().end_undone()
+
+
+def test_a_program_that_stood_still_begins_its_walk_anew(
+    outside: Outside, network: PeerNetwork
+) -> None:
+    outside.nao.end = None
+    asked = outside.nao.times_asked
+    outside.robot.start_walking(50)
+    wait_until(lambda: max(asked.values(), default=0) > 2, 10)
+    assert [args.get("was_known", False) for _, args in outside.nao.asked] == [False]
+
+    with action_client(network)._renewing:  # nothing is sent meanwhile, as in a busy program
+        time.sleep(1.5)
+
+    wait_until(lambda: len(outside.nao.asked) > 1, 10)
+    assert [args.get("was_known", False) for _, args in outside.nao.asked] == [False, False]
+    current_task().end_undone()
+    wait_until(lambda: outside.nao.asked[-1][0] == "stop", 10)
+    assert outside.nao.asked[-1][1]["request"] in asked

@@ -11,8 +11,6 @@ from PySide6.QtGui import QAction, QActionGroup, QGuiApplication, QKeySequence, 
 from PySide6.QtWidgets import QApplication, QLineEdit, QMenu, QPlainTextEdit, QToolBar, QToolButton
 
 from faults import Words, verbatim
-from nep_studio.blocks.edits.content import SetExtra
-from nep_studio.blocks.program import LANGUAGE, LANGUAGES
 from nep_studio.project.examples import examples
 from nep_studio.settings import SYSTEM
 from nep_studio.ui.labels import labelled
@@ -20,7 +18,7 @@ from nep_studio.ui.running.actions import RUN_BUTTONS, RunState, keep_width, sty
 from nep_studio.ui.theme.colours import load_theme, themes
 from nep_studio.ui.theme.icons import icon, icon_room
 from nep_studio.ui.widgets.forms import plain_tip
-from nep_studio.ui.words import available_languages, count_words, tr
+from nep_studio.ui.words import ENGLISH, available_languages, count_words, tr
 
 from .dialogs import show_about, show_report, show_shortcuts
 
@@ -276,18 +274,20 @@ def add_language_of_program(menu: QMenu, window: MainWindow) -> None:
     """Let a person choose in which language a program tells numbers, truths and lists."""
 
     def choose(code: str) -> None:
+        # Blocks are not there yet when the menu is made
+        from nep_studio.blocks.edits.content import SetExtra
+        from nep_studio.blocks.program import LANGUAGE
+
         document = window.host.services.document
         if document is not None:
-            kept = None if code == LANGUAGES[0] else code
-            document.editor.apply(SetExtra(LANGUAGE, kept))
+            document.editor.apply(SetExtra(LANGUAGE, None if code == ENGLISH else code))
 
     def chosen() -> str:
         document = window.host.services.document
         return document.project.spoken_language if document is not None else ""
 
     choices = _submenu(menu, window, "languages", "Language of the program")
-    names = available_languages()
-    known = [(code, verbatim(names[code])) for code in LANGUAGES if code in names]
+    known = [(code, verbatim(name)) for code, name in available_languages().items()]
     _add_choices(choices, known, chosen, choose)
     menu.aboutToShow.connect(lambda: choices.menuAction().setEnabled(bool(chosen())))
 

@@ -10,6 +10,7 @@ from program_following import Followed
 
 from nep_core.program import tasks
 from nep_core.program.tasks import PROGRAM
+from nep_core.program.values import speak
 
 Follow = Callable[[str], Followed]
 
@@ -159,7 +160,10 @@ def test_only_values_that_have_changed_are_told(follow: Follow) -> None:
     heard.until(lambda s: s.values == {"words": '["a", "b"]', "x": "2"})
 
 
-def test_values_are_told_as_the_program_tells_them(follow: Follow) -> None:
+def test_values_are_told_as_the_program_tells_them(
+    follow: Follow, request: pytest.FixtureRequest
+) -> None:
+    request.addfinalizer(lambda: speak("en"))  # the program runs in this process
     program = follow("""
         from nep_core import Behavior
         from nep_core.program.tasks import wait

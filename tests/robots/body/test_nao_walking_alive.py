@@ -44,6 +44,15 @@ def test_a_driven_walk_that_another_one_follows_is_forgotten() -> None:
     assert [result.state for result in stage.actor.request(again)] == ["done"]
 
 
+def test_a_walk_from_before_the_robot_was_started_anew_is_not_begun_again() -> None:
+    stage = Stage()
+
+    stage.ask("w", "walk_freely", forward=0.5, unless_asked_s=0.5, was_known=True)
+    stage.pass_time(0.4)
+
+    assert stage.told == ["w cancelled"]
+
+
 def test_a_driven_walk_has_its_patience_in_the_time_of_those_who_ask() -> None:
     stage = Stage()
     stage.actor = Actor("NAO", stage.driver, pace=10.0)

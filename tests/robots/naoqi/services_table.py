@@ -28,6 +28,9 @@ What is true of it:
   the step that ends it, throws the robot over, as NAOqi's documentation warns: it lies,
   `robotHasFallen` is raised, its motors let go until `wakeUp` or a posture. `moveToward` goes on
   when the program is gone, as on a NAO.
+- A `moveTo` in a walk to another place takes that one's place, as NAOqi's own example shows: it is
+  seen from where the step under way ends, and the robot does not stand in between. All who wait are
+  answered when the robot stands; NAOqi does not say when it answers the first.
 - Joints keep to their limits, and to their speeds: keys that are too fast are played slower, where
   NAOqi may cut them. A joint whose stiffness is 0 does not move, and nobody is told, as on a NAO.
 - What cannot be done is refused in a sentence; its words are ours, not NAOqi's.

@@ -7,6 +7,7 @@ import math
 import os
 import struct
 import sys
+import time
 import uuid
 from collections.abc import Callable, Iterable
 from dataclasses import astuple, dataclass, replace
@@ -90,6 +91,7 @@ class Pilot(QObject):
         self.drive = STILL
         self._walk_id = ""
         self._walk: tuple[float, float, float] = (0.0, 0.0, 0.0)
+        self._asked_s = -math.inf
         self._head = (0.0, 0.0)
         self._timer = QTimer(self, interval=TICK_MS)
         self._timer.timeout.connect(self._on_tick)
@@ -144,6 +146,11 @@ class Pilot(QObject):
             self._ask("set_angles", {"angles": angles, "speed": HEAD_SPEED})
 
     def _ask_again(self) -> None:
+        now_s = time.monotonic()
+        if now_s - self._asked_s > UNLESS_ASKED_S / 2.0:
+            # Anew after standing still: what the robot has ended meanwhile it does not begin again
+            self._walk_id = f"drive-{uuid.uuid4().hex}"
+        self._asked_s = now_s
         forward, left, turn = self._walk
         args = {"forward": forward, "left": left, "turn": turn, "unless_asked_s": UNLESS_ASKED_S}
         self._ask("walk_freely", args, self._walk_id)
