@@ -14,7 +14,7 @@ from nep_studio.blocks.procedures import parameters, words
 
 from ..deployment import names_used, robot_entries
 from ..editor import Editor
-from ..generate.kinds import ANY, LIST, RESULT_KINDS, TEXT, TRUTH, kinds_of, note
+from ..generate.kinds import ANY, LIST, RESULT_KINDS, TEXT, TRUTH, Seen, kinds_of, note
 from ..generate.names import RESERVED, python_name
 from ..operations.fixes import append_entry
 from ..program import (
@@ -468,6 +468,6 @@ def is_junction(node: ast.expr) -> bool:
     return isinstance(within(node, ("bool",)), ast.BoolOp)
 
 
-def may_be(node: ast.expr, kinds: int) -> bool:
+def may_be(node: ast.expr, kinds: int, seen: Seen | None = None) -> bool:
     """Whether a value can be of these kinds, as far as the text tells."""
-    return bool(kinds_of(node) & kinds)
+    return bool(kinds_of(node, seen) & kinds)

@@ -15,7 +15,7 @@ from nep_studio.blocks.program import split_slot
 from nep_studio.blocks.slots import TEXT_RESULTS, FieldValue, constant
 
 from ..generate.expressions import known_whole
-from ..generate.kinds import ANY, NUMBER, RESULT_KINDS, TEXT, WHOLE, are, kinds_of
+from ..generate.kinds import ANY, NUMBER, RESULT_KINDS, TEXT, WHOLE, Seen, are, kinds_of
 from .learning import (
     BODY,
     PART,
@@ -184,6 +184,7 @@ class ValueReader:
         self._by_call: dict[str, list[Definition]] = {}
         self._types: dict[str, str] = {}
         self._known: dict[int, tuple[ast.expr, list[tuple[Made, str]]]] = {}
+        self._seen: Seen = {}
         self._depth = 0
         for definition in language.definitions.values():
             self._types.setdefault(definition.generator, definition.id)
@@ -241,12 +242,16 @@ class ValueReader:
         if not kind.becomes_text:
             inner = within(node, self._made(slot))
             needed = NUMBER if kind.is_number else RESULT_KINDS.get(kind.name, ANY)
-            if inner is node and kind.name != "boolean" and not may_be(node, needed):
+            if inner is node and kind.name != "boolean" and not may_be(node, needed, self._seen):
                 return None
             return next((made for made, result in self.blocks(inner) if result in kind.fits), None)
         inner, others = within(node, _TOLD), kind.fits - TEXT_RESULTS
         if inner is node:
-            others = frozenset({"any"}) if not is_clear and may_be(node, TEXT) else frozenset()
+            others = (
+                frozenset({"any"})
+                if not is_clear and may_be(node, TEXT, self._seen)
+                else frozenset()
+            )
             others |= TEXT_RESULTS
             found = sorted(self.blocks(node), key=_is_no_text)
             return next((made for made, result in found if result in others), None)

@@ -96,36 +96,68 @@ def note(node: ast.expr, kinds: int) -> ast.expr:
     return node
 
 
-def kinds_of(node: ast.expr) -> int:
-    """The kinds of what an expression gives, as far as its form tells or a block has noted."""
+Seen = dict[int, tuple[ast.expr, int]]
+"""The kinds of expressions by their ids; they are kept, so that the ids stay theirs."""
+
+
+def kinds_of(node: ast.expr, seen: Seen | None = None) -> int:
+    """The kinds of what an expression gives, as far as its form tells or a block has noted.
+
+    Who asks for all parts of long expressions gives ``seen``, in which those are kept.
+    """
     noted: int | None = getattr(node, "kinds", None)
     if noted is not None:
         return noted
+    if seen is None:
+        return _kinds_of(node, None)
+    if (known := seen.get(id(node))) is None:
+        known = seen[id(node)] = node, _kinds_of(node, seen)
+    return known[1]
+
+
+def _kinds_of(node: ast.expr, seen: Seen | None) -> int:
     match node:
         case ast.Constant(value=value):
             return _of_constant(value)
         case ast.UnaryOp(op=ast.Not()) | ast.Compare():
             return TRUTH
         case ast.UnaryOp(operand=operand):
-            return _counted(kinds_of(operand))
-        case ast.BinOp(left=left, op=op, right=right):
-            return _of_operation(op, kinds_of(left), kinds_of(right))
+            return _counted(kinds_of(operand, seen))
+        case ast.BinOp():
+            return _of_chain(node, seen)
         case ast.BoolOp(values=values):
-            return _all(map(kinds_of, values))
+            return _all(kinds_of(value, seen) for value in values)
         case ast.IfExp(body=body, orelse=orelse):
-            return kinds_of(body) | kinds_of(orelse)
+            return kinds_of(body, seen) | kinds_of(orelse, seen)
         case ast.Attribute(value=ast.Name(id="math")):
             return FRACTION
         case ast.List():
             return LIST
-        case ast.Subscript(value=value, slice=index) if are(kinds_of(value), TEXT | LIST):
-            is_same = isinstance(index, ast.Slice) or are(kinds_of(value), TEXT)
-            return kinds_of(value) if is_same else ANY
+        case ast.Subscript(value=value, slice=index) if are(kinds_of(value, seen), TEXT | LIST):
+            is_same = isinstance(index, ast.Slice) or are(kinds_of(value, seen), TEXT)
+            return kinds_of(value, seen) if is_same else ANY
         case ast.Call(func=ast.Name(id=name)):
             return _CALLS.get(name, NUMBER if name in ("abs", "min", "max", "round") else ANY)
         case ast.Call(func=ast.Attribute(attr=name)):
             return _METHODS.get(name, ANY)
     return ANY
+
+
+def _of_chain(node: ast.BinOp, seen: Seen | None) -> int:
+    """The kinds of a sum of many parts, which are nested to the left, without recursion."""
+    chain: list[ast.BinOp] = []
+    first: ast.expr = node
+    while isinstance(first, ast.BinOp) and not hasattr(first, "kinds"):
+        if seen is not None and id(first) in seen:
+            break
+        chain.append(first)
+        first = first.left
+    kinds = kinds_of(first, seen)
+    for part in reversed(chain):
+        kinds = _of_operation(part.op, kinds, kinds_of(part.right, seen))
+        if seen is not None:
+            seen[id(part)] = part, kinds
+    return kinds
 
 
 def _of_constant(value: object) -> int:
