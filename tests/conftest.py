@@ -7,9 +7,10 @@ import os
 import signal
 import socket
 import sys
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from contextlib import ExitStack, suppress
 from pathlib import Path
+from typing import TypeVar
 
 os.environ.setdefault("QT_QPA_PLATFORM", "offscreen")
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # threads cost each process 20 ms to start
@@ -27,6 +28,10 @@ from nep_core.networks.zmq_networks import PeerNetwork
 from nep_core.places import ROBOT_FILES_VARIABLE
 
 PROJECT = Path(__file__).resolve().parent.parent
+Case = TypeVar("Case")
+
+PART_IN_CI = 3
+"""Of cases without number that are alike, one in so many is tried where a machine checks a change."""
 
 
 def pytest_configure() -> None:
@@ -56,6 +61,19 @@ def pytest_collection_finish() -> None:
     """Let the garbage collector pass by all that collecting the tests has made: it stays."""
     gc.collect()
     gc.freeze()
+
+
+def a_part_of(cases: Iterable[Case]) -> list[Case]:
+    """All of some cases; in CI one in three, always the same ones, from the whole range."""
+    return list(cases)[:: PART_IN_CI if os.environ.get("CI") else 1]
+
+
+@pytest.fixture(scope="session", autouse=True)
+def nothing_waits_for_the_disk() -> Iterator[None]:
+    """Tests do not switch the computer off: what is written need not be on the disk already."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(os, "fsync", lambda _file: None)
+        yield
 
 
 @pytest.fixture
