@@ -35,7 +35,7 @@ GOAL_S, PROGRAM_GOAL_S = 1.0, 2.0
 PACE_GOAL_M_S = 0.07
 ROUNDS, PROCESS_ROUNDS = 30, 10
 LATENCY_S = 0.02
-STILL_S = 0.8
+STILL_S, NOTHING_M = 0.8, 1e-4
 WAIT_S = 30.0
 LIMIT_S = 1800.0
 MOMENTS_S = (0.5, 1.5)
@@ -113,7 +113,7 @@ class Onlooker:
         self.session = Session(("127.0.0.1", port))
         self.session.connect()
         self._motion = self.session.service("ALMotion")
-        self.active_s = self.moved_s = self.now_s = time.monotonic()
+        self.active_s = self.moved_s = time.monotonic()
         self._place = self.place()
 
     def place(self) -> list[float]:
@@ -125,7 +125,7 @@ class Onlooker:
         if self._motion.call("moveIsActive"):
             self.active_s = time.monotonic()
         place = self.place()
-        if place != self._place:
+        if _far(self._place, place) > NOTHING_M:
             self._place, self.moved_s = place, time.monotonic()
         return time.monotonic() - max(self.active_s, self.moved_s) > STILL_S
 
@@ -139,7 +139,7 @@ class Onlooker:
 
     def after(self, fault_s: float) -> tuple[float, float]:
         """How long after a fault it walked, and moved, when it has been still since."""
-        return self.active_s - fault_s, self.moved_s - fault_s
+        return max(self.active_s - fault_s, 0.0), max(self.moved_s - fault_s, 0.0)
 
 
 @contextlib.contextmanager

@@ -324,8 +324,9 @@ class ALMotion(Module):
     def _has_come_to_rest(self) -> bool:
         """Whether a walk is over altogether: also the weight is back between both feet."""
         with self._robot.lock:
-            guided = self._robot.is_stepping or self._robot.is_coming_to_rest
-            return not guided and not any(map(_is_walk, self._robot.commands()))
+            if any(map(_is_walk, self._robot.commands())):
+                return False
+            return not (self._robot.is_stepping or self._robot.is_coming_to_rest)
 
     @method("stopMove::b()", "stopWalk::b()")
     def stop_move(self) -> bool:
