@@ -24,7 +24,6 @@ from contextlib import closing
 from pathlib import Path
 from typing import Any
 
-from nep_core.wire.messages import ACTION_REQUEST, ActionRequest
 from nep_studio.run.local_network import LocalNetwork
 from nep_studio.run.plan import PlannedNode
 from robots.naoqi.client.session import Session
@@ -40,7 +39,7 @@ WAIT_S = 30.0
 LIMIT_S = 1800.0
 MOMENTS_S = (0.5, 1.5)
 """The fault comes so long after the robot has begun to walk."""
-LONG_M = 1.0
+UNDER_WAY_M, LONG_M = 0.02, 1.0
 PROGRAM = """
 import time
 from nep_core import Robot
@@ -160,7 +159,7 @@ def _frozen(latency_s: float) -> list[tuple[float, float]]:
             pilot.until(lambda: pilot.is_told("connected") and not pilot.driver.moving)
             here = onlooker.place()
             pilot.ask("walk_freely", forward=1.0)
-            pilot.until(lambda here=here: _far(here, onlooker.place()) > 0.02)  # type: ignore[misc]
+            pilot.until(lambda here=here: _far(here, onlooker.place()) > UNDER_WAY_M)  # type: ignore[misc]
             _pass_time(pilot, random.uniform(*MOMENTS_S))
             line.is_frozen, fault_s = True, time.monotonic()
             pilot.until(onlooker.is_still)
@@ -176,48 +175,45 @@ def _pass_time(pilot: Pilot, seconds: float) -> None:
 
 
 def _node_ends(how: signal.Signals) -> tuple[float, float]:
-    with _driven() as (network, pid, onlooker):
-        args = {"forward": 1.0}
-        request = ActionRequest(id="1", robots=["NAO"], action="walk_freely", args=args)
-        network.tell(ACTION_REQUEST, request)
-        return _ended(pid, how, onlooker)
+    with _driven() as (node_pid, _, onlooker):
+        try:
+            return _ended(node_pid, how, onlooker)
+        finally:
+            with contextlib.suppress(ProcessLookupError):
+                os.kill(node_pid, signal.SIGKILL)
 
 
 def _program_ends() -> tuple[float, float]:
-    with _driven() as (network, _, onlooker):
-        environment = os.environ | {"NEP_MASTER": network.launcher.master}
-        program = subprocess.Popen([sys.executable, "-c", PROGRAM], env=environment)
-        try:
-            return _ended(program.pid, signal.SIGKILL, onlooker)
-        finally:
-            program.kill()
-            program.wait()
+    with _driven() as (_, program_pid, onlooker):
+        return _ended(program_pid, signal.SIGKILL, onlooker)
 
 
 @contextlib.contextmanager
-def _driven() -> Iterator[tuple[LocalNetwork, int, Onlooker]]:
-    """A robot that a node drives: its network, the node's process, and who looks on."""
+def _driven() -> Iterator[tuple[int, int, Onlooker]]:
+    """A robot that a program lets walk: the processes of its node and of the program."""
     with tempfile.TemporaryDirectory() as folder, virtual_nao() as (port, _):
         settings = {"robot": "NAO", "driver": "naoqi", "address": f"127.0.0.1:{port}"}
-        network = LocalNetwork(logs=Path(folder))
-        with closing(network):
+        onlooker = Onlooker(port)
+        with closing(LocalNetwork(logs=Path(folder))) as network, closing(onlooker.session):
             network.open()
             (node,) = network.start([PlannedNode("action/nao", "NAO", settings)])
             node.wait_ready()
-            onlooker = Onlooker(port)
-            yield network, node.pid, onlooker
-            onlooker.session.close()
+            environment = os.environ | {"NEP_MASTER": network.launcher.master}
+            program = subprocess.Popen([sys.executable, "-c", PROGRAM], env=environment)
+            try:
+                onlooker.until(lambda: onlooker.place()[0] > UNDER_WAY_M)
+                yield node.pid, program.pid, onlooker
+            finally:
+                program.kill()
+                program.wait()
 
 
 def _ended(pid: int, how: signal.Signals, onlooker: Onlooker) -> tuple[float, float]:
     """End a process in the middle of a walk; how long the robot goes on."""
-    onlooker.until(lambda: onlooker.place()[0] > 0.02)
     time.sleep(random.uniform(*MOMENTS_S))
     fault_s = time.monotonic()
     os.kill(pid, how)
     onlooker.until(onlooker.is_still)
-    if how == signal.SIGSTOP:
-        os.kill(pid, signal.SIGKILL)
     return onlooker.after(fault_s)
 
 
