@@ -88,6 +88,21 @@ def test_a_walk_goes_over_to_another_goal_in_its_steps(way: tuple[float, float, 
     assert np.hypot(*(feet - stage.robot.base)[:2]) < 0.005
 
 
+def test_a_walk_tells_where_the_step_under_way_ends_also_after_it_went_elsewhere() -> None:
+    stage, told = Stage("StandInit"), []
+    stage.ask("w", "walk", forward_m=0.08)
+    while stage.driver.is_busy or not told:
+        stage.pass_time(TICK_S)
+        if stage.robot.going is not None:
+            told.append((*stage.robot.going.next_base.tolist(), stage.robot.base[0]))
+        if len(told) == 70:  # in its first step
+            assert stage.robot.going.replace(np.array([0.0, 0.03, 0.0]))
+
+    ends = list(dict.fromkeys((round(x, 6), round(y, 6)) for x, y, _, _ in told))
+    assert ends == [(0.0, 0.0), (0.04, 0.0), (0.04, 0.03)]
+    assert all(x > now - 1e-9 for x, _, _, now in told)
+
+
 @pytest.mark.parametrize(
     ("felt", "value", "code"),
     [
