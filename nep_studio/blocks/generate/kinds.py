@@ -495,7 +495,8 @@ class FactReader:
         if "apart" in definition.flags:
             inside = [block_id for chain in block.bodies.values() for block_id in chain]
             self._apart.update(self._variables_in(inside))
-        if not block.bodies and definition.shape != "cap" and generator != "code_lines":
+        may_end = definition.shape == "cap" or generator in ("forever", "code_lines")
+        if not block.bodies and not may_end:
             return known
         inner = known | {variable} if generator in ("count", "for_each") else known
         ends = [self._walk(chain, inner, depth + 1) for chain in block.bodies.values()]
