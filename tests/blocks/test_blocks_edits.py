@@ -6,7 +6,7 @@ import msgspec
 import pytest
 from block_building import B, build, karate
 from generated import assert_mapped, assert_tame, has_written_code, parse
-from hypothesis import given
+from hypothesis import Phase, given, settings
 from hypothesis import strategies as st
 from random_programs import Dice
 
@@ -38,6 +38,7 @@ def test_random_edits_undone_and_redone_give_identical_bytes(language, data):
             assert len(str(refused.sentence)) > 10
             assert to_bytes(editor.project) == states[-1]
         else:
+            del states[editor.history.steps :]  # typing in one field is one step
             states.append(to_bytes(editor.project))
 
     for state in reversed(states):
@@ -48,6 +49,18 @@ def test_random_edits_undone_and_redone_give_identical_bytes(language, data):
         assert to_bytes(editor.project) == state
         editor.history.redo()
     assert not editor.history.redo()
+
+
+def test_a_property_that_fails_is_told_with_its_example(language):
+    @settings(database=None, phases=[Phase.generate])
+    @given(number=st.integers(10, 20))
+    def fails(language, number):
+        assert number < 10
+
+    with pytest.raises(AssertionError) as told:
+        fails(language)
+
+    assert 10 < len("".join(told.value.__notes__)) < 500
 
 
 @given(st.data())

@@ -146,6 +146,16 @@ def test_a_value_that_is_given_back_is_used_where_the_call_is(language):
     assert "def double(n):\n    return n * 2\n" in text and "wait(double(3))" in text
 
 
+@pytest.mark.parametrize("inside", [[], [B("control.note")]])
+def test_an_own_block_that_goes_on_forever_gives_nothing_back(language, inside):
+    editor = Editor(Project(), language)
+    own = editor.add_procedure(["wait for me"], gives_value=True)
+    forever = B("control.forever", bodies={"do": inside})
+    build(language, [B(f"my.define.{own}"), forever], editor=editor)
+
+    assert "return" not in generate_program(editor.project, language).text
+
+
 def test_an_own_block_in_use_is_not_deleted_and_says_where(language, greeting):
     editor, own, *_ = greeting
 

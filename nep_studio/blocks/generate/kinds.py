@@ -465,19 +465,22 @@ class FactReader:
     def _walk(
         self, chain: Sequence[str], known: frozenset[str], depth: int
     ) -> frozenset[str] | None:
-        """What is set after a chain, given what is before; None where nothing comes after it."""
+        """What is set after a chain, given what is before; None where nothing comes after it.
+
+        What is never reached is looked at too: its Python says what it would do.
+        """
         if depth > _DEEPEST:
             return known
-        after: frozenset[str] | None = known
+        is_reached = True
         for block_id in chain:
             block = self._project.blocks[block_id]
             definition = self._language.definitions.get(block.type)
             if block.disabled or definition is None:
                 continue
-            if after is None:
-                return None
-            after = self._step(block, definition, after, depth)
-        return after
+            after = self._step(block, definition, known, depth)
+            is_reached = is_reached and after is not None
+            known = known if after is None else after
+        return known if is_reached else None
 
     def _step(
         self, block: Block, definition: Definition, known: frozenset[str], depth: int
@@ -492,7 +495,8 @@ class FactReader:
         if "apart" in definition.flags:
             inside = [block_id for chain in block.bodies.values() for block_id in chain]
             self._apart.update(self._variables_in(inside))
-        if not block.bodies and definition.shape != "cap" and generator != "code_lines":
+        may_end = definition.shape == "cap" or generator in ("forever", "code_lines")
+        if not block.bodies and not may_end:
             return known
         inner = known | {variable} if generator in ("count", "for_each") else known
         ends = [self._walk(chain, inner, depth + 1) for chain in block.bodies.values()]

@@ -226,6 +226,8 @@ A_TEXT, ONE = B("text.text", {"text": "a"}), B("math.number", {"number": 1})
 ABSOLUTE = B("math.function", {"function": "absolute"}, {"number": ONE})
 ROUNDED = B("math.round", {"way": "nearest"}, {"number": GIVEN})
 DEFINED, STARTED = B("my.define.own"), B("event.started")
+STOP = [B("control.stop_rule")]
+STOPS_ANYWAY = B("control.if", bodies={"do": STOP, "otherwise_do.1": STOP}, groups={"otherwise": 1})
 
 
 def set_x(value: B) -> B:
@@ -247,6 +249,7 @@ SAID_IN_TWO_WAYS = {
         [STARTED, set_x(A_TEXT), B("control.forever", bodies={"do": [set_x(added(X, X)), SAYS_X]})]
     ],
     "joined, not appended": [[STARTED, set_x(ONE), set_x(joined(X, Y)), SAYS_X]],
+    "said by nobody": [[STARTED, STOPS_ANYWAY, SAYS_X]],
     "rounded for nobody": [
         [DEFINED, B("control.repeat", inputs={"times": ROUNDED}, bodies={"do": [SAYS_X]})]
     ],
