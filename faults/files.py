@@ -9,6 +9,7 @@ from __future__ import annotations
 import contextlib
 import os
 import secrets
+import stat
 import sys
 import time
 from collections.abc import Iterator
@@ -25,7 +26,8 @@ def whole_file(path: Path, *, is_private: bool = False) -> Iterator[BinaryIO]:
     """Write a file beside ``path``, which takes its place when it is whole; raises OSError.
 
     Whoever reads finds the old one or the new one, also after a crash or a power cut; one that
-    ``is_private`` is this user's alone at every moment.
+    ``is_private`` is this user's alone at every moment, and another is for those whom the old one
+    was for.
     """
     new = path.with_name(f".{path.name[:40]}.{secrets.token_hex(4)}")
     mode = 0o600 if is_private else 0o666
@@ -34,9 +36,21 @@ def whole_file(path: Path, *, is_private: bool = False) -> Iterator[BinaryIO]:
             yield file
             file.flush()
             os.fsync(file.fileno())
+        if not is_private:
+            with contextlib.suppress(OSError):  # there is no old one, or modes mean nothing there
+                new.chmod(stat.S_IMODE(path.stat().st_mode))
         put_in_place(new, path)
     finally:
         new.unlink(missing_ok=True)
+
+
+def write_whole(path: Path, content: str | bytes, *, is_private: bool = False) -> None:
+    """Write a text, as UTF-8, or bytes as a file that takes the place of ``path`` when it is whole.
+
+    Raises OSError; what was there is then as it was.
+    """
+    with whole_file(path, is_private=is_private) as file:
+        file.write(content.encode() if isinstance(content, str) else content)
 
 
 def put_in_place(new: Path, path: Path) -> None:

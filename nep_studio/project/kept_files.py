@@ -17,7 +17,7 @@ from pathlib import Path
 
 import msgspec
 
-from faults.files import sync_folder, whole_file
+from faults.files import sync_folder, whole_file, write_whole
 from nep_core.places import cache_folder
 from nep_studio.blocks.own_animations import JointKeys, OwnAnimation, own_animations
 from nep_studio.blocks.own_gestures import (
@@ -132,7 +132,7 @@ def write_recordings(
         place = folder / EVERYDAY if recording.everyday else folder
         place.mkdir(exist_ok=True)
         lines = _lines(key, recording, gestures)
-        (place / f"{key}.csv").write_text("\n".join(lines) + "\n", encoding="utf-8")
+        write_whole(place / f"{key}.csv", "\n".join(lines) + "\n")
 
 
 def _lines(key: str, recording: OwnRecording, gestures: Gestures) -> Iterator[str]:

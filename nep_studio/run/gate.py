@@ -19,7 +19,7 @@ from nep_core.errors import NepError
 from nep_core.places import node_folders
 from nep_core.processes.manifest import Manifest, NodeCatalog
 from nep_studio import paths
-from nep_studio.blocks.code_text import plainly_and_short
+from nep_studio.blocks.code_text import plainly_and_short, plainly_in_a_line
 from nep_studio.blocks.deployment import NODE_BLOCK, node_entries, robot_entries
 from nep_studio.blocks.errors import BlocksError
 from nep_studio.blocks.files import load
@@ -77,7 +77,7 @@ def node_concern(planned: PlannedNode, page: str = "nodes") -> Concern | None:
     content = [_content(planned, manifest, name, reaching[name]) for name in sorted(reaching)]
     own = _own_parts(manifest) if is_own else ()
     lines = [*own_lines(manifest)] if is_own else []
-    lines += [f"{name} = {value}" for name, value in reaching.items()]
+    lines += [plainly_in_a_line(f"{name} = {value}") for name, value in reaching.items()]
     is_robot = "driver" in planned.parameters
     title = text_of("The node {name}", name=planned.name)
     if is_robot:
@@ -318,5 +318,6 @@ def listing(concerns: Iterable[Concern]) -> Iterator[str]:
     """What a project brings, for a terminal: all of it, line by line."""
     for concern in concerns:
         notes = "".join(f", {note}" for note in concern.notes)
-        yield f"{concern.title} (page {concern.page.capitalize()}{notes}):"
+        title = plainly_in_a_line(str(concern.title))
+        yield f"{title} (page {concern.page.capitalize()}{notes}):"
         yield from (f"    {line}" for line in plainly_and_short(concern.text).split("\n"))

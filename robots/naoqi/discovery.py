@@ -197,6 +197,6 @@ def _read() -> dict[str, SavedLogin]:
 
 def _write(logins: dict[str, SavedLogin]) -> None:
     path = logins_file()
-    path.parent.mkdir(parents=True, exist_ok=True)
+    path.parent.mkdir(parents=True, exist_ok=True, mode=0o700)
     with whole_file(path, is_private=True) as file:
         file.write(msgspec.json.format(msgspec.json.encode(logins), indent=2))

@@ -16,7 +16,7 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from nep_studio.blocks.code_text import plainly, plainly_and_short
+from nep_studio.blocks.code_text import plainly_and_short, plainly_in_a_line
 from nep_studio.project.trust import Concern
 from nep_studio.ui.theme.icons import icon, icon_room
 from nep_studio.ui.theme.look import Look, code_font
@@ -51,7 +51,7 @@ class TrustDialog(QDialog):
         self._look, self._titles = look, titles
         line = self.fontMetrics().height()
         headline = styled(QLabel(wordWrap=True, textFormat=Qt.TextFormat.PlainText), role="title")
-        headline.setText(tr("“{name}” brings more than blocks", name=plainly(name)))
+        headline.setText(tr("“{name}” brings more than blocks", name=plainly_in_a_line(name)))
         about = QLabel(wordWrap=True, textFormat=Qt.TextFormat.PlainText)
         about.setText(
             tr(
@@ -94,7 +94,7 @@ class TrustDialog(QDialog):
     def _card(self, concern: Concern, line: int) -> QWidget:
         """What it is, where it is, and all of it."""
         plain = Qt.TextFormat.PlainText
-        words, where = plainly(tr(concern.title)), self._place(concern)
+        words, where = plainly_in_a_line(tr(concern.title)), self._place(concern)
         place = styled(QLabel(where, wordWrap=True, textFormat=plain), role="hint")
         text = self._text(plainly_and_short(concern.text), f"{words}, {where}")
         return self._framed(SIGNS[concern.kind], words, line, place, text)
@@ -103,7 +103,7 @@ class TrustDialog(QDialog):
         """Many in one text: each with its words, and all of it below them, further in."""
         told = []
         for concern in concerns:
-            told.append(f"{plainly(tr(concern.title))}, {self._place(concern)}")
+            told.append(f"{plainly_in_a_line(tr(concern.title))}, {self._place(concern)}")
             told += [f"    {one}" for one in plainly_and_short(concern.text).split("\n")]
         words = tr("And {count} more, one below the other", count=len(concerns))
         return self._framed("list", words, line, self._text("\n".join(told), words))

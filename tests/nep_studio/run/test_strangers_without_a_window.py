@@ -23,7 +23,14 @@ from nep_studio.commands import run
 from nep_studio.commands.project import check, code
 from nep_studio.project.trust import Approvals, approvals_file
 from nep_studio.run.controller import Request, RunController, Subject
-from nep_studio.run.gate import Gate, NotApproved, concerns_of, is_here, node_concern
+from nep_studio.run.gate import (
+    Gate,
+    NotApproved,
+    concerns_of,
+    is_here,
+    listing,
+    node_concern,
+)
 from nep_studio.run.installation import studio_language
 from nep_studio.run.local_network import LocalNetwork
 from nep_studio.run.plan import NotForPages, PlannedNode, file_inside
@@ -262,6 +269,23 @@ def test_a_node_that_was_planted_does_not_start(make: Maker, tmp_path: Path, nod
     network.close()
 
     assert not make.marker.exists()
+
+
+def test_no_name_and_no_value_forges_a_line_of_what_is_told() -> None:
+    """The lines below look like ours: a person would take them for what we say."""
+    settings = {
+        "address": "203.0.113.7\n    Approved by NEP Studio\u202e\x1b[2J",
+        "driver": "naoqi",
+    }
+    node = PlannedNode("action/nao", "nao\n\nAll of it is safe", settings)
+
+    concern = node_concern(node)
+    assert concern is not None
+    told = list(listing([concern]))
+
+    assert len(told) == 3
+    assert "U+000A" in told[0] and "U+000A" in told[2] and "U+202E" in told[2]
+    assert not any("\n" in line or "\x1b" in line for line in told)
 
 
 # Which files of a project a node may be given.

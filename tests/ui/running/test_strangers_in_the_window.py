@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import html
 import os
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import ExitStack
@@ -9,7 +10,7 @@ from pathlib import Path
 
 import pytest
 from PySide6.QtCore import Qt
-from PySide6.QtWidgets import QLabel, QWidget
+from PySide6.QtWidgets import QAbstractItemView, QLabel, QWidget
 from pytestqt.qtbot import QtBot
 
 from nep_core.places import NODES_VARIABLE
@@ -355,8 +356,14 @@ def test_a_letter_more_does_not_make_a_strangers_text_ones_own(
 
 @pytest.mark.parametrize(
     ("old", "new"),
-    [("wait(0.5)", "wait(0.25)"), ("    for _", "    if True:\n      for _")],
-    ids=["beside it", "around it"],
+    [
+        ("wait(0.5)", "wait(0.25)"),
+        ("    for _", "    if True:\n      for _"),
+        (".close()", ".close()\n          print(1)"),
+        (".close()", ".close() #"),
+        ("        open(", "          print(1)\n        open("),
+    ],
+    ids=["beside it", "around it", "below it", "in it", "above it"],
 )
 def test_who_writes_python_beside_a_strangers_does_not_take_that_over(
     stranger: Callable[..., Trap], window: MainWindow, qtbot: QtBot, old: str, new: str
@@ -471,8 +478,14 @@ def test_no_name_of_a_stranger_is_shown_as_a_page_that_fetches_pictures(
         for label in labels_of(window)
         if PICTURE in label.text() and label.textFormat() != Qt.TextFormat.PlainText
     ]
-    tips = [one.toolTip() for one in window.findChildren(QWidget) if PICTURE in one.toolTip()]
-    assert not pages and not tips
+    tips = [one.toolTip() for one in window.findChildren(QWidget)]
+    for shown in window.findChildren(QAbstractItemView):
+        model = shown.model()
+        places = [model.index(row, 0) for row in range(model.rowCount())] if model else []
+        tips += [str(one.data(Qt.ItemDataRole.ToolTipRole)) for one in places]
+    assert not pages
+    assert not [tip for tip in tips if PICTURE in tip]
+    assert any(html.escape(PICTURE) in tip for tip in tips)
     window.findChild(NeedsDialog).reject()
 
 
@@ -485,7 +498,10 @@ def labels_of(window: MainWindow) -> list[QLabel]:
 
 def full_of_pictures(make: Maker) -> Trap:
     say = B("robot.say", {"text": PICTURE})
-    editor = build(make.language, [STARTED, say, B("code.lines", {"code": f'x = "{PICTURE}"'})])
+    heard = [B("robot_events.heard", {"word": PICTURE}), B("robot.say")]
+    editor = build(
+        make.language, [STARTED, say, B("code.lines", {"code": f'x = "{PICTURE}"'})], heard
+    )
     robot = B("robots.robot", {"driver": "naoqi", "address": PICTURE})
     build(make.language, [robot], page="robots", editor=editor)
     settings = {"node": "sensory/replay", "name": "gift", "parameters": {"recording": PICTURE}}

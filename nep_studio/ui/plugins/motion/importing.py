@@ -8,6 +8,7 @@ from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import QDialog, QLabel, QPlainTextEdit, QPushButton, QWidget
 
 from nep_studio.blocks.own_animations import OwnAnimation, why_not_animation
+from nep_studio.ui.widgets.forms import plain_label
 from nep_studio.ui.widgets.layouts import in_column, in_row
 from nep_studio.ui.widgets.questions import ask_for_path
 from nep_studio.ui.words import tr
@@ -33,7 +34,7 @@ class ImportDialog(QDialog):
         self.text = QPlainTextEdit()
         self.text.setAccessibleName(tr("The exported text"))
         self.text.setPlaceholderText('names.append("HeadYaw")\ntimes.append([0.8, 1.6])\n…')
-        self.reason = QLabel(wordWrap=True)
+        self.reason = plain_label()
         self.file_button = QPushButton(tr("From a file…"))
         self.use_button = QPushButton(tr("Use this motion"))
         self.cancel_button = QPushButton(tr("Cancel"))
