@@ -74,7 +74,7 @@ def export_picture(path: Path, widget: QWidget) -> list[Path]:
     widget.render(pixmap, QPoint())
     buffer = QBuffer()
     buffer.open(QIODevice.OpenModeFlag.WriteOnly)
-    pixmap.save(buffer, "PNG")  # type: ignore[call-overload]  # takes a device
+    pixmap.save(buffer, "PNG")
     try:
         write_whole(path, bytes(buffer.data().data()))
     except OSError as error:
