@@ -1,5 +1,7 @@
 """Files that are written whole: whoever reads finds the old one or the new one, never a half.
 
+And files that somebody brought, of which nobody knows what they are.
+
 It stands in this room because it is the one that every other may import, and saving is where a
 fault would lose somebody's work.
 """
@@ -7,6 +9,7 @@ fault would lose somebody's work.
 from __future__ import annotations
 
 import contextlib
+import errno
 import os
 import secrets
 import stat
@@ -51,6 +54,25 @@ def write_whole(path: Path, content: str | bytes, *, is_private: bool = False) -
     """
     with whole_file(path, is_private=is_private) as file:
         file.write(content.encode() if isinstance(content, str) else content)
+
+
+def read_file(path: Path, most_bytes: int) -> bytes:
+    """The bytes of a file that somebody brought; raises OSError for one that has more, or none.
+
+    What is called like a picture may be a link to a device that never ends, or a pipe into which
+    nobody writes: who reads that waits for ever.
+    """
+    with open(path, "rb", opener=_opened_at_once) as file:
+        if not stat.S_ISREG(os.fstat(file.fileno()).st_mode):
+            raise OSError(errno.EINVAL, "it is not a file", str(path))
+        data = file.read(most_bytes + 1)
+    if len(data) > most_bytes:
+        raise OSError(errno.EFBIG, os.strerror(errno.EFBIG), str(path))
+    return data
+
+
+def _opened_at_once(name: str, flags: int) -> int:
+    return os.open(name, flags | getattr(os, "O_NONBLOCK", 0))
 
 
 def put_in_place(new: Path, path: Path) -> None:

@@ -173,6 +173,37 @@ def test_a_file_beside_the_project_counts_by_its_bytes(make: Maker) -> None:
     assert gate.unapproved(concerns_of(project, make.language, make.folder))
 
 
+def test_what_an_own_node_imports_from_beside_it_counts_too(make: Maker) -> None:
+    folder = make.folder.parent / "nodes" / "sensory"
+    (folder / "helper.py").write_text("from . import deeper", encoding="utf-8")
+    (folder / "deeper").mkdir()
+    deeper = folder / "deeper" / "__init__.py"
+    deeper.write_text("", encoding="utf-8")
+    gift = folder / "gift.py"
+    gift.write_text("import helper\n" + gift.read_text(encoding="utf-8"), encoding="utf-8")
+    project = load(make.with_node("sensory/gift").file, make.language)
+    gate = Gate(Approvals())
+    gate.approve(concerns_of(project, make.language, make.folder))
+    assert not gate.unapproved(concerns_of(project, make.language, make.folder))
+
+    deeper.write_text(make.python, encoding="utf-8")
+
+    assert gate.unapproved(concerns_of(project, make.language, make.folder))
+
+
+def test_a_file_of_a_terabyte_holds_nobody_up(make: Maker) -> None:
+    with (make.folder / "wave.csv").open("wb") as file:
+        file.truncate(1 << 40)
+    project = load(make.with_node("sensory/replay", recording="wave.csv").file, make.language)
+    gate = Gate(Approvals())
+
+    gate.approve(concerns_of(project, make.language, make.folder))
+    assert not gate.unapproved(concerns_of(project, make.language, make.folder))
+    os.utime(make.folder / "wave.csv")
+
+    assert gate.unapproved(concerns_of(project, make.language, make.folder))
+
+
 def test_a_file_that_was_swapped_is_noticed_though_its_size_and_time_are_the_same(
     make: Maker,
 ) -> None:
