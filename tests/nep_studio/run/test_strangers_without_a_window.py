@@ -10,10 +10,12 @@ from collections.abc import Callable, Iterator
 from contextlib import ExitStack, contextmanager
 from pathlib import Path
 
+import msgspec
 import pytest
 
 from nep_core.places import NODES_VARIABLE
 from nep_core.processes.process import program_command
+from nep_core.wire import messages as m
 from nep_studio import paths
 from nep_studio.blocks.code_text import plainly
 from nep_studio.blocks.edits.content import SetComment, SetField
@@ -317,6 +319,19 @@ def test_no_name_and_no_value_forges_a_line_of_what_is_told() -> None:
     assert len(told) == 3
     assert "U+000A" in told[0] and "U+000A" in told[2] and "U+202E" in told[2]
     assert not any("\n" in line or "\x1b" in line for line in told)
+
+
+def test_what_a_strangers_robot_says_does_not_steer_the_terminal_as_json_either(
+    make: Maker, capfdbinary: pytest.CaptureFixture[bytes]
+) -> None:
+    said = "\x9b31m\u202e\x7f\x1b[2J"
+    request = m.ActionRequest(id="1", robots=["NAO"], action="say", args={"text": said})
+
+    run.Printer(make.language, as_json=True).hear(m.ACTION_REQUEST, request)
+
+    told = capfdbinary.readouterr().out.decode()
+    assert not [sign for sign in said if sign in told and not sign.isalnum() and sign != "["]
+    assert msgspec.json.decode(told)["args"]["text"] == said
 
 
 # Which files of a project a node may be given.
