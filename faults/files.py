@@ -75,6 +75,14 @@ def _opened_at_once(name: str, flags: int) -> int:
     return os.open(name, flags | getattr(os, "O_NONBLOCK", 0))
 
 
+def is_elsewhere(named: str) -> bool:
+    """Whether a path is on another computer, which even a look would tell of us.
+
+    Windows greets that computer with the person's name and a hash of their password.
+    """
+    return named.strip()[:2] in ("\\\\", "//", "\\/", "/\\")
+
+
 def put_in_place(new: Path, path: Path) -> None:
     """Let the whole file ``new`` take the place of ``path``, to stay; raises OSError."""
     until_s = time.monotonic() + IN_USE_S

@@ -26,6 +26,7 @@ from PySide6.QtGui import (
 )
 from PySide6.QtWidgets import QGestureEvent, QPinchGesture, QSizePolicy, QToolTip
 
+from faults.files import is_elsewhere
 from nep_core.wire.messages import RobotState, Thing
 from nep_studio import paths
 from nep_studio.ui.labels import follow_words, labelled, plain_tip
@@ -112,6 +113,8 @@ def folder_of(model: str) -> Path:
 
     It is looked for once: robots tell their model thirty times a second.
     """
+    if is_elsewhere(model):
+        return nao_folder()
     folder = paths.resources() / "robots" / (model or "nao")  # a path of one's own stays as it is
     return folder if (folder / VIEW_FILE).is_file() else nao_folder()
 

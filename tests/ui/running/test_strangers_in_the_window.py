@@ -9,23 +9,28 @@ from contextlib import ExitStack
 from pathlib import Path
 
 import pytest
-from PySide6.QtCore import Qt
+from PySide6.QtCore import QObject, Qt
 from PySide6.QtWidgets import QAbstractItemView, QLabel, QWidget
 from pytestqt.qtbot import QtBot
 
 from nep_core.places import NODES_VARIABLE
+from nep_core.wire.messages import RobotState
 from nep_studio import paths
 from nep_studio.blocks.edits.content import SetField
 from nep_studio.blocks.operations.copying import copy, paste
 from nep_studio.run.installation import studio_language
 from nep_studio.run.plan import PlannedNode
 from nep_studio.settings import ShowOptions
+from nep_studio.ui.plugins.robots.participants import robots_of
 from nep_studio.ui.plugins.show import ShowMode
 from nep_studio.ui.plugins.watches.dialog import WatchTrial
+from nep_studio.ui.robot_view.view import folder_of
 from nep_studio.ui.running.needs import NeedsDialog
 from nep_studio.ui.running.trust import MOST_CARDS, TrustDialog
 from nep_studio.ui.services import Studio
 from nep_studio.ui.shell.main_window import MainWindow
+from nep_studio.ui.speech.robot_voices import PLAYING, RobotSounds
+from robots.body.sense_tasks import found
 from tests.blocks.block_building import B, build
 from tests.nep_studio.run.hostile_projects import (
     FOREVER,
@@ -258,6 +263,40 @@ def test_to_look_at_a_strangers_watch_does_not_let_its_node_in(
     assert not trap.has_sprung()
     dialog.reject()
     trial.end()
+
+
+SHARE = "//stranger/share/a"
+
+
+@pytest.mark.parametrize(
+    "look",
+    [
+        lambda: robots_of([PlannedNode("action/nao", "nao", {"model": SHARE})]),
+        lambda: folder_of(SHARE),
+        lambda: found(SHARE),
+        lambda: found(f"/home/nao/{SHARE}"),
+        lambda: RobotSounds(QObject()).hear_state(
+            RobotState(robot="nao", joints={}, settings={PLAYING: SHARE})
+        ),
+    ],
+    ids=[
+        "a robot's looks",
+        "a robot that is heard",
+        "a sound",
+        "its sound",
+        "a sound that is heard",
+    ],
+)
+def test_nobody_looks_at_what_is_on_a_strangers_computer(
+    look: Callable[[], object], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Windows would tell that computer the person's name and the hash of their password."""
+    looked, is_file = [], Path.is_file
+    monkeypatch.setattr(Path, "is_file", lambda path: looked.append(str(path)) or is_file(path))
+
+    look()
+
+    assert not [path for path in looked if path.startswith("//stranger")]
 
 
 def test_nobody_knocks_at_a_strangers_robot_to_see_whether_it_is_there(
