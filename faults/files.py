@@ -83,6 +83,18 @@ def is_elsewhere(named: str) -> bool:
     return named.strip()[:2] in ("\\\\", "//", "\\/", "/\\")
 
 
+def make_privately(folder: Path) -> None:
+    """Make a folder for this user only, unless it is there, as it is then; raises OSError.
+
+    Those above it that are not there either are for this user only, too: who can write there could
+    put another one in its place.
+    """
+    for one in (*reversed(folder.parents), folder):
+        if not one.exists():
+            one.mkdir(exist_ok=True, mode=0o700)
+    folder.mkdir(exist_ok=True)  # FileExistsError, where there is a file
+
+
 def put_in_place(new: Path, path: Path) -> None:
     """Let the whole file ``new`` take the place of ``path``, to stay; raises OSError."""
     until_s = time.monotonic() + IN_USE_S

@@ -12,7 +12,7 @@ from contextlib import suppress
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from nep_core.places import NODES_VARIABLE, private_folder
+from nep_core.places import NODES_VARIABLE, opened_privately, private_folder
 
 if TYPE_CHECKING:
     from nep_studio.settings import Settings
@@ -105,7 +105,8 @@ def keep_crashes(folder: Path) -> None:
         if path.exists() and path.stat().st_size > MOST_CRASH_BYTES:
             with suppress(OSError):  # another window may have it open
                 path.unlink()
-        faulthandler.enable(path.open("a", encoding="utf-8"))
+        file = open(path, "a", opener=opened_privately)  # noqa: SIM115  as long as the program
+        faulthandler.enable(file)
 
 
 # A lock on a file that goes with the process that holds it, however that ends.

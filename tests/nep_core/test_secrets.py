@@ -147,8 +147,9 @@ def test_what_is_kept_is_for_its_owner_only(
     finally:
         os.umask(umask)
 
-    made += [tmp_path / name for name in ("logs", "keys", "logins", "robots/NAO", "settings")]
+    made += [tmp_path / name for name in ("new", "logs", "keys", "logins", "settings")]
     made += [tmp_path / name for name in ("logs/a.log", "keys/phone_page.pem", "fault")]
+    made += [tmp_path / name for name in ("robots", "robots/NAO")]
     made += [logins_file(), tmp_path / "robots/NAO/a.png"]
     assert not [f"{one}: {one.stat().st_mode:o}" for one in made if one.stat().st_mode & 0o077]
     assert own_folder("config")
