@@ -42,8 +42,11 @@ class PrivateLog(RotatingFileHandler):
     """A log for its owner only, as all that is kept of a person."""
 
     def _open(self) -> TextIOWrapper:
-        name, encoding = self.baseFilename, self.encoding
-        return open(name, self.mode, encoding=encoding, opener=opened_privately)
+        encoding, opener = self.encoding, opened_privately
+        name, mode = self.baseFilename, self.mode
+        file = open(name, mode, encoding=encoding, opener=opener)  # noqa: SIM115  closed by it
+        assert isinstance(file, TextIOWrapper)
+        return file
 
 
 class LastResort(QObject):

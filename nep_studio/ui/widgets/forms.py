@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from typing import Any, TypeVar
 
 from PySide6.QtCore import QPoint, QRect, QSize, Qt, QTimer
@@ -172,6 +173,17 @@ def keep_bold_room(button: QPushButton) -> None:
 def plain_label(words: str = "", /, **look: Any) -> QLabel:
     """A label for words of others: Qt would take one that begins with < for a page."""
     return QLabel(words, wordWrap=True, textFormat=Qt.TextFormat.PlainText, **look)
+
+
+def breakable(text: str) -> str:
+    """A text of others that a label can break: a name without an end would push all off the screen.
+
+    Behind so many letters without a space comes one that takes no room.
+    """
+    return _LONG_WORD.sub("\\g<0>\u200b", text)
+
+
+_LONG_WORD = re.compile(r"\S{30}(?=\S)")
 
 
 # Which part of the screen a widget may use.

@@ -18,9 +18,12 @@ from nep_core.wire.messages import RobotState
 from nep_studio import paths
 from nep_studio.blocks.edits.content import SetField
 from nep_studio.blocks.operations.copying import copy, paste
+from nep_studio.project.trust import Concern
 from nep_studio.run.installation import studio_language
 from nep_studio.run.plan import PlannedNode
 from nep_studio.settings import ShowOptions
+from nep_studio.ui.message_cards import MessageCard
+from nep_studio.ui.messages import Message
 from nep_studio.ui.plugins.robots.participants import robots_of
 from nep_studio.ui.plugins.show import ShowMode
 from nep_studio.ui.plugins.watches.dialog import WatchTrial
@@ -566,6 +569,22 @@ def among_hundreds(make: Maker) -> Trap:
     texts = [f"piece_{number} = {number}" for number in range(200)]
     blocks = [B("code.lines", {"code": text}) for text in [*texts, make.python]]
     return make.trap([STARTED, *blocks, FOREVER], tells=make.python)
+
+
+def test_a_name_without_an_end_pushes_nothing_off_the_screen(
+    window: MainWindow, studio: Studio
+) -> None:
+    name = "W" * 200
+    concern = Concern("node", f"The node {name}", "x = 1", "nodes", "b1", "key")
+
+    dialog = TrustDialog(window, studio.look, name, [concern], {"nodes": name})
+    dialog.open()
+    card = MessageCard(Message("info", name, name), studio.look.theme, window)
+
+    assert dialog.width() < 900
+    assert not dialog.list.horizontalScrollBar().maximum()
+    assert card.minimumSizeHint().width() < 900
+    dialog.reject()
 
 
 def test_screen_readers_hear_what_each_text_is(
