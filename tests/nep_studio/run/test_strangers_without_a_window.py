@@ -121,6 +121,17 @@ def test_what_was_approved_in_the_window_runs_without_a_question(make: Maker) ->
         assert soon(trap.has_sprung)
 
 
+@pytest.mark.skipif(not hasattr(os, "geteuid") or os.geteuid() != 0, reason="it takes root")
+def test_what_somebody_else_wrote_down_as_approved_is_not(make: Maker) -> None:
+    """In a folder for all, as that for temporary files of who has no home, others were first."""
+    found = concerns_of(load(lines(make).file, make.language), make.language, make.folder)
+    Gate(Approvals()).approve(found)
+
+    os.chown(approvals_file(), 12345, -1)
+
+    assert Gate(Approvals()).unapproved(found)
+
+
 def test_blocks_alone_ask_nothing(make: Maker) -> None:
     editor = build(make.language, [STARTED, B("robot.say", {"text": "Hello"})])
     build(make.language, [B("robots.robot")], page="robots", editor=editor)

@@ -73,7 +73,7 @@ def as_csv(messages: Iterable[Heard]) -> str:
     columns = list(dict.fromkeys(key for row in rows for key in row))
     out = io.StringIO()
     writer = csv.DictWriter(out, columns, lineterminator="\n")
-    writer.writeheader()
+    writer.writerow({name: without_formula(name) for name in columns})
     writer.writerows({name: without_formula(value) for name, value in row.items()} for row in rows)
     return out.getvalue()
 
