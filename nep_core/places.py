@@ -11,6 +11,7 @@ from typing import Literal
 
 import platformdirs
 
+from faults.files import make_privately
 from nep_core.errors import KeyFileError
 
 NODES_VARIABLE = "NEP_NODES"
@@ -81,7 +82,7 @@ def private_folder(folder: Path) -> Path:
 
     On Windows the folders of a user are theirs alone as they are, and modes say nothing.
     """
-    folder.mkdir(parents=True, exist_ok=True, mode=0o700)
+    make_privately(folder)
     if os.name == "posix" and folder.stat().st_mode & 0o077:
         with contextlib.suppress(PermissionError):  # it is somebody else's: then it stays so
             folder.chmod(0o700)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import errno
 import re
 from array import array
 from collections.abc import Iterator
@@ -127,6 +128,8 @@ def check_size(path: Path) -> None:
     """Tell a file that is too long by its size and first lines, without reading it all."""
     if path.is_dir():
         raise IsADirectoryError
+    if path.exists() and not path.is_file():
+        raise OSError(errno.EINVAL, "it is not a file")  # but a pipe, or a device without an end
     size = path.stat().st_size
     with path.open("rb") as file:
         head = file.read(_HEAD_BYTES)

@@ -18,9 +18,10 @@ from importlib import import_module
 from typing import NoReturn
 
 from faults import FaultError
+from faults.files import write_whole
 from nep_core.cli.lessons import EXIT_CODES, FIRST_STEPS, LESSONS
 from nep_core.errors import NepError
-from nep_core.places import log_folder
+from nep_core.places import log_folder, private_folder
 from nep_core.processes.handover import hand_over
 
 from .console import near, only_visible
@@ -207,8 +208,8 @@ def steps_of(error: FaultError) -> list[str]:
 def _explain_mistake(error: Exception) -> str:
     path = log_folder() / "nep-command.log"
     try:
-        path.parent.mkdir(parents=True, exist_ok=True)
-        path.write_text("".join(traceback.format_exception(error)), encoding="utf-8")
+        private_folder(path.parent)
+        write_whole(path, "".join(traceback.format_exception(error)), is_private=True)
         kept = f"Details are in {path}"
     except OSError:
         kept = "Details could not be kept"

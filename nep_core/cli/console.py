@@ -138,9 +138,14 @@ def visible(text: str, *, but: frozenset[str] = frozenset()) -> str:
     if text.isascii() and text.isprintable():
         return text
     return "".join(
-        f"\\u{ord(letter):04x}" if letter not in but and _steers(letter) else letter
-        for letter in text
+        _escaped(letter) if letter not in but and _steers(letter) else letter for letter in text
     )
+
+
+def _escaped(letter: str) -> str:
+    """A letter as JSON writes it in English ones: some, as in the flag of Wales, take two."""
+    code = letter.encode("utf-16-be", "surrogatepass").hex()
+    return "".join(f"\\u{code[at : at + 4]}" for at in range(0, len(code), 4))
 
 
 def _steers(letter: str) -> bool:

@@ -407,7 +407,9 @@ def firewalls(
     about = "firewall"
     harmless = "it matters only when the network is opened: then allow the ports of NEP"
     if sys.platform == "win32":
-        return [_asked(about, ["netsh", "advfirewall", "show", "currentprofile", "state"])]
+        # By its whole path: Windows would take one of the folder that we are started in first
+        tool = rf"{os.environ.get('SYSTEMROOT', 'C:/Windows')}\System32\netsh.exe"
+        return [_asked(about, [tool, "advfirewall", "show", "currentprofile", "state"])]
     if sys.platform == "darwin":
         tool = "/usr/libexec/ApplicationFirewall/socketfilterfw"
         return [_asked(about, [tool, "--getglobalstate"])]

@@ -16,6 +16,7 @@ from pathlib import Path
 import msgspec
 
 from faults import Fault, heard_fault
+from nep_core.places import opened_privately
 from nep_core.wire.frames import CANNOT_DECODE
 
 log = logging.getLogger(__name__)
@@ -53,7 +54,8 @@ def hand_over(fault: Fault) -> None:
     if not path:
         return
     try:
-        with open(path, "xb") as file:  # never into somebody else's file
+        # Never into somebody else's file, nor for others to read: addresses may be in it
+        with open(path, "xb", opener=opened_privately) as file:
             file.write(msgspec.json.encode(fault))
     except OSError as error:
         log.info("The launcher will not know more than the last line: %s", error)

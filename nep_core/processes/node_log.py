@@ -17,6 +17,7 @@ from io import FileIO
 from itertools import pairwise
 from pathlib import Path
 
+from faults.files import make_privately
 from nep_core.closing import Closing
 from nep_core.places import opened_privately
 
@@ -47,7 +48,7 @@ class NodeLog(Closing):
         self._left_bytes = 0
         self._file: FileIO | None = None
         try:
-            path.parent.mkdir(parents=True, exist_ok=True, mode=0o700)
+            make_privately(path.parent)
             self._begin(goes_on=goes_on)
         except OSError as error:
             self._give_up(error)

@@ -297,6 +297,11 @@ def plainly(text: str) -> str:
     return "".join(map(_seen, text))
 
 
+def plainly_in_a_line(text: str) -> str:
+    """The same for what is one line, as a name: its ends of lines are signs, and forge none."""
+    return plainly(text).replace("\n", _sign("\n")).replace("\t", _sign("\t"))
+
+
 def plainly_and_short(text: str) -> str:
     """The same, with a sign for empty lines behind which nobody would look for more."""
     return plainly(_EMPTY_LINES.sub(lambda lines: f"\n⟨{lines[0].count(_END) - 1} ↵⟩\n", text))

@@ -2,18 +2,17 @@
 
 from __future__ import annotations
 
+import errno
 import os
 import re
-import shutil
 from collections.abc import Container, Iterable
-from contextlib import suppress
 from pathlib import Path
 from typing import Any, Literal
 
 import msgspec
 
 from faults import Text, reason_of
-from faults.files import put_in_place
+from faults.files import whole_file
 
 from .code_text import trim_python
 from .edit_rules import (
@@ -387,19 +386,13 @@ def save(project: Project, path: Path) -> None:
     Raises ProjectFileError; the old file is then as it was.
     """
     target = path.resolve()
-    new = target.with_name(f".{target.name}.{os.getpid()}.new")
     try:
         data = to_bytes(project)
-        with new.open("wb") as file:
+        if target.exists() and not os.access(target, os.W_OK):  # the folder alone would allow it
+            raise PermissionError(errno.EACCES, os.strerror(errno.EACCES))
+        with whole_file(target) as file:
             file.write(data)
-            file.flush()
-            os.fsync(file.fileno())
-        if target.exists():
-            shutil.copymode(target, new)
-        put_in_place(new, target)
     except (OSError, UnicodeEncodeError) as error:
-        with suppress(OSError):
-            new.unlink(missing_ok=True)
         reason = (
             reason_of(error)
             if isinstance(error, OSError)

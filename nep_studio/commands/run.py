@@ -17,7 +17,7 @@ from pathlib import Path
 
 import msgspec
 
-from nep_core.cli.console import seconds
+from nep_core.cli.console import seconds, visible
 from nep_core.errors import NepError
 from nep_core.processes.node import STOP_SIGNALS
 from nep_core.wire.messages import ProgramState
@@ -82,7 +82,7 @@ class Printer:
         """Print a message."""
         if self._as_json:
             told = {"topic": topic, **msgspec.structs.asdict(message)}
-            print_utf8(msgspec.json.encode(told).decode() + "\n")
+            print_utf8(visible(msgspec.json.encode(told).decode()) + "\n")
             return
         elapsed_s = time.monotonic() - self._started_s
         for who, what in self._timeline.lines(message):

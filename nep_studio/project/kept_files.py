@@ -17,7 +17,7 @@ from pathlib import Path
 
 import msgspec
 
-from faults.files import sync_folder, whole_file
+from faults.files import make_privately, sync_folder, whole_file, write_whole
 from nep_core.places import cache_folder
 from nep_studio.blocks.own_animations import JointKeys, OwnAnimation, own_animations
 from nep_studio.blocks.own_gestures import (
@@ -66,7 +66,7 @@ class RecogniserFile:
             data = b64decode(self.text, validate=True)
         except (binascii.Error, ValueError) as error:
             raise OSError("what was learned is damaged: train the gestures again") from error
-        self.folder.mkdir(parents=True, exist_ok=True)
+        make_privately(self.folder)
         with whole_file(self.path) as file:  # another window may write the same one
             file.write(data)
         _forget_old(self.folder)
@@ -85,6 +85,7 @@ class TakeFiles:
         if self.folder.is_dir():
             _note_use(self.folder)
             return
+        make_privately(self.folder.parent)
         part = self.folder.with_suffix(f".{os.getpid()}.part")
         try:
             write_recordings(part, self.gestures, self.recordings)
@@ -132,7 +133,7 @@ def write_recordings(
         place = folder / EVERYDAY if recording.everyday else folder
         place.mkdir(exist_ok=True)
         lines = _lines(key, recording, gestures)
-        (place / f"{key}.csv").write_text("\n".join(lines) + "\n", encoding="utf-8")
+        write_whole(place / f"{key}.csv", "\n".join(lines) + "\n")
 
 
 def _lines(key: str, recording: OwnRecording, gestures: Gestures) -> Iterator[str]:
@@ -219,7 +220,7 @@ class AnimationFiles:
 
     def write(self) -> None:
         """Write those files that are not there. Raises OSError."""
-        self.folder.mkdir(parents=True, exist_ok=True)
+        make_privately(self.folder)
         for name, text in self.texts.items():
             path = self.folder / name
             if not path.is_file():

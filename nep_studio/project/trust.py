@@ -7,9 +7,11 @@ is asked about before it runs, wherever it came from: a download, a stick, a pic
 
 from __future__ import annotations
 
+import errno
 import hashlib
 import logging
 import os
+import sys
 import threading
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
@@ -68,6 +70,8 @@ def key_of(*parts: str) -> str:
 FOLDED = Text("inside folded blocks")
 OFF = Text("switched off")
 IN_NO_RULE = Text("in no rule: it does not run as it is")
+LONG_LINE = 400
+"""A line of more letters is told with how long it is, as many lines are."""
 
 
 def python_texts(block: Block, language: Language) -> Iterator[tuple[str, str]]:
@@ -93,6 +97,9 @@ def python_concerns(project: Project, language: Language) -> Iterator[Concern]:
                     title = text_of("Python, {count} lines", count=text.count("\n") + 1)
                     if "\n" not in text:
                         title = Text("Python, one line")
+                        if len(text) > LONG_LINE:  # what is at its end is far below
+                            count = len(text)
+                            title = text_of("Python, one line of {count} letters", count=count)
                     yield Concern("python", title, text, page, block.id, key, notes)
 
 
@@ -167,6 +174,8 @@ class Approvals:
     def _read(self) -> None:
         try:
             found = self.path.stat()
+            if sys.platform != "win32" and found.st_uid != os.getuid():
+                raise PermissionError(errno.EPERM, "somebody else has written it")
             stamp = (found.st_mtime_ns, found.st_size, str(self.path))
             if stamp == self._stamp:
                 return

@@ -6,20 +6,24 @@ has looked at does not start. So a new way to start something cannot forget it.
 
 from __future__ import annotations
 
+import ast
 import hashlib
 import ipaddress
+import os
 import re
 import threading
 from collections.abc import Iterable, Iterator, Mapping, Sequence
+from contextlib import suppress
 from functools import lru_cache
 from pathlib import Path
 
 from faults import Text, Words, text_of
+from faults.files import read_file
 from nep_core.errors import NepError
 from nep_core.places import node_folders
 from nep_core.processes.manifest import Manifest, NodeCatalog
 from nep_studio import paths
-from nep_studio.blocks.code_text import plainly_and_short
+from nep_studio.blocks.code_text import parse_lines, plainly_and_short, plainly_in_a_line
 from nep_studio.blocks.deployment import NODE_BLOCK, node_entries, robot_entries
 from nep_studio.blocks.errors import BlocksError
 from nep_studio.blocks.files import load
@@ -77,7 +81,7 @@ def node_concern(planned: PlannedNode, page: str = "nodes") -> Concern | None:
     content = [_content(planned, manifest, name, reaching[name]) for name in sorted(reaching)]
     own = _own_parts(manifest) if is_own else ()
     lines = [*own_lines(manifest)] if is_own else []
-    lines += [f"{name} = {value}" for name, value in reaching.items()]
+    lines += [plainly_in_a_line(f"{name} = {value}") for name, value in reaching.items()]
     is_robot = "driver" in planned.parameters
     title = text_of("The node {name}", name=planned.name)
     if is_robot:
@@ -154,11 +158,41 @@ def _notes(reaching: Mapping[str, Setting], manifest: Manifest, *, is_own: bool)
 
 
 def _own_parts(manifest: Manifest) -> tuple[str, ...]:
-    """The bytes of a node that we do not ship: its description and its files."""
+    """The bytes of a node that we do not ship: its description, its files, what they import."""
     folder = Path(manifest.path).parent
     files = [Path(manifest.path), Path(manifest.module)]
     files += [Path(part.replace("{folder}", str(folder))) for part in manifest.command]
-    return tuple(_digest(file) for file in files)
+    return tuple(_digest(file) for file in (*files, *_imported(files)))
+
+
+def _imported(files: Iterable[Path]) -> list[Path]:
+    """The Python files and packages beside these files that they import, and those import."""
+    found = dict.fromkeys(files)
+    waiting = [file for file in found if file.suffix == ".py"]
+    while waiting:
+        file = waiting.pop()
+        with suppress(OSError, BlocksError):  # it cannot be read: nor can it run
+            for name in _names_imported(file, _stamp(file.stat())):
+                beside = (file.with_name(f"{name}.py"), file.with_name(name))
+                new = [one for one in beside if one not in found and one.exists()]
+                found |= dict.fromkeys(new)
+                waiting += [one for one in new if one.is_file()]
+    return sorted(found.keys() - set(files))
+
+
+@lru_cache(maxsize=256)
+def _names_imported(file: Path, _stamp: Stamp) -> frozenset[str]:
+    tree = parse_lines(read_file(file, MOST_PYTHON_BYTES).decode("utf-8", "replace"))
+    names = [
+        name
+        for node in ast.walk(tree)
+        if isinstance(node, ast.Import | ast.ImportFrom)
+        for name in (
+            *(alias.name for alias in node.names),  # also of “from . import helper”
+            *([node.module] if isinstance(node, ast.ImportFrom) and node.module else ()),
+        )
+    ]
+    return frozenset(name.partition(".")[0] for name in names)
 
 
 def _content(planned: PlannedNode, manifest: Manifest, name: str, value: Setting) -> str:
@@ -172,6 +206,10 @@ def _content(planned: PlannedNode, manifest: Manifest, name: str, value: Setting
 MOST_FILES = 2000
 """A folder with more of them counts by its name."""
 PIECE_BYTES = 1 << 20
+MOST_READ_BYTES = 200_000_000
+"""A larger file, which would hold the window up, counts as the one that it is on this disk."""
+MOST_PYTHON_BYTES = 10_000_000
+Stamp = tuple[int, int, int, int]
 
 
 def _digest(path: Path) -> str:
@@ -185,16 +223,21 @@ def _digest(path: Path) -> str:
             if file.is_file():
                 name = file.relative_to(folder).as_posix()
                 digest.update(f"{name}:{found.st_size}:".encode("utf-8", "surrogateescape"))
-                # Who swaps a file can give it the old one's size and time, but not all of this
-                stamp = (found.st_mtime_ns, found.st_ctime_ns, found.st_ino, found.st_size)
-                digest.update(_bytes_of(file, stamp))
+                stamp = _stamp(found)
+                is_large = found.st_size > MOST_READ_BYTES
+                digest.update(repr(stamp).encode() if is_large else _bytes_of(file, stamp))
         except OSError:
             digest.update(b"?")
     return digest.hexdigest()
 
 
+def _stamp(found: os.stat_result) -> Stamp:
+    """Who swaps a file can give it the old one's size and time, but not all of this."""
+    return found.st_mtime_ns, found.st_ctime_ns, found.st_ino, found.st_size
+
+
 @lru_cache(maxsize=4096)
-def _bytes_of(path: Path, _stamp: tuple[int, ...]) -> bytes:
+def _bytes_of(path: Path, _stamp: Stamp) -> bytes:
     digest = hashlib.sha256()
     with path.open("rb") as file:
         while piece := file.read(PIECE_BYTES):
@@ -318,5 +361,6 @@ def listing(concerns: Iterable[Concern]) -> Iterator[str]:
     """What a project brings, for a terminal: all of it, line by line."""
     for concern in concerns:
         notes = "".join(f", {note}" for note in concern.notes)
-        yield f"{concern.title} (page {concern.page.capitalize()}{notes}):"
+        title = plainly_in_a_line(str(concern.title))
+        yield f"{title} (page {concern.page.capitalize()}{notes}):"
         yield from (f"    {line}" for line in plainly_and_short(concern.text).split("\n"))

@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from faults import Text, Words, text_of
+from faults.files import is_elsewhere
 from nep_core.errors import ManifestError, NepError
 from nep_core.places import node_folders
 from nep_core.processes.manifest import NodeCatalog, read_manifest, read_toml
@@ -31,7 +32,7 @@ from nep_studio.blocks.own_gestures import trained_gestures
 from nep_studio.blocks.program import Project
 from nep_studio.blocks.slices import Steps, at_once
 
-from .plan import check_for_pages, is_elsewhere
+from .plan import check_for_pages
 
 log = logging.getLogger(__name__)
 

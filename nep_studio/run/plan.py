@@ -214,11 +214,6 @@ def _is_odd(part: str) -> bool:
     return part == ".." or ":" in part or part != part.rstrip(" .") or part != part.lstrip()
 
 
-def is_elsewhere(named: str) -> bool:
-    """Whether a path is on another computer, which even a look would tell of us."""
-    return named.strip()[:2] in ("\\\\", "//", "\\/", "/\\")
-
-
 def _missing_gestures(
     project: Project,
     language: Language,

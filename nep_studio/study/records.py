@@ -26,7 +26,7 @@ from typing import Literal, TypeVar
 import msgspec
 
 from faults import Tr, plain
-from faults.files import whole_file
+from faults.files import whole_file, write_whole
 from nep_core.wire.frames import CANNOT_DECODE
 
 # The System Usability Scale: its items and its score, as in the paper and as Brooke made it.
@@ -241,6 +241,7 @@ class Reply(msgspec.Struct, frozen=True):
 
 
 Record = TypeVar("Record", bound=msgspec.Struct)
+Value = TypeVar("Value")
 
 
 class StudyFolder:
@@ -261,7 +262,7 @@ class StudyFolder:
     def begin(self, sitting: Sitting) -> None:
         """Record a sitting from now on."""
         self.folder.mkdir(parents=True, exist_ok=True)
-        self._open.write_bytes(msgspec.json.encode(sitting))
+        write_whole(self._open, msgspec.json.encode(sitting))
 
     def finish(self) -> None:
         """Record no more."""
@@ -277,7 +278,7 @@ class StudyFolder:
     def set_conditions(self, conditions: Sequence[str]) -> None:
         """Remember which conditions are compared."""
         self.folder.mkdir(parents=True, exist_ok=True)
-        self._setup.write_bytes(msgspec.json.encode(list(conditions)))
+        write_whole(self._setup, msgspec.json.encode(list(conditions)))
 
     def add_event(self, event: Event) -> None:
         """Keep an event."""
@@ -413,9 +414,13 @@ def csv_text(columns: Sequence[str], rows: Iterable[Sequence[Cell]]) -> str:
 def _cell(cell: Cell) -> str | float:
     if cell is None:
         return ""
-    if isinstance(cell, str):
-        cell = cell.replace("\0", "")
-        return f"'{cell}" if cell.lstrip(" \xa0").startswith(FORMULA_SIGNS) else cell
+    return without_formula(cell.replace("\0", "")) if isinstance(cell, str) else cell
+
+
+def without_formula(cell: Value) -> Value | str:
+    """A value as a cell that no program for tables takes for something to reckon or to fetch."""
+    if isinstance(cell, str) and cell.lstrip(" \xa0").startswith(FORMULA_SIGNS):
+        return f"'{cell}"
     return cell
 
 

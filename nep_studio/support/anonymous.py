@@ -91,28 +91,31 @@ _CODE = r"(?<![\d.])\d{3}[ \u00a0-]?\d{3}(?![\d.]\d|\d)"
 _IN_KEY = r"[0-9A-Za-z.:+=^!/*?&<>()\[\]{}@%$#-]"
 """The letters of Z85, in which CURVE keys are written: forty of them, whichever half it is."""
 _PATTERNS: tuple[tuple[re.Pattern[str], str], ...] = (
+    (
+        re.compile(
+            rf"(?:(?<!{_IN_KEY})|(?<=[=:(\[<{{]))(?:(?={_IN_KEY}{{0,39}}[+=^!*?&<>()\[\]{{}}@%$#])"
+            # or, as one key in a thousand, of letters and digits alone
+            rf"|(?={_IN_KEY}{{0,39}}[A-Z])(?={_IN_KEY}{{0,39}}[a-z])(?={_IN_KEY}{{0,39}}[0-9]))"
+            rf"{_IN_KEY}{{40}}(?=[).:\]}}>!?]?(?!{_IN_KEY}))"
+        ),
+        HIDDEN,
+    ),
     (re.compile(r"-----BEGIN [\w ]+-----.*?(-----END [\w ]+-----|\Z)", re.DOTALL), HIDDEN),
     (re.compile(r"(?<=://)[^/\s:@]+:[^/\s@]+@"), f"{HIDDEN}@"),
     (re.compile(r"(?<=://)([^/\s]+/)[\w-]{12,}(?![\w.-])"), rf"\g<1>{HIDDEN}"),
     (re.compile(r"(?i)([?&#](?:key|token|code|secret|t|k)=)[^&\s]+"), rf"\g<1>{HIDDEN}"),
-    (re.compile(r"(?i)(\bcode\b[^\d\n]{0,12})\d{3}[ -]?\d{3}(?!\d)"), rf"\g<1>{HIDDEN}"),
+    (re.compile(r"(?i)(code\b[^\d\n]{0,12})\d{3}[ -]?\d{3}(?!\d)"), rf"\g<1>{HIDDEN}"),
     (re.compile(rf"(?i)(\bpair\w*\b[^\n]{{0,80}}?){_CODE}"), rf"\g<1>{HIDDEN}"),
     (
         re.compile(rf"(?i)((?:\bcode|código|codice|コード)[^\d\n]{{0,40}}){_CODE}"),
         rf"\g<1>{HIDDEN}",
     ),
     (re.compile(rf"(?m)^(\s*){_CODE}(?=\s*$)"), rf"\g<1>{HIDDEN}"),
+    (re.compile(r"(?i)(\bbearer\s+|\bauthorization:\s*\w+\s+)\S+"), rf"\g<1>{HIDDEN}"),
+    (re.compile(r"(?i)(--(?:token|password|pin|secret|code)[= ])\S+"), rf"\g<1>{HIDDEN}"),
     (
         re.compile(
-            rf"(?:(?<!{_IN_KEY})|(?<=[=:(\[<{{]))(?={_IN_KEY}{{0,39}}[+=^!*?&<>()\[\]{{}}@%$#])"
-            rf"{_IN_KEY}{{40}}(?=[).:\]}}>!?]?(?!{_IN_KEY}))"
-        ),
-        HIDDEN,
-    ),
-    (re.compile(r"(?i)(\bbearer\s+)\S+"), rf"\g<1>{HIDDEN}"),
-    (
-        re.compile(
-            r"(?i)(?<![^\W_])((?:\w*password|passwd|passphrase|pass|pin|token|login|ssid|"
+            r"(?i)(?<![^\W_])((?:\w*password|passwd|passphrase|pass|pin|token|login|ssid|psk|"
             r"(?:secret|private|api)[ _-]?key|secret)[\"']?\s*(?:=|:|\bis\b)\s*)"
             r"(?:\"[^\"\n]*\"|'[^'\n]*'|[^\s\"',;]+)"
         ),

@@ -12,7 +12,7 @@ from contextlib import suppress
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from nep_core.places import NODES_VARIABLE
+from nep_core.places import NODES_VARIABLE, opened_privately, private_folder
 
 if TYPE_CHECKING:
     from nep_studio.settings import Settings
@@ -78,7 +78,7 @@ class StartNote:
         self._lock = FileLock(self._path)
         was_there = self._path.exists()
         with suppress(OSError):
-            folder.mkdir(parents=True, exist_ok=True)
+            private_folder(folder)
         self._is_held = self._lock.take()
         self.last_failed = was_there and self._is_held
         """Whether a start ended without a window; one that still goes on holds its note."""
@@ -101,11 +101,12 @@ def keep_crashes(folder: Path) -> None:
 
     path = folder / CRASHES
     with suppress(OSError):
-        folder.mkdir(parents=True, exist_ok=True)
+        private_folder(folder)
         if path.exists() and path.stat().st_size > MOST_CRASH_BYTES:
             with suppress(OSError):  # another window may have it open
                 path.unlink()
-        faulthandler.enable(path.open("a", encoding="utf-8"))
+        file = open(path, "a", opener=opened_privately)  # noqa: SIM115  as long as the program
+        faulthandler.enable(file)
 
 
 # A lock on a file that goes with the process that holds it, however that ends.

@@ -7,6 +7,7 @@ time that it is opened, and says ``tr`` where it is made.
 from __future__ import annotations
 
 from collections.abc import Callable
+from html import escape
 from types import MethodType
 from typing import TYPE_CHECKING, Any, TypeVar, cast
 from weakref import WeakKeyDictionary, WeakMethod
@@ -95,4 +96,10 @@ def _put(owner: Any, key: str | int, said: Words) -> None:
     if isinstance(key, int):
         owner.setTabText(key, tr(said))
     else:
-        getattr(owner, SETTERS[key])(tr(said))
+        words = tr(said)
+        getattr(owner, SETTERS[key])(plain_tip(words) if key == "tip" else words)
+
+
+def plain_tip(text: str) -> str:
+    """A tip with a text of others: Qt would take it for a page, and fetch the pictures it names."""
+    return f"<p style='white-space: pre-wrap'>{escape(text)}</p>" if "<" in text else text

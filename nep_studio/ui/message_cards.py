@@ -118,9 +118,24 @@ class MessageCard(QFrame):
             self.updateGeometry()
 
 
+class Sentence(QLabel):
+    """Words in a card, of which a name without an end widens no card beyond the window."""
+
+    def minimumSizeHint(self) -> QSize:
+        """Room for a few words."""
+        least, most = (
+            super().minimumSizeHint(),
+            LEAST_LETTERS * self.fontMetrics().averageCharWidth(),
+        )
+        return QSize(min(least.width(), most), least.height())
+
+
+LEAST_LETTERS = 24
+
+
 def _label(words: Words, role: str = "") -> QLabel:
     flags = Qt.TextInteractionFlag.TextSelectableByMouse
-    label = QLabel(wordWrap=True, textFormat=Qt.TextFormat.PlainText, textInteractionFlags=flags)
+    label = Sentence(wordWrap=True, textFormat=Qt.TextFormat.PlainText, textInteractionFlags=flags)
     return labelled(styled(label, role=role), text=words)
 
 

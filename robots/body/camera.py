@@ -15,7 +15,7 @@ from typing import IO, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from faults.files import whole_file
+from faults.files import make_privately, whole_file
 
 from .body import Camera
 from .driver import Thing
@@ -320,7 +320,7 @@ class VideoFile:
     """A video that grows frame by frame, and is a file at its end. All methods raise OSError."""
 
     def __init__(self, path: Path) -> None:
-        path.parent.mkdir(parents=True, exist_ok=True)
+        make_privately(path.parent)
         if not os.access(path.parent, os.W_OK):
             raise PermissionError(path.parent)
         self.path = path
@@ -373,7 +373,7 @@ def frames_in(path: Path) -> int:
 
 def _replace(path: Path, write: Callable[[IO[bytes]], object]) -> None:
     """Write a file beside the place where it goes, so that a broken one never is there."""
-    path.parent.mkdir(parents=True, exist_ok=True)
+    make_privately(path.parent)
     with whole_file(path, is_private=True) as file:
         write(file)
 

@@ -10,6 +10,7 @@ import time
 from collections.abc import Callable, Iterator
 from pathlib import Path
 
+from faults.files import is_elsewhere
 from robots.errors import ActionFailed
 
 from . import actions as s
@@ -246,7 +247,10 @@ OPUS_HZ = 48000
 
 def found(file: str) -> Path | None:
     """Return the file of a name or path, in the home folder or in its Music; None for none."""
-    path = Path(file.removeprefix(ROBOTS_HOME)).expanduser()
+    named = file.removeprefix(ROBOTS_HOME)
+    if is_elsewhere(named):  # a robot plays what is on it, and so does its part here
+        return None
+    path = Path(named).expanduser()
     possible = [Path.home() / place / path for place in PLACES]
     return next((one for one in possible if one.is_file()), None)
 

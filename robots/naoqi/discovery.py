@@ -15,7 +15,7 @@ from typing import Any
 import msgspec
 import platformdirs
 
-from faults.files import whole_file
+from faults.files import make_privately, whole_file
 from robots.errors import WrongAddress
 
 # Where a NAOqi robot is found: the host and port that a person wrote.
@@ -197,6 +197,6 @@ def _read() -> dict[str, SavedLogin]:
 
 def _write(logins: dict[str, SavedLogin]) -> None:
     path = logins_file()
-    path.parent.mkdir(parents=True, exist_ok=True)
+    make_privately(path.parent)
     with whole_file(path, is_private=True) as file:
         file.write(msgspec.json.format(msgspec.json.encode(logins), indent=2))

@@ -78,6 +78,42 @@ def test_saving_keeps_links_and_modes(language, tmp_path):
     assert target.stat().st_mode & 0o777 == 0o640
 
 
+@pytest.mark.skipif(sys.platform == "win32", reason="Windows lets few people make links")
+def test_saving_in_a_strangers_folder_follows_no_link_that_waits_there(language, tmp_path):
+    diary = tmp_path / "diary"
+    diary.write_text("mine")
+    folder = tmp_path / "gift"
+    folder.mkdir()
+    for number in (os.getpid(), os.getppid()):
+        (folder / f".gift.nep.{number}.new").symlink_to(diary)
+
+    save(Project("saved"), folder / "gift.nep")
+
+    assert diary.read_text() == "mine"
+    assert load(folder / "gift.nep", language).name == "saved"
+
+
+def test_a_name_of_any_length_can_be_saved_again(language, tmp_path):
+    path = tmp_path / f"{'ü' * 125}.nep"
+    path.write_text("old")
+
+    save(Project("new"), path)
+
+    assert load(path, language).name == "new"
+
+
+@pytest.mark.skipif(not hasattr(os, "geteuid") or os.geteuid() == 0, reason="nothing stops root")
+def test_a_file_that_its_owner_protects_is_not_written_over(language, tmp_path):
+    path = tmp_path / "master.nep"
+    save(Project("the teacher's"), path)
+    path.chmod(0o444)
+
+    with pytest.raises(ProjectFileError, match="permission denied"):
+        save(Project("mine"), path)
+
+    assert load(path, language).name == "the teacher's"
+
+
 def test_files_that_are_not_there_or_no_files_are_told(language, tmp_path):
     with pytest.raises(ProjectFileError, match=r"no\.nep cannot be opened: no such file"):
         load(tmp_path / "no.nep", language)

@@ -8,16 +8,24 @@ import sys
 import zipfile
 from pathlib import Path
 
+import numpy as np
 import psutil
 import pytest
 
+from faults import fault_of
 from nep_core.networks.master import Master
 from nep_core.places import node_folders, own_folder, private_folder
-from nep_core.processes.handover import SECRETS_VARIABLE
+from nep_core.processes import handover
+from nep_core.processes.handover import SECRETS_VARIABLE, hand_over
 from nep_core.processes.launcher import Launcher
 from nep_core.processes.manifest import NodeCatalog
 from nep_core.processes.node_log import NodeLog
 from nep_core.processes.process import program_command
+from nep_studio.support.safe_mode import StartNote
+from nodes.perceptual.recognition import worker
+from nodes.sensory.phone_page.server import own_certificate
+from robots.body.camera import write_picture
+from robots.naoqi.discovery import SavedLogin, logins_file, save_login
 
 SECRET = "open-sesame-4711"
 NODE = """
@@ -88,12 +96,16 @@ def test_the_token_of_the_phone_page_is_secret() -> None:
     assert SECRETS_VARIABLE == "NEP_SECRET_SETTINGS"  # docs/wire.md names it
 
 
-def test_a_file_beside_a_project_is_not_taken_for_a_library(tmp_path: Path) -> None:
-    for name in ("nep_core", "nep_studio", "msgspec", "random", "sitecustomize", "numpy"):
+@pytest.mark.parametrize("command", [program_command("node", "no/such"), worker.command_line()])
+def test_a_file_beside_a_project_is_not_taken_for_a_library(
+    tmp_path: Path, command: list[str]
+) -> None:
+    libraries = ("nep_core", "nep_studio", "nodes", "msgspec", "random", "sitecustomize", "numpy")
+    for name in libraries:
         (tmp_path / f"{name}.py").write_text("open('marker', 'w').close()", encoding="utf-8")
 
-    command = program_command("node", "no/such")
-    subprocess.run(command, cwd=tmp_path, capture_output=True, check=False)
+    nobody = subprocess.DEVNULL
+    subprocess.run(command, cwd=tmp_path, stdin=nobody, capture_output=True, check=False)
 
     assert not (tmp_path / "marker").exists()
 
@@ -114,15 +126,30 @@ def test_a_file_that_is_packed_is_no_program(master: Master, tmp_path: Path, nam
 
 
 @pytest.mark.skipif(os.name != "posix", reason="modes say nothing there")
-def test_folders_and_logs_are_for_their_owner_only(tmp_path: Path) -> None:
+def test_what_is_kept_is_for_its_owner_only(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("NEP_STUDIO_FOLDER", str(tmp_path / "logins"))
+    monkeypatch.setenv(handover.VARIABLE, str(tmp_path / "fault"))
     old = tmp_path / "old"
     old.mkdir(mode=0o755)
 
-    made = [private_folder(old), private_folder(tmp_path / "new" / "inner")]
-    with NodeLog(tmp_path / "logs" / "a.log") as log:
-        log.write(b"secret")
+    umask = os.umask(0)
+    try:
+        made = [private_folder(old), private_folder(tmp_path / "new" / "inner")]
+        with NodeLog(tmp_path / "logs" / "a.log") as log:
+            log.write(b"secret")
+        own_certificate((), tmp_path / "keys")
+        save_login("nao.local", SavedLogin("nao", SECRET))
+        write_picture(tmp_path / "robots" / "NAO" / "a.png", np.zeros((2, 2, 3), np.uint8))
+        StartNote(tmp_path / "settings").succeeded()
+        hand_over(fault_of("NAO at {place} does not answer.", place="203.0.113.7"))
+    finally:
+        os.umask(umask)
 
-    assert [folder.stat().st_mode & 0o077 for folder in made] == [0, 0]
-    assert (tmp_path / "logs" / "a.log").stat().st_mode & 0o077 == 0
-    assert (tmp_path / "logs").stat().st_mode & 0o077 == 0
+    made += [tmp_path / name for name in ("new", "logs", "keys", "logins", "settings")]
+    made += [tmp_path / name for name in ("logs/a.log", "keys/phone_page.pem", "fault")]
+    made += [tmp_path / name for name in ("robots", "robots/NAO")]
+    made += [logins_file(), tmp_path / "robots/NAO/a.png"]
+    assert not [f"{one}: {one.stat().st_mode:o}" for one in made if one.stat().st_mode & 0o077]
     assert own_folder("config")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import re
 import signal
 import subprocess
 import sys
@@ -68,6 +69,54 @@ def test_the_folder_is_brought_to_the_disk_after_the_new_file_has_its_place(
 
     if sys.platform == "linux":
         assert steps == ["file", "place", "folder"]
+
+
+def test_nobody_writes_over_a_file_but_by_the_one_helper() -> None:
+    """Any other way leaves half a file, or none, when the disk is full or the computer stops."""
+    root = Path(files.__file__).resolve().parents[1]
+    rooms = ("faults", "nep_core", "nep_studio", "nodes", "robots")
+    found = [
+        f"{file.relative_to(root).as_posix()}: {line.strip()}"
+        for room in rooms
+        for file in sorted((root / room).rglob("*.py"))
+        if file.relative_to(root).as_posix() not in OTHERWISE
+        for line in file.read_text(encoding="utf-8").splitlines()
+        if WRITES.search(line)
+    ]
+
+    assert not found
+
+
+WRITES = re.compile(
+    r"\.write_(text|bytes)\(|open\([^)]*[\"'][wax]b?\+?[\"']|copyfile\(|os\.(replace|rename)\("
+    r"|pixmap\.save\(str|FileIO\("
+)
+OTHERWISE = {
+    "faults/files.py": "the helper",
+    "nep_core/cli/__init__.py": "/dev/null",
+    "nep_core/processes/handover.py": "a new file, for a moment",
+    "nep_core/processes/node_log.py": "grows line by line",
+    "nep_core/recordings/recorder.py": "grows message by message",
+    "nep_studio/run/controller.py": "in a folder of its own, for a moment",
+    "nep_studio/study/records.py": "grows line by line",
+    "nep_studio/support/portable.py": "in a folder of its own, for a moment",
+    "nep_studio/support/safe_mode.py": "grows crash by crash",
+    "nep_studio/ui/plugins/gestures/results/certainties.py": "in a folder of its own, for a moment",
+    "nep_studio/ui/plugins/sensors/recorder.py": "grows sample by sample",
+    "nep_studio/ui/theme/look.py": "in a folder of its own, until the program ends",
+}
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="modes say little there")
+def test_a_file_that_is_written_again_is_for_the_same_people(tmp_path: Path) -> None:
+    path = tmp_path / "diary.csv"
+    path.write_bytes(b"old")
+    path.chmod(0o600)
+
+    files.write_whole(path, "new")
+
+    assert path.read_bytes() == b"new"
+    assert path.stat().st_mode & 0o777 == 0o600
 
 
 @pytest.mark.parametrize(("in_use", "is_saved"), [(3, True), (10**9, False)])

@@ -105,6 +105,7 @@ OF_THE_SYSTEM = [
     "is a directory",
     "no space left on device",
     "no such file or directory",
+    "it is not a file",
     "not a directory",
     "operation not permitted",
     "permission denied",

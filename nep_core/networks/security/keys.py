@@ -16,7 +16,7 @@ import msgspec
 import zmq
 
 from faults import Text, reason_of
-from faults.files import whole_file
+from faults.files import make_privately, whole_file
 from nep_core.errors import KeyFileError
 from nep_core.wire.frames import CANNOT_DECODE
 
@@ -169,7 +169,7 @@ class KeyFile:
 def write_keys(path: Path, keys: Keys) -> None:
     """Write a key file in one step, readable by its owner only; raises KeyFileError."""
     try:
-        path.parent.mkdir(parents=True, exist_ok=True, mode=0o700)
+        make_privately(path.parent)
         with whole_file(path, is_private=True) as file:
             file.write(msgspec.json.format(msgspec.json.encode(keys), indent=2) + b"\n")
     except OSError as error:

@@ -26,9 +26,10 @@ from PySide6.QtGui import (
 )
 from PySide6.QtWidgets import QGestureEvent, QPinchGesture, QSizePolicy, QToolTip
 
+from faults.files import is_elsewhere
 from nep_core.wire.messages import RobotState, Thing
 from nep_studio import paths
-from nep_studio.ui.labels import follow_words, labelled
+from nep_studio.ui.labels import follow_words, labelled, plain_tip
 from nep_studio.ui.theme.colours import Theme
 from nep_studio.ui.theme.look import Look
 from nep_studio.ui.widgets.layouts import InLines
@@ -112,6 +113,8 @@ def folder_of(model: str) -> Path:
 
     It is looked for once: robots tell their model thirty times a second.
     """
+    if is_elsewhere(model):
+        return nao_folder()
     folder = paths.resources() / "robots" / (model or "nao")  # a path of one's own stays as it is
     return folder if (folder / VIEW_FILE).is_file() else nao_folder()
 
@@ -494,7 +497,7 @@ class RobotView(RoomPicture):
         """Tell what is under the pointer; zoom with two fingers; let go when the mouse leaves."""
         if event.type() == QEvent.Type.ToolTip and isinstance(event, QHelpEvent):
             words = tip_words(self, self.found_at(event.pos().toPointF()))
-            QToolTip.showText(event.globalPos(), words, self)
+            QToolTip.showText(event.globalPos(), plain_tip(words), self)
             return True
         if event.type() in PINCHES and (factor := pinched(event)) is not None:
             self.zoom(factor)

@@ -11,7 +11,7 @@ from PySide6.QtCore import QObject, QTimer, Signal
 from PySide6.QtWidgets import QWidget
 
 from nep_studio.blocks.checks.diagnostic import Diagnostic, Severity
-from nep_studio.blocks.code_text import plainly
+from nep_studio.blocks.code_text import plainly_in_a_line
 from nep_studio.blocks.deployment import names_used, node_entries, robot_entries
 from nep_studio.blocks.edits.content import SetExtra
 from nep_studio.blocks.errors import CodeRefused
@@ -124,7 +124,7 @@ class RunControl(QObject):
             return
         self._marked = Message(
             "info",
-            tr("“{name}” brings more than blocks", name=plainly(self._document.title)),
+            tr("“{name}” brings more than blocks", name=plainly_in_a_line(self._document.title)),
             tr("You are asked about it before it runs."),
             answers=(Answer(tr("See what it brings…"), self._show_strange),),
         )

@@ -28,7 +28,7 @@ from nep_studio.run.node_board import NodeStatus
 from nep_studio.run.plan import PlannedNode
 from nep_studio.ui.background import Background
 from nep_studio.ui.theme.icons import icon, icon_room
-from nep_studio.ui.widgets.forms import keep_bold_room
+from nep_studio.ui.widgets.forms import breakable, keep_bold_room
 from nep_studio.ui.widgets.layouts import in_column, in_row
 from nep_studio.ui.words import tr
 
@@ -271,8 +271,8 @@ class NeedsDialog(QDialog):
         picture = icon(sign_name, self._host.services.look.theme.colour(colour))
         sign.setPixmap(picture.pixmap(QSize(side, side), self.devicePixelRatioF()))
         plain = Qt.TextFormat.PlainText  # names and addresses in them are a stranger's
-        title = QLabel(need.title, wordWrap=True, textFormat=plain)
-        sentence = QLabel(need.sentence, wordWrap=True, textFormat=plain)
+        title = QLabel(breakable(need.title), wordWrap=True, textFormat=plain)
+        sentence = QLabel(breakable(need.sentence), wordWrap=True, textFormat=plain)
         title.setProperty("role", "heading")
         sentence.setProperty("role", "hint")
         words.setSpacing(line // 6)

@@ -16,11 +16,11 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from nep_studio.blocks.code_text import plainly, plainly_and_short
+from nep_studio.blocks.code_text import plainly_and_short, plainly_in_a_line
 from nep_studio.project.trust import Concern
 from nep_studio.ui.theme.icons import icon, icon_room
 from nep_studio.ui.theme.look import Look, code_font
-from nep_studio.ui.widgets.forms import fit_on_screen, styled
+from nep_studio.ui.widgets.forms import breakable, fit_on_screen, styled
 from nep_studio.ui.widgets.layouts import in_column, in_row
 from nep_studio.ui.words import count_words, tr
 
@@ -51,7 +51,8 @@ class TrustDialog(QDialog):
         self._look, self._titles = look, titles
         line = self.fontMetrics().height()
         headline = styled(QLabel(wordWrap=True, textFormat=Qt.TextFormat.PlainText), role="title")
-        headline.setText(tr("“{name}” brings more than blocks", name=plainly(name)))
+        words = tr("“{name}” brings more than blocks", name=plainly_in_a_line(name))
+        headline.setText(breakable(words))
         about = QLabel(wordWrap=True, textFormat=Qt.TextFormat.PlainText)
         about.setText(
             tr(
@@ -84,7 +85,7 @@ class TrustDialog(QDialog):
         self.refuse_button.clicked.connect(self.reject)
         buttons = in_row(1, self.run_button, self.refuse_button, spacing=line // 2)
         in_column(headline, (self.list, 1), buttons, of=self, margins=line, spacing=line // 2)
-        self.setAccessibleDescription(f"{headline.text()} {about.text()}")
+        self.setAccessibleDescription(f"{words} {about.text()}")
         fit_on_screen(self, 44, 34 if len(concerns) > 1 else 26)
         self.refuse_button.setDefault(True)
         wide = self.fontMetrics().horizontalAdvance(self.refuse_button.text())
@@ -94,8 +95,8 @@ class TrustDialog(QDialog):
     def _card(self, concern: Concern, line: int) -> QWidget:
         """What it is, where it is, and all of it."""
         plain = Qt.TextFormat.PlainText
-        words, where = plainly(tr(concern.title)), self._place(concern)
-        place = styled(QLabel(where, wordWrap=True, textFormat=plain), role="hint")
+        words, where = plainly_in_a_line(tr(concern.title)), self._place(concern)
+        place = styled(QLabel(breakable(where), wordWrap=True, textFormat=plain), role="hint")
         text = self._text(plainly_and_short(concern.text), f"{words}, {where}")
         return self._framed(SIGNS[concern.kind], words, line, place, text)
 
@@ -103,7 +104,7 @@ class TrustDialog(QDialog):
         """Many in one text: each with its words, and all of it below them, further in."""
         told = []
         for concern in concerns:
-            told.append(f"{plainly(tr(concern.title))}, {self._place(concern)}")
+            told.append(f"{plainly_in_a_line(tr(concern.title))}, {self._place(concern)}")
             told += [f"    {one}" for one in plainly_and_short(concern.text).split("\n")]
         words = tr("And {count} more, one below the other", count=len(concerns))
         return self._framed("list", words, line, self._text("\n".join(told), words))
@@ -116,7 +117,7 @@ class TrustDialog(QDialog):
         card, sign, side = styled(QFrame(), kind="card"), QLabel(), round(line * 1.2)
         picture = icon(sign_name, self._look.theme.colour("warning"))
         sign.setPixmap(picture.pixmap(QSize(side, side), self.devicePixelRatioF()))
-        title = QLabel(words, wordWrap=True, textFormat=Qt.TextFormat.PlainText)
+        title = QLabel(breakable(words), wordWrap=True, textFormat=Qt.TextFormat.PlainText)
         styled(title, role="heading")
         head = in_row((sign, 0, Qt.AlignmentFlag.AlignTop), (title, 1), spacing=line // 2)
         in_column(head, *parts, of=card, margins=line // 2, spacing=line // 3)

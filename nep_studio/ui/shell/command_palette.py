@@ -41,7 +41,7 @@ from PySide6.QtWidgets import (
 )
 from shiboken6 import isValid
 
-from nep_studio.ui.labels import labelled
+from nep_studio.ui.labels import labelled, plain_tip
 from nep_studio.ui.messages import announce
 from nep_studio.ui.theme.icons import icon
 from nep_studio.ui.theme.look import Look
@@ -358,7 +358,7 @@ class CommandModel(QStringListModel):
         if role == Qt.ItemDataRole.AccessibleTextRole:
             return self.spoken(number)
         if role == Qt.ItemDataRole.ToolTipRole:
-            return self._rows[number].command.why_not or None
+            return plain_tip(self._rows[number].command.why_not) or None
         return super().data(index, role)  # type: ignore[arg-type]
 
     def spoken(self, number: int) -> str:

@@ -9,6 +9,7 @@ import traceback
 from collections.abc import Callable
 from contextlib import suppress
 from functools import partial
+from io import TextIOWrapper
 from logging.handlers import RotatingFileHandler
 from pathlib import Path
 from types import TracebackType
@@ -16,7 +17,7 @@ from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QMessageLogContext, QObject, QtMsgType, Signal, qInstallMessageHandler
 
-from nep_core.places import private_folder
+from nep_core.places import opened_privately, private_folder
 from nep_studio.ui.messages import Answer, Message
 from nep_studio.ui.words import tr
 
@@ -37,6 +38,17 @@ _LEVELS = {
 }
 
 
+class PrivateLog(RotatingFileHandler):
+    """A log for its owner only, as all that is kept of a person."""
+
+    def _open(self) -> TextIOWrapper:
+        encoding, opener = self.encoding, opened_privately
+        name, mode = self.baseFilename, self.mode
+        file = open(name, mode, encoding=encoding, opener=opener)  # noqa: SIM115  closed by it
+        assert isinstance(file, TextIOWrapper)
+        return file
+
+
 class LastResort(QObject):
     """While it is entered, no error ends the program; each kind of error is told once."""
 
@@ -54,7 +66,7 @@ class LastResort(QObject):
         # Write to the user's folder; where that cannot be, the program works without
         with suppress(OSError):
             private_folder(self._log_file.parent)
-            file = RotatingFileHandler(
+            file = PrivateLog(
                 self._log_file, maxBytes=LARGEST_LOG, backupCount=1, encoding="utf-8", delay=True
             )
             file.setFormatter(logging.Formatter("%(asctime)s %(levelname)s %(name)s: %(message)s"))

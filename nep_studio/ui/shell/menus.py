@@ -13,11 +13,10 @@ from PySide6.QtWidgets import QApplication, QLineEdit, QMenu, QPlainTextEdit, QT
 from faults import Words, verbatim
 from nep_studio.project.examples import examples
 from nep_studio.settings import SYSTEM
-from nep_studio.ui.labels import labelled
+from nep_studio.ui.labels import labelled, plain_tip
 from nep_studio.ui.running.actions import RUN_BUTTONS, RunState, keep_width, style_buttons
 from nep_studio.ui.theme.colours import load_theme, themes
 from nep_studio.ui.theme.icons import icon, icon_room
-from nep_studio.ui.widgets.forms import plain_tip
 from nep_studio.ui.words import ENGLISH, available_languages, count_words, tr
 
 from .dialogs import show_about, show_report, show_shortcuts
@@ -140,7 +139,7 @@ def _label(window: MainWindow, name: str, step: Words, plain: str, with_step: st
     action.setEnabled(bool(step))
     action.setText(words)
     action.setIconText(tr(plain))
-    action.setToolTip(words)
+    action.setToolTip(plain_tip(words))
 
 
 def add_menu(window: MainWindow, words: str) -> QMenu:

@@ -43,7 +43,7 @@ from nep_studio.ui.messages import Answer, Message
 from nep_studio.ui.services import Studio
 from nep_studio.ui.theme.colours import load_theme, themes
 from nep_studio.ui.widgets.choices import Choices
-from nep_studio.ui.widgets.forms import ElidedLabel, hint, label_of
+from nep_studio.ui.widgets.forms import ElidedLabel, hint, label_of, plain_label
 from nep_studio.ui.widgets.layouts import in_column, in_row
 from nep_studio.ui.widgets.questions import ask_for_path
 from nep_studio.ui.words import available_languages, tr
@@ -325,7 +325,7 @@ class PrivacyPage(QWidget):
         )
         self.address = QLineEdit(self._choice.address, placeholderText="https://")
         self.ask_button = labelled(QPushButton(autoDefault=False), text="Ask now")
-        self.state = QLabel(wordWrap=True)
+        self.state = plain_label()
         self.hint = hint(
             "NEP Studio tells its own version there, and nothing else. It never changes itself."
         )

@@ -17,10 +17,10 @@ from PySide6.QtWidgets import (
 
 from faults import text_of, verbatim
 from nep_studio.ui.document_files import Files
-from nep_studio.ui.labels import labelled
+from nep_studio.ui.labels import labelled, plain_tip
 from nep_studio.ui.services import Studio
 from nep_studio.ui.theme.icons import application_icon, icon, icon_pixmap
-from nep_studio.ui.widgets.forms import plain_tip, styled
+from nep_studio.ui.widgets.forms import styled
 from nep_studio.ui.widgets.layouts import Flow, ReadingLabel, in_column, in_row
 
 from .gallery import Card, Gallery

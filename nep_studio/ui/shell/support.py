@@ -30,11 +30,12 @@ from nep_studio.support.report import FILE, Report, report_of
 from nep_studio.support.updates import UpdateChoice
 from nep_studio.ui import words
 from nep_studio.ui.canvas.block_pictures import picture_of
+from nep_studio.ui.labels import plain_tip
 from nep_studio.ui.messages import Answer, Message
 from nep_studio.ui.services import Studio
 from nep_studio.ui.theme.icons import icon
 from nep_studio.ui.theme.look import code_font, load_fonts
-from nep_studio.ui.widgets.forms import hint, plain_tip, room_around, styled
+from nep_studio.ui.widgets.forms import hint, plain_label, room_around, styled
 from nep_studio.ui.widgets.layouts import in_column, in_row
 from nep_studio.ui.widgets.questions import ask_for_path
 from nep_studio.ui.words import count_words, is_right_to_left, tr
@@ -59,7 +60,7 @@ class SupportDialog(QDialog):
         self.report: Report | None = None
         self.setWindowTitle(tr("Report for support"))
         self.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose, parent is not None)
-        self.state = QLabel(wordWrap=True)
+        self.state = plain_label()
         self.preview = QPlainTextEdit(readOnly=True)
         self.preview.setAccessibleName(tr("All that is in the report"))
         self.preview.setLineWrapMode(QPlainTextEdit.LineWrapMode.NoWrap)

@@ -11,6 +11,7 @@ from pathlib import Path
 import msgspec
 from PySide6.QtCore import QObject
 
+from faults.files import is_elsewhere
 from nep_core.wire import messages as m
 
 from .voices import ChildVoice, Command, SystemVoice, Utterance, Voice, spoken_as, utterance_of
@@ -164,7 +165,7 @@ class RobotSounds(QObject):
         if file == self._playing.get(state.robot, ""):
             return
         self._playing[state.robot] = file
-        if file and Path(file).is_file():
+        if file and not is_elsewhere(file) and Path(file).is_file():
             self._play(state.robot, file)
         elif player := self._players.get(state.robot):
             player.stop()

@@ -5,6 +5,7 @@ from __future__ import annotations
 import importlib
 import importlib.util
 import logging
+import os
 import shutil
 import sys
 import zlib
@@ -107,12 +108,21 @@ class SystemVoice:
     stopping: tuple[str, ...] = ()
 
 
+def installed(name: str) -> str | None:
+    """Where a program of this computer is; None for one of the folder that we are started in.
+
+    Windows looks there first, and it may be a stranger's.
+    """
+    found = shutil.which(name)
+    return found if found is not None and os.path.isabs(found) else None
+
+
 def find_system_voice(
-    platform: str = sys.platform, which: Callable[[str], str | None] = shutil.which
+    platform: str = sys.platform, which: Callable[[str], str | None] = installed
 ) -> SystemVoice | None:
     """The program by which this computer speaks; None when it has none."""
     if importlib.util.find_spec("pyttsx3") is not None and not getattr(sys, "frozen", False):
-        return SystemVoice("pyttsx3", _pyttsx3)
+        return SystemVoice("pyttsx3", pyttsx3_command)
     if platform == "darwin" and (say := which("say")):
         return SystemVoice("say", partial(_say, say))
     if platform == "win32" and (shell := which("powershell") or which("pwsh")):
@@ -166,10 +176,13 @@ def _powershell(program: str, said: Utterance) -> Command:
     return Command((program, "-NoProfile", "-NonInteractive", "-Command", script), ssml)
 
 
-def _pyttsx3(said: Utterance) -> Command:
-    """It waits while it speaks, so that it gets a process of its own."""
+def pyttsx3_command(said: Utterance) -> Command:
+    """It waits while it speaks, so that it gets a process of its own.
+
+    -P: the folder that we are started in may be a stranger's, with a file called like a library.
+    """
     numbers = (str(_pace(said)), f"{said.volume:.2f}", said.language)
-    return Command((sys.executable, "-c", PYTTSX3, *numbers), said.text)
+    return Command((sys.executable, "-P", "-c", PYTTSX3, *numbers), said.text)
 
 
 def _pace(said: Utterance) -> int:

@@ -10,7 +10,7 @@ from PySide6.QtGui import QHideEvent, QShowEvent
 from PySide6.QtWidgets import QLabel, QPushButton, QSizePolicy, QWidget
 
 from nep_studio.run.plan import REPLAY, VIRTUAL_WATCH, PlannedNode
-from nep_studio.ui.labels import follow_words, labelled
+from nep_studio.ui.labels import follow_words, labelled, plain_tip
 from nep_studio.ui.running.runner import Runner
 from nep_studio.ui.theme.icons import icon
 from nep_studio.ui.theme.look import Look
@@ -112,7 +112,7 @@ class WatchStatus(QWidget):
         self.state = state
         self._draw_sign()
         self.words.set_words(state.words)
-        self.setToolTip(f"{state.words}\n{state.more}".strip())
+        self.setToolTip(plain_tip(f"{state.words}\n{state.more}".strip()))
         self.words.setToolTip(self.toolTip())
         self.setAccessibleName(state.words)
         self.setAccessibleDescription(state.more)

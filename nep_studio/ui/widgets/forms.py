@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from html import escape
-from typing import TypeVar
+import re
+from typing import Any, TypeVar
 
 from PySide6.QtCore import QPoint, QRect, QSize, Qt, QTimer
 from PySide6.QtGui import QFont, QFontMetrics, QGuiApplication, QResizeEvent, QScreen
@@ -22,6 +22,7 @@ from PySide6.QtWidgets import (
 
 from faults import Words
 from nep_studio.ui import labels
+from nep_studio.ui.labels import plain_tip
 from nep_studio.ui.theme.icons import icon
 from nep_studio.ui.theme.look import Look
 from nep_studio.ui.widgets.layouts import Part, in_column
@@ -169,9 +170,20 @@ def keep_bold_room(button: QPushButton) -> None:
     button.setMinimumWidth(button.sizeHint().width() + max(more, 0))
 
 
-def plain_tip(text: str) -> str:
-    """A tip with a text of others: Qt would take it for a page, and fetch the pictures it names."""
-    return f"<p style='white-space: pre-wrap'>{escape(text)}</p>" if "<" in text else text
+def plain_label(words: str = "", /, **look: Any) -> QLabel:
+    """A label for words of others: Qt would take one that begins with < for a page."""
+    return QLabel(words, wordWrap=True, textFormat=Qt.TextFormat.PlainText, **look)
+
+
+def breakable(text: str) -> str:
+    """A text of others that a label can break: a name without an end would push all off the screen.
+
+    Behind so many letters without a space comes one that takes no room.
+    """
+    return _LONG_WORD.sub("\\g<0>\u200b", text)
+
+
+_LONG_WORD = re.compile(r"\S{30}(?=\S)")
 
 
 # Which part of the screen a widget may use.

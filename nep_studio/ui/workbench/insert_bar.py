@@ -20,8 +20,7 @@ from nep_studio.ui.canvas.layout.index import Rect
 from nep_studio.ui.canvas.layout.layout import Layout
 from nep_studio.ui.canvas.layout.page import boxes_of
 from nep_studio.ui.canvas.painting.painter import BlockPainter
-from nep_studio.ui.labels import follow_words, labelled
-from nep_studio.ui.widgets.forms import plain_tip
+from nep_studio.ui.labels import follow_words, labelled, plain_tip
 from nep_studio.ui.widgets.layouts import in_column
 from nep_studio.ui.words import tr
 

@@ -72,14 +72,18 @@ class Area(QTabWidget):
         self._fit_titles()
 
     def minimumSizeHint(self) -> QSize:
-        """At the bottom room for the panel on top: wide ones below must not widen the window."""
+        """Room for the panel on top: larger ones below must not make the window wider or higher.
+
+        At the side an area keeps its width, whichever panel is on top.
+        """
         panel, tabs = self.currentWidget(), self.tabBar().minimumSizeHint()
-        if panel is None or not self._is_wide:
+        if panel is None:
             return super().minimumSizeHint()
         least = panel.minimumSizeHint().expandedTo(panel.minimumSize())
         across = max(least.width(), tabs.width() + self.close_button.sizeHint().width())
         above = tabs.height() if self.tabBar().isVisibleTo(self) else 0
-        return QSize(across, above + least.height())
+        height = above + least.height()
+        return QSize(across if self._is_wide else super().minimumSizeHint().width(), height)
 
     def tabs_width(self) -> int:
         """How wide it must be to show its tabs, one of them with its title."""

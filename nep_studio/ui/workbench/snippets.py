@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+import errno
 import logging
 import re
 import unicodedata
 from dataclasses import dataclass
 from pathlib import Path
 
-from faults.files import whole_file
+from faults.files import read_file, whole_file
 from nep_studio.blocks.errors import BlocksError, EditRefused
 from nep_studio.blocks.language import Language
 from nep_studio.blocks.operations.copying import Clip, from_text, to_text
@@ -86,13 +87,13 @@ class Snippets:
 def read_snippet(path: Path, language: Language) -> Snippet:
     """Read a snippet's file; raises EditRefused with what is wrong."""
     try:
-        if path.stat().st_size > LARGEST_BYTES:
+        clip = from_text(read_file(path, LARGEST_BYTES).decode(), language)
+    except (OSError, UnicodeDecodeError) as error:
+        if getattr(error, "errno", 0) == errno.EFBIG:
             raise EditRefused(
                 tr("The file {name} is too large for a snippet.", name=path.name),
                 checklist=(tr("A snippet is a few blocks: keep more as a project."),),
-            )
-        clip = from_text(path.read_text(encoding="utf-8"), language)
-    except (OSError, UnicodeDecodeError) as error:
+            ) from error
         raise _refused(path, error) from error
     except BlocksError as error:
         raise EditRefused(error.sentence, checklist=error.checklist) from error

@@ -59,7 +59,8 @@ def command_line() -> list[str]:
     parent = str(os.getpid())
     if getattr(sys, "frozen", False):
         return program_command("train-worker", parent)
-    return [sys.executable, "-m", "nodes.perceptual.recognition.worker", parent]
+    # -P: as in program_command
+    return [sys.executable, "-P", "-m", "nodes.perceptual.recognition.worker", parent]
 
 
 def main(arguments: list[str]) -> int:

@@ -18,7 +18,7 @@ from typing import TYPE_CHECKING
 from faults import Text, reason_of, text_of
 from faults.files import whole_file
 from nep_core.errors import NodeStartError
-from nep_core.places import own_folder
+from nep_core.places import own_folder, private_folder
 from nodes.sensory.connectors.connector import Settings
 from nodes.sensory.connectors.servers import LOOPBACK, Background, lan_addresses, open_tcp
 
@@ -85,7 +85,7 @@ def own_certificate(addresses: Sequence[str], folder: Path | None = None) -> Cer
     kept = _kept_names(path)
     if kept and set(wanted) <= set(kept):
         return Certificate(path, kept)
-    folder.mkdir(parents=True, exist_ok=True)
+    private_folder(folder)
     names = tuple(dict.fromkeys((*wanted, *kept)))[:_MOST_NAMES]
     _make(path, names)
     return Certificate(path, names)

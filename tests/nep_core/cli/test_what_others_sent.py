@@ -101,6 +101,15 @@ def test_a_program_that_publishes_on_such_a_topic_is_told(
         Publisher("/a\x1b[2J", network=join("talker"))
 
 
+def test_json_in_which_letters_are_written_out_says_the_same() -> None:
+    text = f"{EVIL} \U0001f3f4\U000e0067\U000e0062\U000e0077\U000e006c\U000e0073\U000e007f"
+
+    told = visible(msgspec.json.encode(text).decode())
+
+    assert not [sign for sign in STEERING if sign in told]
+    assert msgspec.json.decode(told) == text
+
+
 def test_letters_of_all_languages_stay_as_they_are() -> None:
     text = "Grüße, 日本, نیم‌فاصله, 👩‍👧, ½ ° µ"
 

@@ -10,10 +10,12 @@ from collections.abc import Callable, Iterator
 from contextlib import ExitStack, contextmanager
 from pathlib import Path
 
+import msgspec
 import pytest
 
 from nep_core.places import NODES_VARIABLE
 from nep_core.processes.process import program_command
+from nep_core.wire import messages as m
 from nep_studio import paths
 from nep_studio.blocks.code_text import plainly
 from nep_studio.blocks.edits.content import SetComment, SetField
@@ -23,7 +25,14 @@ from nep_studio.commands import run
 from nep_studio.commands.project import check, code
 from nep_studio.project.trust import Approvals, approvals_file
 from nep_studio.run.controller import Request, RunController, Subject
-from nep_studio.run.gate import Gate, NotApproved, concerns_of, is_here, node_concern
+from nep_studio.run.gate import (
+    Gate,
+    NotApproved,
+    concerns_of,
+    is_here,
+    listing,
+    node_concern,
+)
 from nep_studio.run.installation import studio_language
 from nep_studio.run.local_network import LocalNetwork
 from nep_studio.run.plan import NotForPages, PlannedNode, file_inside
@@ -112,6 +121,17 @@ def test_what_was_approved_in_the_window_runs_without_a_question(make: Maker) ->
         assert soon(trap.has_sprung)
 
 
+@pytest.mark.skipif(not hasattr(os, "geteuid") or os.geteuid() != 0, reason="it takes root")
+def test_what_somebody_else_wrote_down_as_approved_is_not(make: Maker) -> None:
+    """In a folder for all, as that for temporary files of who has no home, others were first."""
+    found = concerns_of(load(lines(make).file, make.language), make.language, make.folder)
+    Gate(Approvals()).approve(found)
+
+    os.chown(approvals_file(), 12345, -1)
+
+    assert Gate(Approvals()).unapproved(found)
+
+
 def test_blocks_alone_ask_nothing(make: Maker) -> None:
     editor = build(make.language, [STARTED, B("robot.say", {"text": "Hello"})])
     build(make.language, [B("robots.robot")], page="robots", editor=editor)
@@ -162,6 +182,37 @@ def test_a_file_beside_the_project_counts_by_its_bytes(make: Maker) -> None:
     assert not gate.unapproved(concerns_of(project, make.language, make.folder))
 
     (make.folder / "wave.csv").write_text("2", encoding="utf-8")
+
+    assert gate.unapproved(concerns_of(project, make.language, make.folder))
+
+
+def test_what_an_own_node_imports_from_beside_it_counts_too(make: Maker) -> None:
+    folder = make.folder.parent / "nodes" / "sensory"
+    (folder / "helper.py").write_text("from . import deeper", encoding="utf-8")
+    (folder / "deeper").mkdir()
+    deeper = folder / "deeper" / "__init__.py"
+    deeper.write_text("", encoding="utf-8")
+    gift = folder / "gift.py"
+    gift.write_text("import helper\n" + gift.read_text(encoding="utf-8"), encoding="utf-8")
+    project = load(make.with_node("sensory/gift").file, make.language)
+    gate = Gate(Approvals())
+    gate.approve(concerns_of(project, make.language, make.folder))
+    assert not gate.unapproved(concerns_of(project, make.language, make.folder))
+
+    deeper.write_text(make.python, encoding="utf-8")
+
+    assert gate.unapproved(concerns_of(project, make.language, make.folder))
+
+
+def test_a_file_of_a_terabyte_holds_nobody_up(make: Maker) -> None:
+    with (make.folder / "wave.csv").open("wb") as file:
+        file.truncate(1 << 40)
+    project = load(make.with_node("sensory/replay", recording="wave.csv").file, make.language)
+    gate = Gate(Approvals())
+
+    gate.approve(concerns_of(project, make.language, make.folder))
+    assert not gate.unapproved(concerns_of(project, make.language, make.folder))
+    os.utime(make.folder / "wave.csv")
 
     assert gate.unapproved(concerns_of(project, make.language, make.folder))
 
@@ -262,6 +313,36 @@ def test_a_node_that_was_planted_does_not_start(make: Maker, tmp_path: Path, nod
     network.close()
 
     assert not make.marker.exists()
+
+
+def test_no_name_and_no_value_forges_a_line_of_what_is_told() -> None:
+    """The lines below look like ours: a person would take them for what we say."""
+    settings = {
+        "address": "203.0.113.7\n    Approved by NEP Studio\u202e\x1b[2J",
+        "driver": "naoqi",
+    }
+    node = PlannedNode("action/nao", "nao\n\nAll of it is safe", settings)
+
+    concern = node_concern(node)
+    assert concern is not None
+    told = list(listing([concern]))
+
+    assert len(told) == 3
+    assert "U+000A" in told[0] and "U+000A" in told[2] and "U+202E" in told[2]
+    assert not any("\n" in line or "\x1b" in line for line in told)
+
+
+def test_what_a_strangers_robot_says_does_not_steer_the_terminal_as_json_either(
+    make: Maker, capfdbinary: pytest.CaptureFixture[bytes]
+) -> None:
+    said = "\x9b31m\u202e\x7f\x1b[2J"
+    request = m.ActionRequest(id="1", robots=["NAO"], action="say", args={"text": said})
+
+    run.Printer(make.language, as_json=True).hear(m.ACTION_REQUEST, request)
+
+    told = capfdbinary.readouterr().out.decode()
+    assert not [sign for sign in said if sign in told and not sign.isalnum() and sign != "["]
+    assert msgspec.json.decode(told)["args"]["text"] == said
 
 
 # Which files of a project a node may be given.

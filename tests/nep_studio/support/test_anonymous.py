@@ -57,6 +57,13 @@ ANNA = Anonymous(
         ("-----BEGIN PRIVATE KEY-----\nMII\n-----END PRIVATE KEY-----\nend", "<hidden>\nend"),
         ("-----BEGIN PRIVATE KEY-----\nMII", "<hidden>"),
         ("NEP_NAOQI_LOGIN=nao:s3cret next", "NEP_NAOQI_LOGIN=<hidden> next"),
+        ("key @z5mXRefKArmQ-H?9N&Uj?t=j3xUG>!-yC1FF8/X", "key <hidden>"),
+        ("peer Yne5mXRefKArmQ7H49N1Uj2t3j3xUGa5yC1FF8dX", "peer <hidden>"),
+        (
+            "Authorization: Basic bmFv, --token AbC1",
+            "Authorization: Basic <hidden> --token <hidden>",
+        ),
+        ("Kopplungscode 482 915, psk=abc", "Kopplungscode <hidden>, psk=<hidden>"),
         ("'NEP_NAOQI_LOGIN': 'nao:s 3'", "'NEP_NAOQI_LOGIN': <hidden>"),
         ("phone_token=AbC-123", "phone_token=<hidden>"),
         ("  nep pair 482915", "  nep pair <hidden>"),

@@ -76,6 +76,17 @@ def test_csv_has_a_column_for_each_value() -> None:
     assert rows[0]["sender"] == "NAO"
 
 
+def test_nothing_that_others_sent_is_a_formula_in_a_table() -> None:
+    """Programs for tables reckon such a cell, or fetch what it names."""
+    evil = "=HYPERLINK('http://stranger')"
+
+    told = as_csv([Heard(1.0, {evil: evil, "sent": -1.5}, "NAO")])
+
+    cells = [cell for row in csv.reader(io.StringIO(told)) for cell in row]
+    assert not [cell for cell in cells if cell.startswith("=")]
+    assert f"'{evil}" in cells and "-1.5" in cells
+
+
 def test_json_lines_keep_whole_messages() -> None:
     [line] = as_json_lines([Heard(1.5, IMU, "watch")]).splitlines()
 

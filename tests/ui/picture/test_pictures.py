@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import os
 import struct
+import sys
 import zlib
 from pathlib import Path
 
@@ -13,6 +15,7 @@ from PySide6.QtCore import QByteArray
 from PySide6.QtGui import QGuiApplication, QImage
 from PySide6.QtSvg import QSvgRenderer
 
+from nep_core.errors import RecordingError
 from nep_studio.blocks.editor import Editor
 from nep_studio.blocks.edits.content import SetField
 from nep_studio.blocks.edits.project import RenameProject
@@ -35,7 +38,10 @@ from nep_studio.ui.plugins.exporting.picture import (
     svg_of,
     write_picture,
 )
+from nep_studio.ui.plugins.gestures.exchange import read_mcap
 from nep_studio.ui.theme.colours import load_theme
+from nep_studio.ui.workbench.snippets import read_snippet
+from nodes.recordings import check_size
 from tests.blocks.block_building import B, build, karate
 
 LANGUAGE = studio_language()
@@ -256,6 +262,22 @@ def test_a_hostile_picture_is_no_program(tmp_path, name):
     path.write_bytes(HOSTILE[name])
 
     assert project_bytes_from(path) is None
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="there are no such files")
+@pytest.mark.parametrize("name", ["pipe.png", "endless.png"])
+def test_what_is_only_called_like_a_file_holds_nobody_up(tmp_path, name):
+    """An archive can bring both; who reads the one waits for ever, who reads the other too."""
+    os.mkfifo(tmp_path / "pipe.png")
+    (tmp_path / "endless.png").symlink_to("/dev/zero")
+
+    assert project_bytes_from(tmp_path / name) is None
+    with pytest.raises(EditRefused, match="it is not a file"):
+        read_snippet(tmp_path / name, LANGUAGE)
+    with pytest.raises(OSError, match="it is not a file"):
+        check_size(tmp_path / name)
+    with pytest.raises(RecordingError, match="it is not a file"):
+        read_mcap(tmp_path / name)
 
 
 def test_a_file_that_is_not_there_is_no_program():

@@ -2,29 +2,38 @@
 
 from __future__ import annotations
 
+import html
 import os
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import ExitStack
 from pathlib import Path
 
 import pytest
-from PySide6.QtCore import Qt
-from PySide6.QtWidgets import QLabel, QWidget
+from PySide6.QtCore import QObject, Qt
+from PySide6.QtWidgets import QAbstractItemView, QLabel, QWidget
 from pytestqt.qtbot import QtBot
 
 from nep_core.places import NODES_VARIABLE
+from nep_core.wire.messages import RobotState
 from nep_studio import paths
 from nep_studio.blocks.edits.content import SetField
 from nep_studio.blocks.operations.copying import copy, paste
+from nep_studio.project.trust import Concern
 from nep_studio.run.installation import studio_language
 from nep_studio.run.plan import PlannedNode
 from nep_studio.settings import ShowOptions
+from nep_studio.ui.message_cards import MessageCard
+from nep_studio.ui.messages import Message
+from nep_studio.ui.plugins.robots.participants import robots_of
 from nep_studio.ui.plugins.show import ShowMode
 from nep_studio.ui.plugins.watches.dialog import WatchTrial
+from nep_studio.ui.robot_view.view import folder_of
 from nep_studio.ui.running.needs import NeedsDialog
 from nep_studio.ui.running.trust import MOST_CARDS, TrustDialog
 from nep_studio.ui.services import Studio
 from nep_studio.ui.shell.main_window import MainWindow
+from nep_studio.ui.speech.robot_voices import PLAYING, RobotSounds
+from robots.body.sense_tasks import found
 from tests.blocks.block_building import B, build
 from tests.nep_studio.run.hostile_projects import (
     FOREVER,
@@ -259,6 +268,40 @@ def test_to_look_at_a_strangers_watch_does_not_let_its_node_in(
     trial.end()
 
 
+SHARE = "//stranger/share/a"
+
+
+@pytest.mark.parametrize(
+    "look",
+    [
+        lambda: robots_of([PlannedNode("action/nao", "nao", {"model": SHARE})]),
+        lambda: folder_of(SHARE),
+        lambda: found(SHARE),
+        lambda: found(f"/home/nao/{SHARE}"),
+        lambda: RobotSounds(QObject()).hear_state(
+            RobotState(robot="nao", joints={}, settings={PLAYING: SHARE})
+        ),
+    ],
+    ids=[
+        "a robot's looks",
+        "a robot that is heard",
+        "a sound",
+        "its sound",
+        "a sound that is heard",
+    ],
+)
+def test_nobody_looks_at_what_is_on_a_strangers_computer(
+    look: Callable[[], object], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Windows would tell that computer the person's name and the hash of their password."""
+    looked, is_file = [], Path.is_file
+    monkeypatch.setattr(Path, "is_file", lambda path: looked.append(str(path)) or is_file(path))
+
+    look()
+
+    assert not [path for path in looked if path.startswith("//stranger")]
+
+
 def test_nobody_knocks_at_a_strangers_robot_to_see_whether_it_is_there(
     stranger: Callable[..., Trap], window: MainWindow, qtbot: QtBot
 ) -> None:
@@ -355,8 +398,14 @@ def test_a_letter_more_does_not_make_a_strangers_text_ones_own(
 
 @pytest.mark.parametrize(
     ("old", "new"),
-    [("wait(0.5)", "wait(0.25)"), ("    for _", "    if True:\n      for _")],
-    ids=["beside it", "around it"],
+    [
+        ("wait(0.5)", "wait(0.25)"),
+        ("    for _", "    if True:\n      for _"),
+        (".close()", ".close()\n          print(1)"),
+        (".close()", ".close() #"),
+        ("        open(", "          print(1)\n        open("),
+    ],
+    ids=["beside it", "around it", "below it", "in it", "above it"],
 )
 def test_who_writes_python_beside_a_strangers_does_not_take_that_over(
     stranger: Callable[..., Trap], window: MainWindow, qtbot: QtBot, old: str, new: str
@@ -471,8 +520,14 @@ def test_no_name_of_a_stranger_is_shown_as_a_page_that_fetches_pictures(
         for label in labels_of(window)
         if PICTURE in label.text() and label.textFormat() != Qt.TextFormat.PlainText
     ]
-    tips = [one.toolTip() for one in window.findChildren(QWidget) if PICTURE in one.toolTip()]
-    assert not pages and not tips
+    tips = [one.toolTip() for one in window.findChildren(QWidget)]
+    for shown in window.findChildren(QAbstractItemView):
+        model = shown.model()
+        places = [model.index(row, 0) for row in range(model.rowCount())] if model else []
+        tips += [str(one.data(Qt.ItemDataRole.ToolTipRole)) for one in places]
+    assert not pages
+    assert not [tip for tip in tips if PICTURE in tip]
+    assert any(html.escape(PICTURE) in tip for tip in tips)
     window.findChild(NeedsDialog).reject()
 
 
@@ -485,7 +540,10 @@ def labels_of(window: MainWindow) -> list[QLabel]:
 
 def full_of_pictures(make: Maker) -> Trap:
     say = B("robot.say", {"text": PICTURE})
-    editor = build(make.language, [STARTED, say, B("code.lines", {"code": f'x = "{PICTURE}"'})])
+    heard = [B("robot_events.heard", {"word": PICTURE}), B("robot.say")]
+    editor = build(
+        make.language, [STARTED, say, B("code.lines", {"code": f'x = "{PICTURE}"'})], heard
+    )
     robot = B("robots.robot", {"driver": "naoqi", "address": PICTURE})
     build(make.language, [robot], page="robots", editor=editor)
     settings = {"node": "sensory/replay", "name": "gift", "parameters": {"recording": PICTURE}}
@@ -511,6 +569,22 @@ def among_hundreds(make: Maker) -> Trap:
     texts = [f"piece_{number} = {number}" for number in range(200)]
     blocks = [B("code.lines", {"code": text}) for text in [*texts, make.python]]
     return make.trap([STARTED, *blocks, FOREVER], tells=make.python)
+
+
+def test_a_name_without_an_end_pushes_nothing_off_the_screen(
+    window: MainWindow, studio: Studio
+) -> None:
+    name = "W" * 200
+    concern = Concern("node", f"The node {name}", "x = 1", "nodes", "b1", "key")
+
+    dialog = TrustDialog(window, studio.look, name, [concern], {"nodes": name})
+    dialog.open()
+    card = MessageCard(Message("info", name, name), studio.look.theme, window)
+
+    assert dialog.width() < 900
+    assert not dialog.list.horizontalScrollBar().maximum()
+    assert card.minimumSizeHint().width() < 900
+    dialog.reject()
 
 
 def test_screen_readers_hear_what_each_text_is(

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import subprocess
 import sys
 import textwrap
 from collections.abc import Callable, Iterator
@@ -25,7 +26,9 @@ from nep_studio.ui.speech.voices import (
     Utterance,
     find_system_voice,
     find_voice,
+    installed,
     own_pitch,
+    pyttsx3_command,
     utterance_of,
 )
 
@@ -160,6 +163,23 @@ def test_each_system_is_told_the_text_the_language_and_how_loud(
     assert "Tom" in everything and "Jerry" in everything
     assert any(word in everything for word in ("pt-br", "Luciana"))
     assert any(word in everything for word in ("25", "-50"))
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="it takes other programs to be tried there")
+def test_nothing_in_the_folder_that_we_are_started_in_speaks(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """It may be a stranger's, and after a double click on Windows it is."""
+    monkeypatch.chdir(tmp_path)
+    Path("pyttsx3.py").write_text("open('marker', 'w').close()")
+    Path("espeak-ng").write_text("#!/bin/sh")
+    Path("espeak-ng").chmod(0o755)
+    monkeypatch.setenv("PATH", os.curdir)
+
+    assert installed("espeak-ng") is None
+    words = pyttsx3_command(Utterance("Hi", "en")).words
+    subprocess.run(words, input=b"", capture_output=True, check=False)
+    assert not Path("marker").exists()
 
 
 def test_a_robot_speaks_as_it_is_set_and_robots_sound_different() -> None:

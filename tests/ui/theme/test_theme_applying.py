@@ -7,14 +7,15 @@ import re
 from pathlib import Path
 
 import pytest
-from PySide6.QtCore import Qt
-from PySide6.QtGui import QFontMetrics, QFontMetricsF, QPalette
+from PySide6.QtCore import QPoint, Qt
+from PySide6.QtGui import QAction, QFontMetrics, QFontMetricsF, QIcon, QPalette, QPixmap
 from PySide6.QtWidgets import (
     QApplication,
     QComboBox,
     QLabel,
     QLineEdit,
     QListWidget,
+    QMenu,
     QPushButton,
     QSpinBox,
     QStyle,
@@ -185,6 +186,30 @@ def test_a_larger_scale_is_told_to_the_views(plain_app: QApplication, qtbot: QtB
 
     assert plain_app.font().pointSizeF() == base_point_size(plain_app) * 1.5
     look.deleteLater()
+
+
+def test_the_signs_in_menus_grow_with_the_words_which_begin_below_each_other(
+    plain_app: QApplication, qtbot: QtBot, theme: Theme
+) -> None:
+    apply_theme(plain_app, theme, 2.0)
+    menu = QMenu()
+    qtbot.addWidget(menu)
+    pixmap = QPixmap(64, 64)
+    pixmap.fill(Qt.GlobalColor.transparent)
+    icon = QIcon(pixmap)  # nothing is seen of it
+    entries = [menu.addAction(icon, "H"), menu.addAction("H")]
+    menu.popup(QPoint())
+    image = menu.grab().toImage()
+    side = menu.style().pixelMetric(QStyle.PixelMetric.PM_SmallIconSize, None, menu)
+
+    def begin(entry: QAction) -> int:
+        row = menu.actionGeometry(entry)
+        y = row.center().y()
+        back = image.pixelColor(row.right() - 3, y)
+        return next(x for x in range(row.left() + 3, row.right()) if image.pixelColor(x, y) != back)
+
+    assert side > 0.8 * menu.fontMetrics().height()
+    assert abs(begin(entries[0]) - begin(entries[1])) <= 1
 
 
 def test_a_list_of_choices_shows_all_of_a_few(

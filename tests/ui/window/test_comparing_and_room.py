@@ -110,6 +110,19 @@ def test_a_narrow_window_begins_with_room_for_the_page(studio, chooser, qtbot: Q
     end(window)
 
 
+def test_a_small_screen_has_room_for_the_window_with_words_of_twice_the_size(
+    studio, chooser, qtbot: QtBot
+):
+    studio.look.set_scale(2.0)
+    window = MainWindow(studio, chooser)
+    qtbot.addWidget(window)
+    window.show()
+    window.start(None)
+
+    assert window.minimumSizeHint().height() < 700
+    studio.look.set_scale(1.0)
+
+
 def test_a_wide_window_begins_with_all(studio, chooser, qtbot: QtBot):
     window = started(studio, chooser, 1300, qtbot)
 

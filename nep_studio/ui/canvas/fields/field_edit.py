@@ -24,6 +24,7 @@ from nep_studio.ui.canvas.layout.page import Placed
 from nep_studio.ui.labels import labelled
 from nep_studio.ui.theme.colours import Theme
 from nep_studio.ui.theme.icons import icon_pixmap
+from nep_studio.ui.widgets.forms import plain_label
 from nep_studio.ui.widgets.layouts import in_row
 
 if TYPE_CHECKING:
@@ -178,7 +179,7 @@ class ReasonBubble(QFrame):
         )
         sign = QLabel(self)
         sign.setPixmap(icon_pixmap("circle-alert", error, self._line, self.devicePixelRatioF()))
-        self.words = QLabel(self, wordWrap=True)
+        self.words = plain_label(parent=self)
         at_top = (sign, 0, Qt.AlignmentFlag.AlignTop)
         in_row(at_top, (self.words, 1), of=self, margins=self._line // 3)
         self.hide()

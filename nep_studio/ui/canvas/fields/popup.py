@@ -10,7 +10,6 @@ from PySide6.QtGui import QHideEvent, QKeyEvent, QPainter, QPen
 from PySide6.QtWidgets import (
     QApplication,
     QFrame,
-    QLabel,
     QLineEdit,
     QPushButton,
     QWidget,
@@ -18,7 +17,7 @@ from PySide6.QtWidgets import (
 
 from nep_studio.blocks.slots import FieldValue
 from nep_studio.ui.canvas.painting.shapes import slot_path
-from nep_studio.ui.widgets.forms import room_around
+from nep_studio.ui.widgets.forms import plain_label, room_around
 from nep_studio.ui.widgets.layouts import in_column, in_row
 from nep_studio.ui.words import tr
 
@@ -136,7 +135,7 @@ class Question(QWidget):
         super().__init__()
         self._answered, self._refused = answered, refused
         self.words = words
-        label = QLabel(words, self, wordWrap=True)
+        label = plain_label(words, parent=self)
         width = 15 * self.fontMetrics().height()
         label.setFixedWidth(width)
         label.setFixedHeight(label.heightForWidth(width))

@@ -21,6 +21,7 @@ from nep_core.errors import ManifestError, NodeNotFound, ParameterError
 from nep_core.places import node_folders
 from nep_core.processes.manifest import NodeCatalog, Parameter
 from nep_studio.blocks.slots import Setting, kind_of
+from nep_studio.ui.labels import plain_tip
 from nep_studio.ui.theme.icons import icon
 from nep_studio.ui.widgets.layouts import in_row
 from nep_studio.ui.words import tr
@@ -104,8 +105,8 @@ class SettingsPopup(FieldPopup):
         widget.setAccessibleName(name)
         label.setBuddy(widget)
         if parameter is not None:
-            label.setToolTip(parameter.help)
-            widget.setToolTip(parameter.help)
+            label.setToolTip(plain_tip(parameter.help))
+            widget.setToolTip(plain_tip(parameter.help))
             widget.setAccessibleDescription(parameter.help)
         self._grid.addWidget(label, row, 0)
         self._grid.addWidget(widget, row, 1)

@@ -25,6 +25,7 @@ from PySide6.QtWidgets import (
 )
 
 from nep_studio.ui.background import Job, Tell
+from nep_studio.ui.labels import plain_tip
 from nep_studio.ui.theme.icons import icon
 from nep_studio.ui.theme.look import Look
 from nep_studio.ui.widgets.forms import (
@@ -32,7 +33,7 @@ from nep_studio.ui.widgets.forms import (
     fit_on_screen,
     hint,
     label_of,
-    plain_tip,
+    plain_label,
     styled,
 )
 from nep_studio.ui.widgets.layouts import in_column, in_row, scrolled
@@ -301,7 +302,7 @@ class ConnectDialog(QDialog):
             QPushButton(tr("Use this robot"), autoDefault=False), kind="primary"
         )
         self.close_button = QPushButton(tr("Close"), autoDefault=False)
-        self.about = QLabel(wordWrap=True, textInteractionFlags=BY_MOUSE)
+        self.about = plain_label(textInteractionFlags=BY_MOUSE)
         self._about_card = card_around(self.about, "info")
         self._tested = ("", "", "", "")
         self._lay_out()

@@ -33,7 +33,7 @@ from PySide6.QtWidgets import (
 
 from nep_studio.blocks.errors import EditRefused
 from nep_studio.project.triggers import KEYS, SOURCE, Cue, CueKind, own_cue
-from nep_studio.ui.labels import follow_words, labelled
+from nep_studio.ui.labels import follow_words, labelled, plain_tip
 from nep_studio.ui.theme.colours import Theme
 from nep_studio.ui.theme.icons import icon, paint_icon
 from nep_studio.ui.theme.look import Look
@@ -114,7 +114,7 @@ class CueButton(QAbstractButton):
         self.is_heard = True
         self._flash = QTimer(self, singleShot=True, interval=FLASH_MS)
         self._flash.timeout.connect(self.update)
-        self.setToolTip(cue.state)
+        self.setToolTip(plain_tip(cue.state))
         follow_words(self, self._say)
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Expanding)
         self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)

@@ -12,7 +12,6 @@ from PySide6.QtCore import QDateTime, QLocale, QMetaObject, QObject, Qt, Signal
 from PySide6.QtGui import QHideEvent, QKeyEvent, QShowEvent
 from PySide6.QtWidgets import (
     QFrame,
-    QLabel,
     QLineEdit,
     QListWidget,
     QMenu,
@@ -32,7 +31,7 @@ from nep_studio.ui.labels import follow_words, labelled
 from nep_studio.ui.messages import announce
 from nep_studio.ui.running.runner import Runner
 from nep_studio.ui.theme.icons import icon
-from nep_studio.ui.widgets.forms import hint, styled
+from nep_studio.ui.widgets.forms import hint, plain_label, styled
 from nep_studio.ui.widgets.layouts import in_column, in_row
 from nep_studio.ui.words import tr
 
@@ -152,7 +151,7 @@ class CuePanel(QWidget):
         self._heard: QMetaObject.Connection | None = None
         self.board = CueBoard(host.services.look, self)
         self.empty = hint("The rules of this program wait for nothing that could be sent.")
-        self.why_not = QLabel(wordWrap=True)
+        self.why_not = plain_label()
         self.run_button = labelled(styled(QPushButton(), kind="run"), text="Run")
         self.words = labelled(
             QLineEdit(), placeholder="Somebody says…", name="Words that somebody says"

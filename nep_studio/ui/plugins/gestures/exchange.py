@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import errno
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from datetime import datetime
@@ -289,6 +290,8 @@ def read_mcap(path: Path) -> tuple[list[Imported], bool]:
     try:
         if path.stat().st_size > LARGEST_BYTES:
             raise _unusable(path, "is too large to be read", ("Export a part of it only.",))
+        if not path.is_file():
+            raise OSError(errno.EINVAL, "it is not a file")
         with path.open("rb") as file:
             is_whole = _read(file, channels, marks)
     except OSError as error:

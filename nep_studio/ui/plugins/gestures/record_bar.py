@@ -23,7 +23,7 @@ from nep_studio.ui.labels import explained, follow_words, labelled
 from nep_studio.ui.messages import announce
 from nep_studio.ui.theme.icons import icon
 from nep_studio.ui.widgets.choices import Choices
-from nep_studio.ui.widgets.forms import quiet_button
+from nep_studio.ui.widgets.forms import plain_label, quiet_button
 from nep_studio.ui.widgets.layouts import FlowLayout, in_column, in_row
 from nep_studio.ui.widgets.questions import Asking
 from nep_studio.ui.words import tr
@@ -162,7 +162,7 @@ class RecordBar(QWidget):
         )
         self.wearer = WearerBox(controller, keeping)
         self.wearer.setParent(self)
-        self.words, self.progress = QLabel(wordWrap=True), QProgressBar(minimum=0, maximum=100)
+        self.words, self.progress = plain_label(), QProgressBar(minimum=0, maximum=100)
         self._lay_out()
         self.cancel.clicked.connect(session.cancel)
         self.play.clicked.connect(take.play)

@@ -26,7 +26,7 @@ from PySide6.QtGui import (
 from PySide6.QtWidgets import QApplication, QSizePolicy, QToolTip, QWidget
 
 from nep_studio.blocks.own_gestures import OwnTake
-from nep_studio.ui.labels import labelled
+from nep_studio.ui.labels import labelled, plain_tip
 from nep_studio.ui.theme.colours import Theme
 from nep_studio.ui.theme.icons import paint_icon
 from nep_studio.ui.widgets.curves import line_width
@@ -319,7 +319,7 @@ class TakesList(QWidget):
             if number < 0:
                 QToolTip.hideText()
             else:
-                words = self.item_text(number)
+                words = plain_tip(self.item_text(number))
                 QToolTip.showText(event.globalPos(), words, self, self.grid.rect(number))
             return True
         return super().event(event)

@@ -23,6 +23,7 @@ from PySide6.QtGui import QColor, QFont, QFontMetrics, QPainter, QPixmap
 from PySide6.QtWidgets import QStyle, QStyledItemDelegate, QStyleOptionViewItem
 
 from nep_core.wire import messages as m
+from nep_studio.ui.labels import plain_tip
 from nep_studio.ui.node_style import TYPE_COLOURS, TYPE_ICONS
 from nep_studio.ui.theme.icons import icon_pixmap
 from nep_studio.ui.theme.look import Look
@@ -140,8 +141,10 @@ class LinesModel(QAbstractListModel):
         if not index.isValid() or index.row() >= len(self._shown):
             return None
         line = self._shown[index.row()]
-        if role in (Qt.ItemDataRole.DisplayRole, Qt.ItemDataRole.ToolTipRole):
+        if role == Qt.ItemDataRole.DisplayRole:
             return line.words
+        if role == Qt.ItemDataRole.ToolTipRole:
+            return plain_tip(line.words)
         return line if role == LINE else None
 
     def _fits(self, line: Line) -> bool:

@@ -27,11 +27,12 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
+from faults.files import write_whole
 from nep_core.wire import messages as m
 from nep_studio import __version__
 from nep_studio.blocks.language import Language
 from nep_studio.run.timeline import Timeline
-from nep_studio.ui.labels import explained, follow_words, labelled, labelled_items
+from nep_studio.ui.labels import explained, follow_words, labelled, labelled_items, plain_tip
 from nep_studio.ui.message_cards import MessageText
 from nep_studio.ui.messages import KIND_ICONS, Kind, LoggedMessage, Messages
 from nep_studio.ui.node_style import TYPE_ICONS
@@ -39,7 +40,7 @@ from nep_studio.ui.running.runner import Runner
 from nep_studio.ui.theme.icons import icon, icon_pixmap
 from nep_studio.ui.theme.look import Look
 from nep_studio.ui.widgets.choices import Choices
-from nep_studio.ui.widgets.forms import hint, plain_tip
+from nep_studio.ui.widgets.forms import hint
 from nep_studio.ui.widgets.layouts import in_column, in_row
 from nep_studio.ui.widgets.questions import save_text
 from nep_studio.ui.words import tr
@@ -142,7 +143,7 @@ class WhatHappens(QWidget):
 
     def save(self, path: Path) -> None:
         """Write them to a file; raises OSError."""
-        path.write_text(self.text(), encoding="utf-8")
+        write_whole(path, self.text())
 
     def _on_save_clicked(self) -> None:
         save_text(self.window(), self._messages, tr("what happened.txt"), self.save)

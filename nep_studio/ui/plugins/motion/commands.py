@@ -11,6 +11,7 @@ from PySide6.QtGui import QKeySequence
 from PySide6.QtWidgets import QInputDialog, QMenu
 
 from faults import FaultError
+from faults.files import write_whole
 from nep_studio.blocks.errors import EditRefused
 from nep_studio.blocks.operations.animations import Use
 from nep_studio.blocks.own_animations import OwnAnimation, free_name
@@ -379,7 +380,7 @@ class ProjectCommands:
         text = to_toml(self.controller.motion)
         name = f"{free_name(self.controller.motion.title, ())}.toml"
         messages = self.window.host.services.messages
-        save_text(self.window, messages, name, lambda path: path.write_text(text, encoding="utf-8"))
+        save_text(self.window, messages, name, lambda path: write_whole(path, text))
 
     # Telling
 

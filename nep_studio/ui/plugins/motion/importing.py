@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+import errno
 from pathlib import Path
 
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import QDialog, QLabel, QPlainTextEdit, QPushButton, QWidget
 
+from faults.files import read_file
 from nep_studio.blocks.own_animations import OwnAnimation, why_not_animation
+from nep_studio.ui.widgets.forms import plain_label
 from nep_studio.ui.widgets.layouts import in_column, in_row
 from nep_studio.ui.widgets.questions import ask_for_path
 from nep_studio.ui.words import tr
@@ -33,7 +36,7 @@ class ImportDialog(QDialog):
         self.text = QPlainTextEdit()
         self.text.setAccessibleName(tr("The exported text"))
         self.text.setPlaceholderText('names.append("HeadYaw")\ntimes.append([0.8, 1.6])\n…')
-        self.reason = QLabel(wordWrap=True)
+        self.reason = plain_label()
         self.file_button = QPushButton(tr("From a file…"))
         self.use_button = QPushButton(tr("Use this motion"))
         self.cancel_button = QPushButton(tr("Cancel"))
@@ -57,12 +60,12 @@ class ImportDialog(QDialog):
     def read_file(self, path: Path) -> None:
         """Take the text of a file."""
         try:
-            if path.stat().st_size > LARGEST_FILE:
-                raise OSError(tr("it is too large for a motion"))
-            text = path.read_text(encoding="utf-8")
+            text = read_file(path, LARGEST_FILE).decode()
         except (OSError, UnicodeDecodeError) as error:
             self.text.clear()
             why = str(getattr(error, "strerror", None) or error)
+            if getattr(error, "errno", 0) == errno.EFBIG:
+                why = tr("it is too large for a motion")
             self.reason.setText(tr("{name} cannot be read: {why}.", name=path.name, why=why))
             return
         self.text.setPlainText(text)

@@ -28,7 +28,7 @@ from nep_studio.ui.robot_view.view import RobotView
 from nep_studio.ui.theme.icons import fit_icons, icon
 from nep_studio.ui.theme.look import Look
 from nep_studio.ui.widgets.choices import Choices
-from nep_studio.ui.widgets.forms import label_of, room_around
+from nep_studio.ui.widgets.forms import label_of, plain_label, room_around
 from nep_studio.ui.widgets.layouts import in_column, in_row
 from nep_studio.ui.words import tr
 
@@ -259,7 +259,7 @@ class TeleoperationWindow(QDialog):
         self.with_gamepad = labelled(QCheckBox(), text="Gamepad")
         self.with_watch = labelled(QCheckBox(), text="Watch")
         self.watch_use = Choices(_uses)
-        self.missing, self.told = QLabel(wordWrap=True), QLabel(wordWrap=True)
+        self.missing, self.told = plain_label(), plain_label()
         self._lay_out()
         self._connect()
         follow_words(self, self.refresh)

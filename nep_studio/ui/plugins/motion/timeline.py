@@ -21,7 +21,7 @@ from PySide6.QtGui import (
 )
 from PySide6.QtWidgets import QToolTip, QWidget
 
-from nep_studio.ui.labels import follow_words, labelled
+from nep_studio.ui.labels import follow_words, labelled, plain_tip
 from nep_studio.ui.theme.icons import paint_icon
 from nep_studio.ui.theme.look import Look
 from nep_studio.ui.words import count_words, tr
@@ -238,7 +238,7 @@ class Timeline(QWidget):
         if isinstance(event, QHelpEvent):
             time = self.scale.time(event.x())
             found = [one.words for one in self.faults if one.from_s <= time <= one.to_s]
-            QToolTip.showText(event.globalPos(), "\n".join(found), self)
+            QToolTip.showText(event.globalPos(), plain_tip("\n".join(found)), self)
             return True
         return super().event(event)
 

@@ -27,7 +27,7 @@ from PySide6.QtWidgets import (
 from nep_studio.blocks.language import Language
 from nep_studio.blocks.own_animations import OwnAnimation
 from nep_studio.ui.actions import Actions
-from nep_studio.ui.labels import follow_words, labelled
+from nep_studio.ui.labels import follow_words, labelled, plain_tip
 from nep_studio.ui.robot_view.view import RobotView
 from nep_studio.ui.theme.icons import fit_icons, icon_room
 from nep_studio.ui.widgets.forms import room_around
@@ -91,7 +91,7 @@ class JointRow(QObject):
         unit = "%" if self.is_hand else "°"
         limits = tr("from {low} to {high}", low=f"{low:.0f}{unit}", high=f"{high:.0f}{unit}")
         for widget in (self.label, self.slider, self.box):
-            widget.setToolTip(f"{self.joint.name}: {limits}")
+            widget.setToolTip(plain_tip(f"{self.joint.name}: {limits}"))
 
     def show_angle(self, angle: float, *, is_key: bool) -> None:
         """Show an angle; a joint with a key at this moment stands out."""

@@ -25,7 +25,7 @@ from PySide6.QtGui import (
 from PySide6.QtWidgets import QToolTip, QWidget
 
 from nep_studio.run.node_board import NodeStatus
-from nep_studio.ui.labels import follow_words, labelled
+from nep_studio.ui.labels import follow_words, labelled, plain_tip
 from nep_studio.ui.messages import announce
 from nep_studio.ui.network_feed import Seen
 from nep_studio.ui.node_style import (
@@ -416,7 +416,8 @@ class GraphView(QWidget):
         """Tell about what is under the mouse."""
         if isinstance(event, QHelpEvent) and event.type() == QEvent.Type.ToolTip:
             key = self._at(QPointF(event.pos()))
-            QToolTip.showText(event.globalPos(), self._words(key) if key else "", self)
+            words = plain_tip(self._words(key)) if key else ""
+            QToolTip.showText(event.globalPos(), words, self)
             return True
         return super().event(event)
 

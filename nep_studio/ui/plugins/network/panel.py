@@ -20,12 +20,13 @@ from PySide6.QtWidgets import (
 )
 
 from nep_studio.run.node_board import NodeStatus
-from nep_studio.ui.labels import explained, follow_words, labelled
+from nep_studio.ui.labels import explained, follow_words, labelled, plain_tip
 from nep_studio.ui.network_feed import NetworkFeed, Seen
 from nep_studio.ui.node_style import ago_words, names, rate_words, state_look, type_words
 from nep_studio.ui.running.runner import Runner
 from nep_studio.ui.theme.icons import icon
 from nep_studio.ui.theme.look import Look
+from nep_studio.ui.widgets.forms import plain_label
 from nep_studio.ui.widgets.layouts import InLines, in_column, in_row
 from nep_studio.ui.words import count_words, tr
 
@@ -102,7 +103,7 @@ class NetworkPanel(InLines):
         """Say that the network is open to other computers; no ``words`` when it is not."""
         self.sharing_button.setVisible(bool(words))
         self.sharing_button.setText(words)
-        self.sharing_button.setToolTip(more or words)
+        self.sharing_button.setToolTip(plain_tip(more or words))
         self.sharing_button.setAccessibleName(words)
         self.sharing_button.setAccessibleDescription(more)
         self._sharing_icon = icon_name
@@ -171,7 +172,7 @@ class _Empty(QWidget):
 
     def __init__(self) -> None:
         super().__init__()
-        self.words = QLabel(wordWrap=True, alignment=Qt.AlignmentFlag.AlignCenter)
+        self.words = plain_label(alignment=Qt.AlignmentFlag.AlignCenter)
         self.words.setProperty("role", "hint")
         self.run_button = labelled(QPushButton(), text="Run")
         self.run_button.setProperty("kind", "run")

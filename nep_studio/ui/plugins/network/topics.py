@@ -24,7 +24,6 @@ from PySide6.QtCore import (
 from PySide6.QtGui import QGuiApplication, QHideEvent, QShowEvent
 from PySide6.QtWidgets import (
     QAbstractItemView,
-    QLabel,
     QLineEdit,
     QListView,
     QMenu,
@@ -35,14 +34,16 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
+from faults.files import write_whole
 from nep_core.wire.messages import BY_TOPIC
-from nep_studio.ui.labels import follow_words, labelled, labelled_items
+from nep_studio.study.records import without_formula
+from nep_studio.ui.labels import follow_words, labelled, labelled_items, plain_tip
 from nep_studio.ui.network_feed import TopicSeen
 from nep_studio.ui.node_style import as_json, names, one_line, pretty, rate_words
 from nep_studio.ui.running.runner import Heard, Runner, Tap
 from nep_studio.ui.theme.icons import icon
 from nep_studio.ui.theme.look import Look
-from nep_studio.ui.widgets.forms import ElidedLabel
+from nep_studio.ui.widgets.forms import ElidedLabel, plain_label
 from nep_studio.ui.widgets.layouts import in_column, in_row
 from nep_studio.ui.widgets.questions import ask_for_path
 from nep_studio.ui.words import count_words, tr
@@ -72,15 +73,15 @@ def as_csv(messages: Iterable[Heard]) -> str:
     columns = list(dict.fromkeys(key for row in rows for key in row))
     out = io.StringIO()
     writer = csv.DictWriter(out, columns, lineterminator="\n")
-    writer.writeheader()
-    writer.writerows(rows)
+    writer.writerow({name: without_formula(name) for name in columns})
+    writer.writerows({name: without_formula(value) for name, value in row.items()} for row in rows)
     return out.getvalue()
 
 
 def save(messages: Iterable[Heard], path: Path) -> None:
     """Write messages as the ending of the file's name says; raises OSError."""
     text = as_csv(messages) if path.suffix.lower() == ".csv" else as_json_lines(messages)
-    path.write_text(text, encoding="utf-8", newline="")
+    write_whole(path, text)
 
 
 def values_of(message: Any, way: str = "") -> Iterator[tuple[str, object]]:
@@ -227,7 +228,7 @@ class HeardList(QAbstractListModel):
         if role == Qt.ItemDataRole.DisplayRole:
             return f"{clock(heard.time_s)}  {heard.sender}  {one_line(heard.message)}"
         if role == Qt.ItemDataRole.ToolTipRole:
-            return pretty(heard.message)[:4000]
+            return plain_tip(pretty(heard.message)[:4000])
         return heard if role == Qt.ItemDataRole.UserRole else None
 
 
@@ -254,7 +255,7 @@ class TopicPane(QWidget):
         self.topic = ""
         self.heard = HeardList(self)
         self.bar = TopicBar(look)
-        self.about = QLabel(wordWrap=True)
+        self.about = plain_label()
         self.about.setProperty("role", "hint")
         self.list = labelled(QListView(uniformItemSizes=True), name="Messages, the newest first")
         self.list.setModel(self.heard)

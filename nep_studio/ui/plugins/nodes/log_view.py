@@ -22,6 +22,7 @@ from PySide6.QtGui import (
 from PySide6.QtWidgets import QLineEdit, QPlainTextEdit, QPushButton, QToolButton, QWidget
 
 from faults import text_of
+from faults.files import whole_file, write_whole
 from nep_studio.ui.labels import follow_words, labelled
 from nep_studio.ui.theme.icons import icon
 from nep_studio.ui.theme.look import Look
@@ -229,9 +230,10 @@ class LogView(QWidget):
         """Save the whole log, from its file if there is one."""
         try:
             if self._path.is_file():
-                shutil.copyfile(self._path, path)
+                with self._path.open("rb") as kept, whole_file(path) as file:
+                    shutil.copyfileobj(kept, file)
             else:
-                path.write_text(self.text.toPlainText(), encoding="utf-8")
+                write_whole(path, self.text.toPlainText())
         except OSError as error:
             self.saving_failed.emit(str(path), error.strerror or str(error))
 

@@ -30,6 +30,7 @@ from nep_studio.ui.messages import announce
 from nep_studio.ui.running.runner import Heard, Tap
 from nep_studio.ui.theme.icons import icon
 from nep_studio.ui.theme.look import Look
+from nep_studio.ui.widgets.forms import plain_label
 from nep_studio.ui.widgets.layouts import Columns, in_column, in_row
 from nep_studio.ui.words import language_code, tr
 
@@ -61,7 +62,7 @@ class WaitingBoard(QWidget):
         self._shown: tuple[str, list[Occurrence]] | None = None
         self.buttons: list[OccurrenceButton] = []
         self._rows = Buttons()
-        self.words = QLabel(wordWrap=True)
+        self.words = plain_label()
         self.words.setProperty("role", "hint")
         in_column(self._rows, self.words, of=self, margins=0)
 

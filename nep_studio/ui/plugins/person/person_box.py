@@ -27,7 +27,7 @@ from nep_core.program.human import plain
 from nep_studio.blocks.language import Language
 from nep_studio.project.surroundings import FIRST_NAMES, LONGEST_NAME
 from nep_studio.project.triggers import Occurrence
-from nep_studio.ui.labels import follow_words, labelled
+from nep_studio.ui.labels import follow_words, labelled, plain_tip
 from nep_studio.ui.theme.icons import icon, icon_room
 from nep_studio.ui.theme.look import Look
 from nep_studio.ui.widgets.layouts import FlowLayout, in_column, in_row
@@ -160,7 +160,7 @@ class WordsButton(QPushButton):
         self.words = tr(self._said)
         self.setText(self.words.replace("&", "&&"))
         self.setAccessibleName(self.words)
-        self.setToolTip(self.words)
+        self.setToolTip(plain_tip(self.words))
 
     def minimumSizeHint(self) -> QSize:
         """A few letters at least."""

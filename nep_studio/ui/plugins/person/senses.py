@@ -24,7 +24,7 @@ from nep_studio.project.triggers import Occurrence
 from nep_studio.ui.labels import follow_words, labelled
 from nep_studio.ui.theme.look import Look
 from nep_studio.ui.widgets.choices import Choices
-from nep_studio.ui.widgets.forms import hint
+from nep_studio.ui.widgets.forms import hint, plain_label
 from nep_studio.ui.widgets.layouts import in_column, in_row
 from nep_studio.ui.words import tr
 from robots.body.limbs import TOUCH_SENSORS
@@ -84,7 +84,7 @@ class SensorBox(QWidget):
         slider.setRange(low, high)
         slider.setValue(usual)
         slider.setPageStep(25)
-        title = self._titles[sensor] = QLabel(wordWrap=True)
+        title = self._titles[sensor] = plain_label()
         value = self._values[sensor] = QLabel(str(usual))
         value.setMinimumWidth(self.fontMetrics().horizontalAdvance("000"))
         self._grid.addWidget(title, row, 0, 1, 2)
@@ -241,7 +241,7 @@ class GestureBox(QWidget):
         self.buttons: list[OccurrenceButton] = []
         self._shown: dict[str, str] | None = None
         self._rows = Buttons()
-        self.how = QLabel(wordWrap=True)
+        self.how = plain_label()
         self.how.setProperty("role", "hint")
         self.certainty = QSpinBox(minimum=1, maximum=100, value=100)
         labelled(self.certainty, name="How certain the gesture is")

@@ -9,6 +9,7 @@ from pathlib import Path
 
 from PySide6.QtCore import QObject, QTimer
 
+from faults.files import is_elsewhere
 from nep_core.wire import messages as m
 from nep_core.wire.messages import RobotState
 from nep_studio import paths
@@ -101,7 +102,8 @@ def robots_of(planned: Iterable[PlannedNode]) -> list[RobotPlan]:
         driver = told.get("driver", "")
         # The folder of a kind of robot that can be drawn: one of ours, or one of the person's
         model = told.get("model", "") or driver.partition("_")[2]
-        folders = (paths.resources() / "robots" / model, Path(model)) if model else ()
+        has_folder = bool(model) and not is_elsewhere(model)
+        folders = (paths.resources() / "robots" / model, Path(model)) if has_folder else ()
         folder = next((one for one in folders if (one / "view.toml").is_file()), None)
         name, address = told.get("robot", node.name), told.get("address", "")
         found.append(RobotPlan(name, driver == "naoqi", address, folder))

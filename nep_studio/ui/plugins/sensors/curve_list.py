@@ -20,7 +20,7 @@ from PySide6.QtWidgets import (
 )
 
 from nep_core.wire.messages import IMU
-from nep_studio.ui.labels import follow_words, labelled
+from nep_studio.ui.labels import follow_words, labelled, plain_tip
 from nep_studio.ui.network_feed import NetworkFeed, Seen
 from nep_studio.ui.theme.look import Look
 from nep_studio.ui.widgets.forms import hint
@@ -76,7 +76,7 @@ class CurveList(QTreeWidget):
             heading = QTreeWidgetItem(self, [f"{row.row.heading}, {row.row.source}"])
             heading.setFirstColumnSpanned(True)
             heading.setFlags(Qt.ItemFlag.ItemIsEnabled)
-            heading.setToolTip(0, heading.text(0))
+            heading.setToolTip(0, plain_tip(heading.text(0)))
             for curve in row.row.curves:
                 self._items[curve.key] = self._item(heading, curve, metrics)
         self.expandAll()

@@ -8,11 +8,11 @@ from functools import partial
 from pathlib import Path
 
 import numpy as np
-from PySide6.QtCore import QPoint, Qt, QUrl, Signal
+from PySide6.QtCore import QBuffer, QIODevice, QPoint, Qt, QUrl, Signal
 from PySide6.QtGui import QDesktopServices, QHideEvent, QPixmap, QResizeEvent, QShowEvent
 from PySide6.QtWidgets import QLabel, QPushButton, QScrollArea, QSplitter, QStackedWidget, QWidget
 
-from faults.files import whole_file
+from faults.files import whole_file, write_whole
 from nep_core.errors import NepError, RecordingError
 from nep_core.wire.messages import IMU
 from nep_studio.run.plan import VIRTUAL_WATCH, PlannedNode
@@ -21,7 +21,7 @@ from nep_studio.ui.messages import Answer, Messages
 from nep_studio.ui.network_feed import NetworkFeed
 from nep_studio.ui.running.runner import Runner
 from nep_studio.ui.theme.look import Look
-from nep_studio.ui.widgets.forms import hint
+from nep_studio.ui.widgets.forms import hint, plain_label
 from nep_studio.ui.widgets.layouts import in_column, in_row
 from nep_studio.ui.widgets.questions import ask_for_path
 from nep_studio.ui.words import count_words, tr
@@ -72,10 +72,15 @@ def export_picture(path: Path, widget: QWidget) -> list[Path]:
     pixmap = QPixmap(widget.size() * ratio)
     pixmap.setDevicePixelRatio(ratio)
     widget.render(pixmap, QPoint())
-    if not pixmap.save(str(path), "PNG"):
+    buffer = QBuffer()
+    buffer.open(QIODevice.OpenModeFlag.WriteOnly)
+    pixmap.save(buffer, "PNG")
+    try:
+        write_whole(path, bytes(buffer.data().data()))
+    except OSError as error:
         raise RecordingError(
             "The picture {path} cannot be written.", checklist=MAY_WRITE, path=path
-        )
+        ) from error
     return [path]
 
 
@@ -129,7 +134,7 @@ class EmptyPage(QScrollArea):
         super().__init__()
         self.setWidgetResizable(True)
         inside, middle = QWidget(), Qt.AlignmentFlag.AlignCenter
-        title = QLabel(wordWrap=True, alignment=middle)
+        title = plain_label(alignment=middle)
         labelled(title, text="What sensors measure is drawn here as curves.")
         title.setProperty("role", "heading")
         told = hint(

@@ -39,7 +39,7 @@ from nep_studio.support.startup import Place, StartupFile, startup_files
 from nep_studio.ui.messages import announce
 from nep_studio.ui.theme.icons import icon
 from nep_studio.ui.theme.look import code_font
-from nep_studio.ui.widgets.forms import ElidedLabel, screen_around, styled
+from nep_studio.ui.widgets.forms import ElidedLabel, plain_label, screen_around, styled
 from nep_studio.ui.widgets.layouts import InLines, in_column, in_row
 from nep_studio.ui.words import count_words, tr
 
@@ -364,7 +364,7 @@ class StartupDialog(QDialog):
         self.runs_at_once = QCheckBox(tr("Run at once, without anybody pressing Run"))
         self.runs_at_once.setChecked(True)
         self.has_cues = QCheckBox(tr("With the cue buttons, for an operator"))
-        self.state = QLabel(wordWrap=True)
+        self.state = plain_label()
         self.text = QPlainTextEdit(readOnly=True, lineWrapMode=QPlainTextEdit.LineWrapMode.NoWrap)
         self.text.setAccessibleName(tr("What is written, and where"))
         self.text.setFont(code_font(self.font().pointSizeF()))

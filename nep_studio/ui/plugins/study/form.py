@@ -37,7 +37,7 @@ from nep_studio.study.records import (
     summarize,
 )
 from nep_studio.ui.theme.look import Look
-from nep_studio.ui.widgets.forms import fit_on_screen, hint, styled
+from nep_studio.ui.widgets.forms import fit_on_screen, hint, plain_label, styled
 from nep_studio.ui.widgets.layouts import in_column, in_row
 from nep_studio.ui.words import count_words, tr
 
@@ -283,7 +283,7 @@ class ItemRow(QFrame):
         super().__init__()
         words = form.items[number]
         told = tr("{number}. {item}", number=number + 1, item=words)
-        self.label = styled(QLabel(told, wordWrap=True), role="heading")
+        self.label = styled(plain_label(told), role="heading")
         self.clear_button = styled(QPushButton(tr("Leave open")), kind="quiet")
         self.clear_button.setAccessibleDescription(words)
         self.buttons = [OptionButton(option, look) for option in form.options]
@@ -372,7 +372,7 @@ class QuestionnaireDialog(QDialog):
         self.participant_fields = ParticipantFields(folder, may_change_conditions=False)
         self.which = _questionnaires(folder.replies())
         self.rows: list[ItemRow] = []
-        self.note = QLabel(wordWrap=True)
+        self.note = plain_label()
         self.save_button = styled(QPushButton(tr("Save the answers"), default=True), kind="primary")
         self.cancel_button = QPushButton(tr("Cancel"))
         self.area = QScrollArea(widgetResizable=True)

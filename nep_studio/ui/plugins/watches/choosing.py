@@ -23,9 +23,17 @@ from PySide6.QtWidgets import (
 )
 
 from nep_studio.run.plan import Setting
+from nep_studio.ui.labels import plain_tip
 from nep_studio.ui.theme.icons import icon
 from nep_studio.ui.theme.look import Look
-from nep_studio.ui.widgets.forms import column_in, hint, label_of, labelled, plain_tip, quiet_button
+from nep_studio.ui.widgets.forms import (
+    column_in,
+    hint,
+    label_of,
+    labelled,
+    plain_label,
+    quiet_button,
+)
 from nep_studio.ui.widgets.layouts import Flow, in_column, in_row
 from nep_studio.ui.widgets.questions import ask_for_path
 from nep_studio.ui.words import is_right_to_left, tr
@@ -269,7 +277,7 @@ class OfferCard(QPushButton):
         wide, high = line * 2 // 3, line // 2
         self._look = look
         self._pictures: list[tuple[QLabel, str, int]] = []
-        title, sentence = QLabel(offer.title, wordWrap=True), QLabel(offer.sentence, wordWrap=True)
+        title, sentence = plain_label(offer.title), plain_label(offer.sentence)
         title.setProperty("role", "heading")
         sentence.setProperty("role", "hint")
         for label in (title, sentence):
@@ -381,7 +389,7 @@ class RecordingQuestion(QWidget):
         self.redraw()
         line = self.fontMetrics().height()
         self.button.setIconSize(QSize(line, line))
-        self.name = QLabel(wordWrap=True)
+        self.name = plain_label()
         self.repeats = QCheckBox(tr("Play it again and again"))
         self.repeats.setChecked(True)
         button = (self.button, 0, Qt.AlignmentFlag.AlignLeading)

@@ -14,7 +14,7 @@ from nep_core.errors import NepError
 from nep_studio.blocks.operations.fixes import WATCH
 from nep_studio.run.plan import REPLAY, VIRTUAL_WATCH
 from nep_studio.ui.theme.look import Look
-from nep_studio.ui.widgets.forms import UNKNOWN, CopyLine
+from nep_studio.ui.widgets.forms import UNKNOWN, CopyLine, plain_label
 from nep_studio.ui.widgets.layouts import InLines, in_column
 from nep_studio.ui.words import tr
 
@@ -303,7 +303,7 @@ class StepsList(QWidget):
             if len(steps) > 1:
                 badge = StepNumber(number + 1, look)
                 grid.addWidget(badge, number, 0, Qt.AlignmentFlag.AlignTop)
-            label = QLabel(wordWrap=True)
+            label = plain_label()
             is_address = step.copied.startswith("http") or "." in step.copied
             words = tr("Copy the address") if is_address else tr("Copy")
             is_long = len(step.copied) > MOST_LETTERS

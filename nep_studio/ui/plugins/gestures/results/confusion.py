@@ -29,7 +29,7 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from nep_studio.ui.labels import follow_words, labelled
+from nep_studio.ui.labels import follow_words, labelled, plain_tip
 from nep_studio.ui.theme.colours import mixed
 from nep_studio.ui.theme.look import Look
 from nep_studio.ui.words import tr
@@ -90,8 +90,10 @@ class Confusion(QAbstractTableModel):
         match role:
             case Qt.ItemDataRole.DisplayRole:
                 return self._number(index)
-            case Qt.ItemDataRole.ToolTipRole | Qt.ItemDataRole.AccessibleTextRole:
+            case Qt.ItemDataRole.AccessibleTextRole:
                 return self.sentence(index)
+            case Qt.ItemDataRole.ToolTipRole:
+                return plain_tip(self.sentence(index))
             case Qt.ItemDataRole.TextAlignmentRole:
                 return Qt.AlignmentFlag.AlignCenter
             case _ if role == SHARE:
@@ -110,9 +112,9 @@ class Confusion(QAbstractTableModel):
             case Qt.ItemDataRole.DisplayRole:
                 return title
             case Qt.ItemDataRole.ToolTipRole if orientation == Qt.Orientation.Horizontal:
-                return tr("Recognised: {gesture}", gesture=title)
+                return plain_tip(tr("Recognised: {gesture}", gesture=title))
             case Qt.ItemDataRole.ToolTipRole:
-                return tr("Made: {gesture}", gesture=title)
+                return plain_tip(tr("Made: {gesture}", gesture=title))
         return None
 
     def sentence(self, index: Index) -> str:

@@ -6,7 +6,7 @@ import math
 
 from PySide6.QtCore import QLineF, QPointF, QRectF, QSignalBlocker, QSize, Qt, QTimer, Signal
 from PySide6.QtGui import QMouseEvent, QPainter, QPaintEvent, QPen, QPolygonF
-from PySide6.QtWidgets import QLabel, QPushButton, QSizePolicy, QSlider, QWidget
+from PySide6.QtWidgets import QPushButton, QSizePolicy, QSlider, QWidget
 
 from faults import text_of
 from nep_studio.blocks.own_gestures import TRIGGER
@@ -14,6 +14,7 @@ from nep_studio.ui.labels import follow_words, labelled
 from nep_studio.ui.theme.colours import HIGH_CONTRAST, Theme
 from nep_studio.ui.theme.look import Look
 from nep_studio.ui.widgets.choices import Choices
+from nep_studio.ui.widgets.forms import plain_label
 from nep_studio.ui.widgets.layouts import InLines, in_column, in_row
 from nep_studio.ui.words import count_words, tr
 
@@ -203,7 +204,7 @@ class PointPanel(QWidget):
         self.gesture.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Fixed)
         self.curve = PointCurve(look)
         self.slider = PointSlider(tuning)
-        self.sentence = QLabel(wordWrap=True)
+        self.sentence = plain_label()
         self.reset = labelled(
             QPushButton(),
             text="Usual",
