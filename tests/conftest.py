@@ -32,7 +32,7 @@ PROJECT = Path(__file__).resolve().parent.parent
 Case = TypeVar("Case")
 
 PART_IN_CI = 3
-"""Of cases without number that are alike, one in so many is tried where a machine checks a change."""
+"""Of cases without number that are alike, CI tries one in so many."""
 
 
 def pytest_configure() -> None:
