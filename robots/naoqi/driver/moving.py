@@ -556,7 +556,7 @@ def _place(robot: RealRobot) -> Calling:
 
 
 def while_fit(robot: RealRobot, task: Task) -> Task:
-    """Do a task as long as the robot is fit to walk. Raises ActionFailed when it is not any more."""
+    """Do a task as long as the robot is fit to walk, else raise ActionFailed."""
     try:
         while not is_over(task):
             yield

@@ -157,6 +157,7 @@ def test_a_motor_that_gets_hot_on_the_way_ends_the_walk_and_rest_is_offered(
 
 
 def test_a_free_walk_ends_when_a_motor_gets_hot(stage: DriverStage, nao: ScriptedNao) -> None:
+    nao.holds = {"moveTo"}
     stage.ask("walk", "walk_freely", forward=1.0)
     stage.until(lambda: nao.times("moveTo"))
 

@@ -232,7 +232,7 @@ def master_notice(event: str, sentence: Words) -> Notice:
 def _stopped(status: NodeStatus, at: Circumstances) -> Notice | None:
     name = status.name
     if status.fault.code == ROBOT_LEFT_ON:
-        title = tr("{name}’s motors are still on", name=name)
+        title = tr("{name}: its motors are still on", name=name)
         problem = Problem(title, status.fault.sentence, status.fault.checklist)
         return Notice(name, ROBOT_LEFT_ON, "warning", problem)
     if at.is_ending or at.is_program or not at.is_ours:
