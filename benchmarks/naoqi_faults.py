@@ -53,11 +53,13 @@ class Pilot:
         self.driver = NaoqiDriver(robot, f"127.0.0.1:{port}")
         self.actor = Actor("NAO", self.driver)
         self.results: list[ActionResult] = []
+        self._asked = 0
         self.driver.connect()
 
     def ask(self, action: str, **args: Any) -> None:
         """Ask the robot for something."""
-        request = ActionRequest(id=action, robots=["NAO"], action=action, args=args)
+        self._asked += 1
+        request = ActionRequest(id=str(self._asked), robots=["NAO"], action=action, args=args)
         self.results += self.actor.request(request)
 
     def until(self, is_so: Callable[[], bool]) -> float:
@@ -129,12 +131,12 @@ def _told_s(port: int) -> float:
 
 
 def _wrong_password() -> float:
-    with _robot("--login", "nao:right") as (port, _):
+    with virtual_nao("--login", "nao:right") as (port, _):
         return _told_s(port)
 
 
 def _vanishes(how: signal.Signals) -> float:
-    with _robot() as (port, pid):
+    with virtual_nao() as (port, pid):
         pilot = _walking(port)
         os.kill(pid, how)
         seconds = pilot.until(lambda: pilot.is_told("disconnected", "connection_failed"))
@@ -144,7 +146,7 @@ def _vanishes(how: signal.Signals) -> float:
 
 def _stop_s() -> float:
     """From Stop to the last movement that the robot itself tells of."""
-    with _robot() as (port, _):
+    with virtual_nao() as (port, _):
         pilot = _walking(port)
         start_s = time.monotonic()
         pilot.ask("stop")
@@ -174,11 +176,11 @@ def _walking(port: int) -> Pilot:
 
 
 @contextlib.contextmanager
-def _robot(*words: str) -> Iterator[tuple[int, int]]:
+def virtual_nao(*words: str) -> Iterator[tuple[int, int]]:
     """A virtual NAO behind NAOqi; gives its port, and the process that has the port."""
-    port = _free_port()
+    port = free_port()
     command = [sys.executable, "-m", "nep_studio", "naoqi", "--port", str(port), *words]
-    environment = os.environ | {"NEP_MASTER": f"tcp://127.0.0.1:{_free_port()}"}
+    environment = os.environ | {"NEP_MASTER": f"tcp://127.0.0.1:{free_port()}"}
     child = subprocess.Popen(
         command, env=environment, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL
     )
@@ -205,7 +207,7 @@ def _owner(family: psutil.Process, port: int) -> int:
     raise TimeoutError("the robot does not come up")
 
 
-def _free_port() -> int:
+def free_port() -> int:
     with socket.create_server(("127.0.0.1", 0)) as taken:
         return int(taken.getsockname()[1])
 

@@ -76,6 +76,11 @@ class Walk:
     stops: Angles
     step_s: float
 
+    @property
+    def landed_s(self) -> float:
+        """When the last foot is down: from then on both stay where they are."""
+        return LEAVING_S + self.step_s * (len(self.stops) - BOTH_FEET_PART)
+
 
 @dataclass(frozen=True)
 class _Feet:
@@ -291,6 +296,8 @@ SIDES = {"L": 1.0, "R": -1.0}
 SOLE_DOWN_M = 0.04511
 BESIDE_M = 0.005
 """Feet that are so near to where they belong need not be lifted."""
+LIFTED_M = 0.003
+"""A foot that is higher above the floor does not carry the robot."""
 
 
 @dataclass(frozen=True)
@@ -342,17 +349,18 @@ def _planned(
     feet_middle = lean @ skeleton.feet_middle(skeleton.transforms(standing))
     goal = np.array([*base[:2], SOLE_DOWN_M]) - turned(float(base[2])) @ feet_middle
     torso = stance.place + part[:, None] * (goal - stance.place)
-    ankles, yaws = {}, {}
+    ankles, yaws, highest_m = {}, {}, 0.0
     for side, sign in SIDES.items():
         aside_m = sign * leg_sizes(robot.body).hip_left
         places, yaws[side] = _way(feet[side], base, aside_m, part)
+        highest_m = max(highest_m, float(places[:, 2].max()) - SOLE_DOWN_M)
         level = _turned(-yaw, (places - torso)[:, :2])
         ankles[side] = np.column_stack([level, (places - torso)[:, 2]]) @ lean
     angles = np.repeat(standing[None, :], len(part), axis=0)
     write_legs(robot.body, angles, ankles, lean[2], yaws["L"] - yaws["R"])
     angles += (1.0 - part)[:, None] * (robot.angles - angles[0])
     guides = [
-        Carried(turned(float(turn)) @ lean, float(x), float(y))
+        Carried(turned(float(turn)) @ lean, float(x), float(y), stands=highest_m < LIFTED_M)
         for turn, (x, y, _) in zip(yaw, torso, strict=True)
     ]
     return robot.body.clamped(angles)[0], guides
@@ -471,10 +479,24 @@ class _Going:
         robot.angles[list(plan.legs.columns)] = plan.legs.angles[tick] + missing * self._bent
         x, y, yaw = moved_base(self._start, plan.torso[tick])
         x, y = (x, y) + missing * self._beside
-        robot.stance.guide = Carried(turned(float(yaw)) @ plan.lean, float(x), float(y))
+        turn = turned(float(yaw)) @ plan.lean
+        stands = tick * TICK_S >= plan.landed_s
+        robot.stance.guide = Carried(turn, float(x), float(y), stands=stands)
         robot.base = moved_base(self._start, plan.base[tick])
         self._tick += 1
         return True
+
+    @property
+    def next_base(self) -> Angles:
+        """Where the base is after the step under way, from which another way would be gone."""
+        plan = self._plan
+        if plan is None:
+            return self._robot.base
+        return moved_base(self._start, plan.stops[min(self._begun(plan) + 1, len(plan.stops) - 1)])
+
+    def _begun(self, plan: Walk) -> int:
+        """Return which step is under way, -1 before the first."""
+        return max(math.floor((self._tick * TICK_S - LEAVING_S) / plan.step_s), -1)
 
     def replace(self, way: Angles) -> bool:
         """Go ``way`` from where the step under way ends, instead of what was left to go.
@@ -486,13 +508,13 @@ class _Going:
         if plan is None:
             self.way = way
             return True
-        begun = math.floor((self._tick * TICK_S - LEAVING_S) / plan.step_s)
+        begun = self._begun(plan)
         if begun >= len(plan.stops) - 1 or _steps(way) > QUICKLY_PLANNED_STEPS:
             return False
         # Steps that are over are left out, a left and a right one, but for those still felt
         over = max(0, (begun - 2) // 2 * 2)
         fixed = np.array([_seen_from(plan.stops[over], one) for one in plan.stops[over:]])
-        fixed = fixed[: max(begun, -1) + 2 - over]
+        fixed = fixed[: begun + 2 - over]
         more = [moved_base(fixed[-1], one) for one in _even_stops(way)[1:]]
         standing = _standing(robot)
         angles, new = _walk(robot.body, standing, np.array([*fixed, *more]), plan.step_s)
@@ -524,8 +546,15 @@ def _seen_from(base: Angles, other: Angles) -> Angles:
 
 
 def is_stepping(robot: VirtualRobot) -> bool:
-    """Whether a walk carries the torso: a foot is in the air, or was, or will be in a moment."""
-    return isinstance(robot.stance.last_guide, Carried)
+    """Whether a walk carries the torso, and a foot is in the air, or will be."""
+    guide = robot.stance.last_guide
+    return isinstance(guide, Carried) and not guide.stands
+
+
+def comes_to_rest(robot: VirtualRobot) -> bool:
+    """Whether a walk still carries the torso, but both feet stand where they stay."""
+    guide = robot.stance.last_guide
+    return isinstance(guide, Carried) and guide.stands
 
 
 def _planned_walk(

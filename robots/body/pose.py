@@ -81,6 +81,10 @@ AT_START: dict[str, bool | float | str] = {
 class Going(Protocol):
     """A walk under way."""
 
+    @property
+    def next_base(self) -> Angles:
+        """Where the robot will be (x m, y m, theta rad) after what cannot be changed any more."""
+
     def replace(self, way: Angles) -> bool:
         """Go another way (m, m, rad) after the step under way; False when that cannot be."""
 

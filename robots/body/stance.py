@@ -40,11 +40,15 @@ class Leaning:
 
 @dataclass(frozen=True)
 class Carried:
-    """The torso is where a walk says: how it is turned, and x, y (m) on the floor."""
+    """The torso is where a walk says: how it is turned, and x, y (m) on the floor.
+
+    ``stands``: both feet are down and stay there, only the weight goes back between them.
+    """
 
     turn: Rotation
     x: float
     y: float
+    stands: bool = False
 
 
 PUSHED_RAD, PUSHED_S = 0.5, 0.1

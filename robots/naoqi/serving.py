@@ -14,7 +14,7 @@ from typing import Any
 
 from robots.body.actor import FINAL, Actor
 from robots.body.driver import ActionRequest, ActionResult, RobotState
-from robots.body.gait import is_stepping
+from robots.body.gait import comes_to_rest, is_stepping
 from robots.body.limbs import Limb
 from robots.body.pose import VirtualRobot
 from robots.body.schedule import Command
@@ -89,6 +89,12 @@ class ServedRobot:
         """Whether it walks, or ends the step with which a walk ends."""
         with self.lock:
             return is_stepping(self.robot) and self.state().moving
+
+    @property
+    def is_coming_to_rest(self) -> bool:
+        """Whether both feet stand where they stay after a walk, and the weight goes back."""
+        with self.lock:
+            return comes_to_rest(self.robot) and self.state().moving
 
     def stop_one(self, request_id: str) -> None:
         """End one request, at once."""

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import time
 from collections.abc import Collection
 from dataclasses import dataclass
 
@@ -18,10 +17,10 @@ from robots.body.motor_tasks import HOLDS, SIDES, check_release
 from robots.body.schedule import Task, is_over
 from robots.body.tasks import DOES_NOT_STAND, check_fit_to_walk
 from robots.errors import ActionFailed
-from robots.naoqi.wire.promise import Pending
 
 from .calls import Calling
 from .real import LIFE_OFF, RealRobot
+from .stepping import LEG_S, step_on
 
 # Keyframes as ALMotion.angleInterpolationBezier takes them, within limits and speeds.
 
@@ -377,15 +376,8 @@ LONGEST_LEG_M = 0.5
 """A longer way is walked in legs: without this driver the robot stands at the end of one."""
 STEP_LEG = (0.04, 0.03, 0.2)
 """How far a robot on feet walks freely at once (m, m, rad): one step of each kind."""
-RENEWED_S = 0.4
-"""So often that is asked for anew: a step takes 0.42 s, and who is late lets the robot stand."""
-AGAIN_S = 0.05
-"""One that stands is asked so soon after it has said so."""
-MOST_BEGUN = 20
-"""Robots may answer all of these when they stand, and keep a thread for each until then."""
 WHEEL_LEG = (0.12, 0.12, 0.4)
 """How far one on wheels drives freely at once."""
-LEG_S = 10.0
 OFF_M, OFF_PART = 0.08, 0.25
 LOOKING_SPEED, POINTING_SPEED = 0.3, 0.3
 NOUNS = {"face": "a face", "ball": "the red ball", "mark": "a mark", "sound": "a sound"}
@@ -445,34 +437,9 @@ def walk_freely(robot: RealRobot, action: a.WalkFreely) -> Task:
     longest = STEP_LEG if on_feet else WHEEL_LEG
     leg = [part * most for part, most in zip(parts, longest, strict=True)]
     if on_feet:
-        return (yield from _step_on(robot, leg))
+        return (yield from step_on(robot, leg))
     while True:
         yield from robot.call("ALMotion", "moveTo", *leg, limit_s=LEG_S, uses=robot.names(MOVING))
-
-
-def _step_on(robot: RealRobot, leg: list[float]) -> Task:
-    """Ask for the next leg before the last one has ended: NAOqi goes over to it in its steps.
-
-    Its documentation has this as an example: a second moveTo is seen from where the steps end that
-    cannot be changed any more, and takes the place of the others.
-    """
-    begun: list[Pending] = []
-    asked_s = -math.inf
-    try:
-        while True:
-            for pending in [one for one in begun if one.done]:
-                begun.remove(pending)
-                yield from robot.calls.answer_of(pending)
-            pause_s = RENEWED_S if begun else AGAIN_S
-            if time.monotonic() >= asked_s + pause_s and len(begun) < MOST_BEGUN:
-                asked_s = time.monotonic()
-                begun.append(robot.calls.begin("ALMotion", "moveTo", *leg))
-            if time.monotonic() > asked_s + LEG_S:
-                raise robot.calls.late("moveTo")
-            yield
-    finally:
-        if begun:
-            robot.calls.stop_walking()
 
 
 def look(robot: RealRobot, yaw: float, pitch: float) -> Task:

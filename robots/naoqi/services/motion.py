@@ -240,7 +240,7 @@ class ALMotion(Module):
         places = [(0.0, 0.0, 0.0), *_places(points)]
         if len(places) == 2 and self._goes_elsewhere(places[1]):
             promise = Promise(lambda: self._robot.stop(_is_walk))
-            self._robot.when(lambda: not self.move_is_active(), lambda: _settle(promise))
+            self._robot.when(self._has_come_to_rest, lambda: _settle(promise))
             return promise.future
         self._robot.stop(lambda command: self._is_own_walk(command) and command in self._waiting())
         ways = [("walk", _way(here, there)) for here, there in pairwise(places)]
@@ -260,10 +260,9 @@ class ALMotion(Module):
         with self._robot.lock:
             going = self._robot.robot.going
             is_going = any(map(self._is_own_walk, self._robot.actor.schedule.running))
-            is_one_way = self._along is None or self._along.done
             return (
                 is_going
-                and is_one_way
+                and not self._has_more_places
                 and going is not None
                 and going.replace(np.array(place, dtype=float))
             )
@@ -300,14 +299,33 @@ class ALMotion(Module):
     def wait_until_move_is_finished(self) -> Any:
         """Wait until it does not walk any more."""
         promise = Promise()
-        stop = self._robot.when(lambda: not self.move_is_active(), lambda: promise.set(None))
+        stop = self._robot.when(self._has_come_to_rest, lambda: promise.set(None))
         promise.on_cancel = lambda: promise.cancelled() if stop() else None
         return promise.future
 
     @method("moveIsActive::b()", "walkIsActive::b()")
     def move_is_active(self) -> bool:
-        """Return whether it walks: until it stands on both feet."""
-        return any(map(_is_walk, self._robot.commands())) or self._robot.is_stepping
+        """Return whether it walks: until both feet stand where they stay.
+
+        While the weight then goes back between them a walk may be ended in any way: NAOqi's own
+        stopMove ends one "at next double support".
+        """
+        with self._robot.lock:
+            walks = [command for command in self._robot.commands() if _is_walk(command)]
+            is_last = len(walks) == 1 and isinstance(walks[0].action, (Walk, Turn))
+            if is_last and self._robot.is_coming_to_rest and not self._has_more_places:
+                return False
+            return bool(walks) or self._robot.is_stepping
+
+    @property
+    def _has_more_places(self) -> bool:
+        return self._along is not None and not self._along.done
+
+    def _has_come_to_rest(self) -> bool:
+        """Whether a walk is over altogether: also the weight is back between both feet."""
+        with self._robot.lock:
+            guided = self._robot.is_stepping or self._robot.is_coming_to_rest
+            return not guided and not any(map(_is_walk, self._robot.commands()))
 
     @method("stopMove::b()", "stopWalk::b()")
     def stop_move(self) -> bool:
@@ -322,13 +340,21 @@ class ALMotion(Module):
         self._end_waiting()
         self._kill(_is_walk, legs=True)
 
-    @method("getRobotPosition::[f](b)", "getNextRobotPosition::[f]()")
-    def robot_position(self, use_sensors: bool = True) -> list[float]:
-        """Return where it is on the floor: x m, y m, theta rad from where it was switched on.
-
-        After the steps that it cannot change any more it will be here, too.
-        """
+    @method("getRobotPosition::[f](b)")
+    def robot_position(self, use_sensors: bool) -> list[float]:
+        """Return where it is on the floor: x m, y m, theta rad from where it was switched on."""
         return list(self._robot.state().base)
+
+    @method("getNextRobotPosition::[f]()")
+    def next_robot_position(self) -> list[float]:
+        """Return where it will be after the step under way, which it cannot change any more.
+
+        From there a ``moveTo`` in a walk is seen; a robot that does not walk is there already.
+        """
+        with self._robot.lock:
+            robot = self._robot.robot
+            next_base = robot.base if robot.going is None else robot.going.next_base
+            return [float(number) for number in next_base]
 
     @method("getRobotVelocity::[f]()")
     def robot_velocity(self) -> list[float]:

@@ -84,6 +84,24 @@ def test_every_walk_keeps_its_balance_its_limits_and_its_speed(
     assert BODY.clamped(steps.angles)[1] == []
 
 
+@pytest.mark.parametrize(("forward_m", "left_m", "turn"), WAYS)
+def test_a_walk_may_be_cut_off_once_both_feet_are_down_for_good(
+    forward_m: float, left_m: float, turn: float
+) -> None:
+    walk = plan_walk(BODY, STANDING, forward_m, left_m, turn)
+    steps, landed = Footprints(walk), math.ceil(walk.landed_s / TICK_S)
+
+    speed = np.gradient(steps.mass[:, :2], TICK_S, axis=0)
+    # Where a mass on stiff legs comes to rest, that has to be over the soles (capture point)
+    reached = steps.mass[:, :2] + speed * np.sqrt(steps.mass[:, 2:] / GRAVITY_M_S2)
+    for tick in range(landed, len(walk.base)):
+        soles = np.vstack([sole[tick] for sole in steps.soles.values()])
+        assert soles[:, 2].max() < 1e-3
+        assert inside_by(hull(soles[:, :2]), tuple(reached[tick])) > 0.03
+    assert 0.5 < TICK_S * (len(walk.base) - landed) < 0.65
+    assert walk.base[landed] == pytest.approx(walk.base[-1], abs=1e-3)
+
+
 def test_the_torso_sways_over_the_standing_foot() -> None:
     steps = Footprints(plan_walk(BODY, STANDING, 0.3, 0.0, 0.0))
 

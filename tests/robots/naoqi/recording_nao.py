@@ -44,11 +44,15 @@ class Call:
 
 @dataclass
 class RecordingNao:
-    """The robot and the line to it; ``calls`` is what has passed, the first first."""
+    """The robot and the line to it; ``calls`` is what has passed, the first first.
+
+    ``freezes_after``: the next call of that name is the last that the line passes on.
+    """
 
     speed: float = 1.0
     calls: list[Call] = field(default_factory=list)
     is_frozen: bool = False
+    freezes_after: str = ""
 
     def __post_init__(self) -> None:
         self.served = ServedNao(speed=self.speed)
@@ -61,6 +65,7 @@ class RecordingNao:
                     self._signatures[number, one.uid] = (f"{name}.{one.name}", one)
         self._server = socket.create_server(("127.0.0.1", 0))
         self._open: list[socket.socket] = []
+        self._is_last = False
         threading.Thread(target=self._accept, daemon=True).start()
 
     @property
@@ -136,6 +141,8 @@ class RecordingNao:
                     with contextlib.suppress(Exception):  # what is not read along is passed on
                         read(waiting, number, kind, flags, (service, action), payload)
                 other.sendall(words)
+                if self._is_last:
+                    self.is_frozen = True
         for end in (one, other):
             with contextlib.suppress(OSError):
                 end.shutdown(socket.SHUT_RDWR)
@@ -156,6 +163,7 @@ class RecordingNao:
         call = Call(name, tuple(values), time.monotonic())
         waiting[number] = (call, signature)
         self.calls.append(call)
+        self._is_last = self._is_last or name == self.freezes_after
 
     def _on_answer(
         self,

@@ -23,14 +23,18 @@ What is true of it:
 - A call that waits on a real robot waits here, until the movement, the words or the light has
   ended; it holds no thread. Who gives up (`future.cancel()`) stops the robot; `killAll`,
   `stopMove`, `stopAll` reach it within 200 ms. Movements of one limb come one after the other.
-- `stopMove` ends a walk after the step under way, and `moveIsActive` is true until it stands. A
-  walk that is killed (`killMove`, `killAll`, `killTask`, `killTasksUsingResources` with a leg), or
-  the step that ends it, throws the robot over, as NAOqi's documentation warns: it lies,
-  `robotHasFallen` is raised, its motors let go until `wakeUp` or a posture. `moveToward` goes on
-  when the program is gone, as on a NAO.
+- `stopMove` ends a walk after the step under way, and `moveIsActive` is true until both feet stand
+  where they stay. A walk that is killed before that (`killMove`, `killAll`, `killTask`,
+  `killTasksUsingResources` with a leg), or the step that ends it, throws the robot over, as NAOqi's
+  documentation warns: it lies, `robotHasFallen` is raised, its motors let go until `wakeUp` or a
+  posture. Who waits for the end of a walk waits 0.6 s longer, until the weight is back between both
+  feet. NAOqi's stopMove ends a walk "at next double support"; it does not say what its
+  `moveIsActive` tells in the one with which a walk ends. `moveToward` goes on when the program is
+  gone, as on a NAO.
 - A `moveTo` in a walk to another place takes that one's place, as NAOqi's own example shows: it is
-  seen from where the step under way ends, and the robot does not stand in between. All who wait are
-  answered when the robot stands; NAOqi does not say when it answers the first.
+  seen from where the step under way ends (`getNextRobotPosition`), and the robot does not stand in
+  between. A NAO looks 0.8 s ahead, which may be more than a step. All who wait are answered when
+  the robot stands; NAOqi does not say when it answers the first.
 - Joints keep to their limits, and to their speeds: keys that are too fast are played slower, where
   NAOqi may cut them. A joint whose stiffness is 0 does not move, and nobody is told, as on a NAO.
 - What cannot be done is refused in a sentence; its words are ours, not NAOqi's.

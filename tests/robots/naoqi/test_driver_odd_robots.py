@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import threading
+import time
 from collections.abc import Iterator
 from typing import Any
 
@@ -15,6 +17,7 @@ from robots.naoqi.wire.promise import Promise
 from robots.naoqi.wire.service import method
 
 NAN = float("nan")
+LEG_S = 0.6
 ASKED: dict[str, dict[str, Any]] = {
     "look": {"yaw_deg": 20},
     "move_joint": {"joint": "HeadYaw", "degrees": 5, "relative": True},
@@ -51,6 +54,54 @@ class SilentNao(HeldNao):
     @method("say::v(s)")
     def say(self, text: str) -> Any:
         return Promise().future
+
+
+class StridingNao(HeldNao):
+    """Walks, a leg in LEG_S; the next one takes its place, and whoever asked before is answered."""
+
+    posture = "Stand"
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.asked_s: list[float] = []
+        self._walking: list[Promise] = []
+
+    @method("getPosture::s()")
+    def where(self) -> str:
+        return "Stand"
+
+    @method("moveTo::b(fff)")
+    def move_to(self, x: float, y: float, theta: float) -> Any:
+        before, self._walking = self._walking, [Promise()]
+        self.asked_s.append(time.monotonic())
+        for one in before:
+            one.set(True)
+        threading.Timer(LEG_S, self._walking[0].set, (True,)).start()
+        return self._walking[0].future
+
+
+class NowhereNao(StridingNao):
+    """Will always be at the same place."""
+
+    @method("getNextRobotPosition::[f]()")
+    def next_place(self) -> list[float]:
+        return [0.0, 0.0, 0.0]
+
+
+class VagueNao(StridingNao):
+    """Says something else than where it will be."""
+
+    @method("getNextRobotPosition::m()")
+    def next_place(self) -> Any:
+        return "over there"
+
+
+class SlidingNao(StridingNao):
+    """Will be somewhere else whenever it is asked."""
+
+    @method("getNextRobotPosition::[f]()")
+    def next_place(self) -> list[float]:
+        return [time.monotonic() % 1000.0, 0.0, 0.0]
 
 
 @pytest.fixture
@@ -97,3 +148,19 @@ def test_what_waits_for_its_turn_fails_too_when_the_robot_is_gone(stage_of) -> N
     assert [end.state for end in ends] == ["failed"] * 3
     assert {end.description for end in ends} == {str(stage.driver.connection.fault)}
     assert not stage.actor.schedule.running
+
+
+@pytest.mark.parametrize("kind", [StridingNao, NowhereNao, VagueNao, SlidingNao])
+def test_a_robot_that_does_not_tell_of_its_steps_walks_on_without_standing(
+    stage_of, kind: type[StridingNao]
+) -> None:
+    nao = kind()
+    stage, _ = stage_of(nao)
+
+    stage.ask("walk", "walk_freely", forward=1.0)
+    stage.until(lambda: len(nao.asked_s) > 4)
+    stage.ask("stop", "stop")
+
+    pauses_s = np.diff(nao.asked_s)
+    assert min(pauses_s[1:]) > 0.15 and np.median(pauses_s[1:]) < LEG_S
+    assert "walk cancelled" in stage.told and "stopMove" in nao.stopped

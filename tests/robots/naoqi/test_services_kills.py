@@ -137,6 +137,25 @@ def test_a_kill_in_the_step_that_ends_a_walk_lets_it_fall_too(real_time: NaoqiTh
     real_time.until(lambda: lies(real_time))
 
 
+@pytest.mark.parametrize("kill", ["killAll", "killMove"])
+def test_a_kill_harms_nobody_once_both_feet_stand_for_good(
+    real_time: NaoqiTheatre, kill: str
+) -> None:
+    walk = real_time.service("ALMotion").begin("moveTo", 0.04, 0.0, 0.0)
+    real_time.until(lambda: real_time.call("ALMotion", "moveIsActive"))
+    real_time.until(lambda: not real_time.call("ALMotion", "moveIsActive"))
+    was_over = walk.done
+
+    real_time.call("ALMotion", kill)
+    is_active = real_time.call("ALMotion", "moveIsActive")
+    real_time.call("ALMotion", "waitUntilMoveIsFinished")
+    real_time.until(lambda: not real_time.state().moving)
+
+    assert not was_over and not is_active  # its weight was on the way back between the feet
+    assert not real_time.state().fallen
+    assert real_time.state().base == pytest.approx((0.04, 0.0, 0.0), abs=0.003)
+
+
 @pytest.mark.parametrize("end", ["stopMove", "move", "moveToward"])
 def test_the_gentle_ends_of_a_walk_let_it_stand(walking: NaoqiTheatre, end: str) -> None:
     walking.call("ALMotion", end, *(() if end == "stopMove" else (0.0, 0.0, 0.0)))

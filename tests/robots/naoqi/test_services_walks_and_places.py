@@ -56,6 +56,19 @@ def test_a_walk_whose_place_is_changed_again_and_again_does_not_stand_in_between
     assert motion.call("getRobotPosition", True)[0] - gone_m < 0.13
 
 
+def test_it_tells_where_it_will_be_after_the_step_that_it_cannot_change(
+    theatre: NaoqiTheatre,
+) -> None:
+    motion, told = theatre.service("ALMotion"), []
+    walking = motion.begin("moveTo", 0.2, 0.0, 0.0)
+    while not walking.done:
+        told.append((motion.call("getNextRobotPosition")[0], motion.call("getRobotPosition", True)))
+
+    steps = {round(next_m / 0.04, 3) for next_m, _ in told}
+    assert steps <= {0.0, 1.0, 2.0, 3.0, 4.0, 5.0} and len(steps) > 3
+    assert motion.call("getNextRobotPosition") == motion.call("getRobotPosition", False)
+
+
 def test_walking_on_lasts_until_it_is_stopped(theatre: NaoqiTheatre) -> None:
     theatre.call("ALMotion", "moveToward", 1.0, 0.0, 0.0)
     theatre.until(lambda: theatre.state().base[0] > 0.05)
