@@ -160,7 +160,7 @@ def test_a_child_outlives_the_thread_that_asked_for_it(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize(("grace_s", "last"), [(20.0, "bye\n"), (0.1, "")])
 def test_an_orphan_has_time_for_a_last_word_but_no_longer(grace_s: float, last: str) -> None:
-    end = "(time.sleep(1.0 - grace_s / 20.0), print('bye', flush=True), os._exit(0))"
+    end = "(time.sleep(2.0 / grace_s), print('bye', flush=True), os._exit(0))"
     child_code = f"import os, threading, time\ngrace_s = {grace_s}\n"
     child_code += "from nep_core.processes import lifeline\n"
     child_code += f"leave = threading.Thread(target=lambda: {end}, daemon=True)\n"
