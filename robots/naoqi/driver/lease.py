@@ -252,17 +252,17 @@ class Lease:
 
     def _claim(self) -> Task:
         """Wait until nobody has the lease, or take it; then have it."""
-        takes_over = self._takes_over  # once: of several who do so at once the last one has it
+        first = ""  # from whom alone it is taken: of several who do so at once the last one has it
         while True:
             settling_s = SETTLING_S
             told = yield from self._read()
             if told is not None and told.id != self._own.id:
                 self.has_followed = True
-                if takes_over:
+                first = first or told.id
+                if self._takes_over and told.id == first:
                     settling_s = TAKING_S
                 else:
                     yield from self._await_end_of(told)
-            takes_over = False
             yield from self._beat()
             if not self._keeps:
                 return ""

@@ -255,6 +255,18 @@ def test_of_two_who_take_a_robot_over_at_once_one_has_it(stages: Stages, nao: Sc
     assert len(have()) == 1
 
 
+def test_a_robot_is_taken_over_also_when_its_owner_beats_once_more(
+    stages: Stages, nao: ScriptedNao
+) -> None:
+    nao.data[lease.DRIVER_KEY] = owner = '{"id": "another", "name": "Anna", "host": "theirs"}'
+    stage = stages(takes_over=True)
+    stage.until(lambda: nao.times("write", lease.DRIVER_KEY))
+
+    nao.data[lease.DRIVER_KEY] = owner  # which it had read before that was written
+
+    stage.until(lambda: stage.event == "connected", at_most_s=10.0)
+
+
 def test_who_is_taken_over_ends_nothing_of_the_next_one(stages: Stages, nao: ScriptedNao) -> None:
     nao.holds = {"moveTo", "go"}
     first = stages()
