@@ -38,7 +38,8 @@ def run_node(manifest: Manifest, name: str, given: dict[str, Any]) -> int:
     run = _run_function(manifest)
     with Node(name, manifest.type) as node:
         node.stop_on_signals()
-        is_launched = lifeline.on_parent_end(node.stop)
+        # A robot that rests before its node ends is not let go when the launcher is killed either
+        is_launched = lifeline.on_parent_end(node.stop, grace_s=manifest.stop_s)
         try:
             run(node, **parameters)
         except FaultError as error:

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import atexit
 import contextlib
+import math
 import os
 import signal
 import sys
@@ -20,13 +21,14 @@ VARIABLE = "NEP_LIFELINE"
 """Set by the launcher: standard input is a life line."""
 
 GRACE_S = 2.0
-LATEST_S = 10
+LATER_S = 8
+"""So much later the system ends a process that does not end by itself."""
 ORPHANED = 70
 PR_SET_PDEATHSIG = 1
 
 
-def on_parent_end(stop: Callable[[], None]) -> bool:
-    """Call ``stop`` when the parent is gone, and end the process 2 s later at the latest.
+def on_parent_end(stop: Callable[[], None], *, grace_s: float = GRACE_S) -> bool:
+    """Call ``stop`` when the parent is gone, and end the process ``grace_s`` later at the latest.
 
     What it started ends with it. Returns False, and does nothing, in a process that the launcher
     did not start. To be called in the main thread.
@@ -47,10 +49,10 @@ def on_parent_end(stop: Callable[[], None]) -> bool:
         while os.read(line, 1):
             pass
         if sys.platform == "linux":
-            _put_off_alarm()
+            _put_off_alarm(grace_s)
         gone.set()
         stop()
-        time.sleep(GRACE_S)
+        time.sleep(grace_s)
         _end_all_when(gone)
         os._exit(ORPHANED)
 
@@ -79,7 +81,7 @@ def _set_alarm_for_parent_end() -> None:
     system.prctl(PR_SET_PDEATHSIG, signal.SIGQUIT)
 
 
-def _put_off_alarm() -> None:
+def _put_off_alarm(grace_s: float) -> None:
     """Python runs, and ends this process by itself: give it time, should the computer be busy.
 
     The life line ends a moment before the system sends its SIGQUIT, which is ignored from now on.
@@ -88,7 +90,7 @@ def _put_off_alarm() -> None:
 
     ignored = ctypes.c_void_p(1)  # SIG_IGN; Python's own call is for the main thread only
     ctypes.CDLL(None).signal(signal.SIGQUIT, ignored)
-    signal.alarm(LATEST_S)
+    signal.alarm(math.ceil(grace_s) + LATER_S)
 
 
 def _end_all_when(gone: threading.Event) -> None:

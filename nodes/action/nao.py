@@ -154,8 +154,8 @@ def run(
     offering.close()
     _send(results, actor.stop())
     link.disconnect()
-    if link.connection.fault.sentence:
-        report.send_news()
+    if link.connection.fault.sentence:  # how the robot is left
+        node.close("stopped", link.connection.fault)
 
 
 def _await_first_answer(node: Node, link: Driver) -> None:

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import contextlib
 import itertools
+import logging
 import threading
 from collections.abc import Callable, Iterable, Iterator
 from typing import Any
@@ -19,6 +20,8 @@ from robots.body.limbs import Limb
 from robots.body.pose import VirtualRobot
 from robots.body.schedule import Command
 from robots.naoqi.wire.errors import CallFailed
+
+log = logging.getLogger(__name__)
 
 OnEnd = Callable[[ActionResult], None]
 Condition = Callable[[], bool]
@@ -52,12 +55,7 @@ class ServedRobot:
         wait already.
         """
         with self.lock:
-            if len(self.actor.schedule.waiting) >= MOST_WAITING:
-                raise CallFailed(
-                    "{most} requests wait already. Wait for the end of some of them, or end all "
-                    "movements with ALMotion.killAll.",
-                    most=MOST_WAITING,
-                )
+            _check_room(len(self.actor.schedule.waiting))
             request_id = f"naoqi {self.name} {next(self._numbers)}"
             self._on_end[request_id] = on_end or (lambda result: None)
             request = ActionRequest(id=request_id, robots=[self.name], action=action, args=args)
@@ -112,10 +110,11 @@ class ServedRobot:
     def when(self, condition: Condition, call: Callable[[], None]) -> Callable[[], bool]:
         """Call something once, as soon as a condition holds; the return value ends the wait.
 
-        That says whether it was still waiting.
+        That says whether it was still waiting. Raises CallFailed when too many wait already.
         """
         awaited = (condition, call)
         with self.lock:
+            _check_room(len(self._awaited))
             self._awaited.append(awaited)
 
         def end() -> bool:
@@ -155,11 +154,15 @@ class ServedRobot:
         with self.lock:
             endings = self._sort(told)
             others, self._others = self._others, []
-            calls = [call for condition, call in self._awaited if condition()]
-            self._awaited = [one for one in self._awaited if one[1] not in calls]
+            is_due = [condition() for condition, _ in self._awaited]
+            calls = [call for (_, call), due in zip(self._awaited, is_due, strict=True) if due]
+            self._awaited = [one for one, due in zip(self._awaited, is_due, strict=True) if not due]
         _tell(endings)
         for call in calls:
-            call()
+            try:
+                call()
+            except CallFailed as refused:  # nobody is there any more who could be told
+                log.info("what was to follow could not begin: %s", refused)
         return others
 
     def _sort(self, told: Iterable[ActionResult]) -> list[Ending]:
@@ -171,6 +174,15 @@ class ServedRobot:
             elif result.state in FINAL:
                 endings.append((self._on_end.pop(result.id), result))
         return endings
+
+
+def _check_room(waiting: int) -> None:
+    if waiting >= MOST_WAITING:
+        raise CallFailed(
+            "{most} requests wait already. Wait for the end of some of them, or end all "
+            "movements with ALMotion.killAll.",
+            most=MOST_WAITING,
+        )
 
 
 def _tell(endings: list[Ending]) -> None:

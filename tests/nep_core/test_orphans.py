@@ -158,11 +158,13 @@ def test_a_child_outlives_the_thread_that_asked_for_it(tmp_path: Path) -> None:
     outcomes.get(timeout=5)
 
 
-def test_an_orphan_has_time_for_a_last_word(tmp_path: Path) -> None:
-    end = "lambda: (print('bye', flush=True), os._exit(0))"
-    child_code = (
-        f"import os, time\nfrom nep_core.processes import lifeline\nlifeline.on_parent_end({end})\n"
-    )
+@pytest.mark.parametrize(("grace_s", "last"), [(20.0, "bye\n"), (0.1, "")])
+def test_an_orphan_has_time_for_a_last_word_but_no_longer(grace_s: float, last: str) -> None:
+    end = "(time.sleep(2.0 / grace_s), print('bye', flush=True), os._exit(0))"
+    child_code = f"import os, threading, time\ngrace_s = {grace_s}\n"
+    child_code += "from nep_core.processes import lifeline\n"
+    child_code += f"leave = threading.Thread(target=lambda: {end}, daemon=True)\n"
+    child_code += "lifeline.on_parent_end(leave.start, grace_s=grace_s)\n"
     child_code += "print(os.getpid(), flush=True)\ntime.sleep(60)"
     code = "import subprocess as s, sys\n"
     code += f"s.Popen([sys.executable, '-c', {child_code!r}], stdin=s.PIPE).wait()"
@@ -175,7 +177,7 @@ def test_an_orphan_has_time_for_a_last_word(tmp_path: Path) -> None:
 
         parent.kill()
 
-        assert parent.stdout.readline() == "bye\n"
+        assert parent.stdout.readline() == last
         assert not psutil.wait_procs([child], timeout=GONE_S)[1]
 
 

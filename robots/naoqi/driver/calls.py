@@ -11,7 +11,7 @@ from __future__ import annotations
 import contextlib
 import logging
 import time
-from collections.abc import Collection, Generator, Mapping
+from collections.abc import Callable, Collection, Generator, Mapping
 from typing import Any
 
 from robots.body.schedule import Task, is_over
@@ -33,6 +33,8 @@ STANDING_S = 2.0
 """By then a robot that was told to stop walking stands."""
 LOOKING_S = 0.03
 """So often it is asked whether it stands."""
+STOP_AGAIN_S = 0.6
+"""One that still walks by then may have been told to walk and to stop in another order."""
 
 STOPS: dict[str, tuple[tuple[str, str], ...]] = {
     "ALTextToSpeech": (("ALTextToSpeech", "stopAll"),),
@@ -41,6 +43,8 @@ STOPS: dict[str, tuple[tuple[str, str], ...]] = {
 }
 """What ends a call of each service that has not ended by itself."""
 WALKS = frozenset({"moveTo", "moveToward", "move"})
+STANDS = ("stopMove", "stopWalk")
+"""What lets a robot that walks stand, in NAOqi's newer and older words."""
 FINISHED = frozenset({"wakeUp", "rest"})
 """What is not left half way: a robot that stands up or goes down would fall over."""
 ACTIVE = ("moveIsActive", "walkIsActive")
@@ -68,8 +72,9 @@ class Calls:
         self._to_kill: set[str] = set()
         self._ends_posture = False
         self._stand_until_s = 0.0
-        self._end_until_s = float("inf")
+        self._is_let_go = False
         self._finishing: list[Task] = []
+        self._walking: list[Pending] = []
 
     def has(self, service: str, method: str = "") -> bool:
         """Whether the robot has a service, with a method of that name."""
@@ -86,9 +91,12 @@ class Calls:
                 method=method,
             )
         try:
-            return self._services[service].begin(method, *args)
+            pending = self._services[service].begin(method, *args)
         except NaoqiError as problem:
             raise ActionFailed(problem.sentence) from problem
+        if method in WALKS:
+            self._walking = [one for one in self._walking if not one.done] + [pending]
+        return pending
 
     def tell(self, service: str, method: str, *args: Any) -> None:
         """Begin a call whose answer nobody wants, if the robot has such a thing."""
@@ -147,7 +155,7 @@ class Calls:
 
     def stop_walking(self) -> None:
         """Let the robot stop at the end of its step."""
-        self._stop("ALMotion", "stopMove")
+        self._stand()
         self._stand_until_s = time.monotonic() + STANDING_S
         self._halting = self._halting or self._halt()
 
@@ -166,8 +174,8 @@ class Calls:
                 self.stop(self._joints)
 
     def let_go(self) -> None:
-        """Somebody else drives the robot now: end nothing any more, but what can end at once."""
-        self._end_until_s = time.monotonic() + STOPPED_S
+        """Somebody else drives the robot now: kill nothing any more, it may be theirs."""
+        self._is_let_go = True
 
     def finished(self, task: Task) -> Task:
         """Run a task that goes on to its end also when it is stopped meanwhile."""
@@ -220,11 +228,15 @@ class Calls:
             time.sleep(0.005)
         task.close()
 
-    def wait_for_stops(self, limit_s: float) -> None:
-        """Wait a while until what was stopped has stopped: before the link is given up."""
+    def wait_for_stops(self, limit_s: float, meanwhile: Callable[[], object]) -> None:
+        """Wait a while until what was stopped has stopped: before the link is given up.
+
+        ``meanwhile`` is done again and again.
+        """
         end_s = time.monotonic() + limit_s
         while time.monotonic() < end_s and self.is_stopping:
             self.step()
+            meanwhile()
             time.sleep(0.005)
         end_s = min(end_s, time.monotonic() + STOPPED_S)
         while time.monotonic() < end_s and not all(pending.done for pending in self._stops):
@@ -232,12 +244,16 @@ class Calls:
 
     def _halt(self) -> Task:
         """Wait until the robot stands if its walk was stopped, then end what else moves it."""
+        told_s = time.monotonic()
         while self._to_kill or time.monotonic() < self._stand_until_s:
             walks = yield from self._walks()
-            if time.monotonic() > self._end_until_s:
+            if self._is_let_go:
                 self._to_kill.clear()
                 return ""
             if walks and time.monotonic() < self._stand_until_s:
+                if time.monotonic() > told_s + STOP_AGAIN_S:
+                    told_s = time.monotonic()
+                    self._stand()
                 yield from waited(LOOKING_S)
                 continue
             self._stand_until_s = 0.0
@@ -250,18 +266,22 @@ class Calls:
         return ""
 
     def _walks(self) -> Generator[None, None, bool]:
-        """Ask whether the robot walks; one that does not say is taken for walking."""
+        """Ask whether the robot walks; one that does not say is taken for walking.
+
+        So is one that has not answered yet to be told to walk: it may be about to begin.
+        """
         method = next((one for one in ACTIVE if self.has("ALMotion", one)), "")
         if not method:
             return self.has("ALMotion", "moveTo")
         try:
-            return bool((yield from self.call("ALMotion", method, limit_s=STANDING_S)))
+            walks = bool((yield from self.call("ALMotion", method, limit_s=STANDING_S)))
         except ActionFailed:
             return True
+        return walks or not all(pending.done for pending in self._walking)
 
     def _kill(self, joints: set[str], *, walks: bool) -> Task:
-        """End what moves some joints; while the robot walks, only what moves no leg."""
-        if walks:
+        """End what moves some joints; while the robot walks or rises, only what moves no leg."""
+        if walks or self._finishing:
             yield from self._kill_tasks(joints - self._legs)
         elif self.has("ALMotion", "killTasksUsingResources"):
             self._stop("ALMotion", "killTasksUsingResources", sorted(joints))
@@ -282,6 +302,9 @@ class Calls:
         except (ActionFailed, TypeError, ValueError) as problem:
             log.info("what moves the arms could not be ended: %s", problem)
         return ""
+
+    def _stand(self) -> None:
+        self._stop("ALMotion", next((one for one in STANDS if self.has("ALMotion", one)), ""))
 
     def _stop(self, service: str, method: str, *args: Any) -> None:
         if self.has(service, method):

@@ -62,7 +62,7 @@ TASKS: dict[type[a.Action], Callable[[RealRobot, Any], Task]] = {
     a.Rest: lambda robot, _: moving.rest(robot),
     a.Awareness: moving.set_life,
     a.Breathing: moving.set_life,
-    a.WalkFreely: moving.walk_freely,
+    a.WalkFreely: lambda robot, it: moving.while_fit(robot, moving.walk_freely(robot, it)),
     a.LookAt: lambda robot, it: moving.look_at(robot, (it.x_m, it.y_m, it.z_m), it.frame),
     a.LookAtSeen: lambda robot, it: moving.look_at_seen(robot, it.thing),
     a.PointAt: moving.point_at,
@@ -141,11 +141,11 @@ class NaoqiDriver:
     def disconnect(self) -> None:
         """Stop what the robot does, leave it as it was found, and give it up."""
         self.stop(list(self._running))
-        is_mine = self._link.state == "ready" and self._lease.state == "held"
-        self._robot.calls.wait_for_stops(STOPPING_S)
-        if is_mine:
+        renew = self._ask_for_lease if self._has_lease else lambda: None
+        self._robot.calls.wait_for_stops(STOPPING_S, renew)
+        if self._has_lease:
             self._robot.calls.wait_for(self._lease.leave(), LEAVING_S)
-        left = self._lease.leaves_on if is_mine else False
+        left = self._has_lease and self._lease.leaves_on
         self._link.disconnect()
         if left:
             self._link.connection = Connection("disconnected", left_on(robot=self._robot.name))
@@ -174,9 +174,12 @@ class NaoqiDriver:
                 stopped.task.close()
 
     def halt(self) -> None:
-        """Stop motion, posture, speech and following, whoever began them; not a robot of others."""
-        if self._is_mine:
-            self._robot.calls.stop_all()
+        """Stop motion, posture, speech and following, whoever began them; not a robot of others.
+
+        Where that has not been asked for a moment, as on a slow line, all that can end gently ends.
+        """
+        if self._has_lease:
+            self._robot.calls.stop_all(kills=self._is_mine)
             self._robot.known.settings["tracking"] = ""
 
     def step(self, now_s: float) -> list[Ended]:
@@ -252,10 +255,14 @@ class NaoqiDriver:
         return self._link.state == "ready" and self._lease.is_held
 
     @property
+    def _has_lease(self) -> bool:
+        """Whether the robot is there, and was driven from here when that was asked last."""
+        return self._link.state == "ready" and self._lease.state == "held"
+
+    @property
     def _is_met(self) -> bool:
         """Whether the robot is there, is driven from here, and has told how it is."""
-        is_held = self._link.state == "ready" and self._lease.state == "held"
-        return is_held and self._watching.has_met
+        return self._has_lease and self._watching.has_met
 
     def _meet(self, known: VirtualRobot, services: Mapping[str, RemoteObject]) -> None:
         """Begin with what is true of a robot that was just met."""

@@ -23,7 +23,7 @@ from typing import Any, Literal
 import msgspec
 
 from faults import Fault, Text, fault_of
-from robots.body.schedule import Task
+from robots.body.schedule import Task, is_over
 from robots.errors import ActionFailed
 from robots.naoqi.wire.errors import CallFailed, NaoqiError
 
@@ -45,9 +45,14 @@ SURE_S = 2.0
 """Who has not read for so long that the lease is its own asks again before it acts."""
 SETTLING_S = 0.4
 """Of several that write a lease at once the last one has it: so long each waits before it looks."""
+TAKING_S = 1.2
+"""The same for one that takes a robot over: by then who drove it has read that, and ended all."""
 LONGEST_NAME = 60
 CANNOT_READ = (ValueError, TypeError, RecursionError, OverflowError)
 """What reading a robot's memory can raise: anybody may have written there."""
+
+USUAL_LIFE = "solitary"
+"""NAOqi's word for a robot that does by itself what it wants."""
 
 LeaseState = Literal["asking", "waiting", "held", "taken"]
 
@@ -136,6 +141,8 @@ class Lease:
         self._robot = robot
         self._own = own
         self._takes_over = takes_over
+        self._keeps = True
+        """Whether the robot's memory can be read and written: by it all is agreed."""
         self._read_s = 0.0
         self._task: Task | None = None if is_taken else self._run()
 
@@ -165,16 +172,23 @@ class Lease:
 
     def leave(self) -> Task:
         """Leave the robot as it was found, then let others have it."""
-        self._task = None
-        if self.state != "held":
-            return ""
+        with contextlib.suppress(ActionFailed, NaoqiError):
+            yield from self._look_who()
+        restoring = self._restore()
         try:
-            yield from self._restore()
+            while self.state == "held" and not is_over(restoring):
+                self.step()  # it is this driver's until it is as it was
+                yield
         except ActionFailed as problem:
             log.info("%s could not be left as it was found: %s", self._robot.name, problem)
+        finally:
+            restoring.close()
+        self._task = None
         with contextlib.suppress(ActionFailed, NaoqiError):
-            yield from self._write(FOUND_KEY, "")
-            yield from self._write(DRIVER_KEY, "")
+            yield from self._look_who()
+            if self.state == "held":
+                yield from self._write(FOUND_KEY, "")
+                yield from self._write(DRIVER_KEY, "")
         return ""
 
     @property
@@ -193,26 +207,35 @@ class Lease:
             yield from rest(robot)  # which switches its own life off
             now = yield from self._look()
         if now.life == LIFE_OFF and found.life not in ("", LIFE_OFF):
-            yield from robot.call("ALAutonomousLife", "setState", found.life, limit_s=WAKING_S)
+            yield from self._revive(found.life)
+        return ""
+
+    def _revive(self, life: str) -> Task:
+        """Let the robot live by itself, as it did; not from each state it may go to each other."""
+        for state in dict.fromkeys((life, USUAL_LIFE)):
+            try:
+                yield from self._robot.call("ALAutonomousLife", "setState", state, limit_s=WAKING_S)
+                return ""
+            except ActionFailed as problem:
+                log.info("%s does not become %s: %s", self._robot.name, state, problem)
         return ""
 
     def _run(self) -> Task:
         """Get the lease, and renew it until somebody else has it."""
         if not all(self._robot.calls.has(MEMORY, one) for one in ("getData", "insertData")):
-            self.state = "held"  # nothing can be agreed by this robot's memory
-            self.found = self.found or (yield from self._look())
-            while True:
-                self._read_s = time.monotonic()
-                yield
-        if self.state != "held":
+            self._keeps = False
+        if self.state != "held" and self._keeps:
             yield from self._claim()
-        self.found = yield from self._remember()
+        self.found = self.found or (yield from self._remember())
         self.other, self.state = None, "held"
+        return (yield from self._renew())
+
+    def _renew(self) -> Task:
+        """Show that this driver lives, until somebody else has the lease."""
         while True:
             asked_s = time.monotonic()
-            told = yield from self._read()
-            if told is not None and told.id != self._own.id:
-                self.other, self.state = told, "taken"
+            yield from self._look_who()
+            if self.state == "taken":
                 return ""
             if time.monotonic() - asked_s > SURE_S:
                 continue  # this process may have stood still: what was read is not true any more
@@ -220,16 +243,30 @@ class Lease:
             yield from self._beat()
             yield from waited(BEAT_S)
 
+    def _look_who(self) -> Task:
+        """See whether somebody else has taken the robot."""
+        told = (yield from self._read()) if self._keeps else None
+        if told is not None and told.id != self._own.id:
+            self.other, self.state = told, "taken"
+        return ""
+
     def _claim(self) -> Task:
         """Wait until nobody has the lease, or take it; then have it."""
+        first = ""  # from whom alone it is taken: of several who do so at once the last one has it
         while True:
+            settling_s = SETTLING_S
             told = yield from self._read()
             if told is not None and told.id != self._own.id:
                 self.has_followed = True
-                if not self._takes_over:
+                first = first or told.id
+                if self._takes_over and told.id == first:
+                    settling_s = TAKING_S
+                else:
                     yield from self._await_end_of(told)
             yield from self._beat()
-            yield from waited(SETTLING_S)
+            if not self._keeps:
+                return ""
+            yield from waited(settling_s)
             told = yield from self._read()
             if told is not None and told.id == self._own.id:
                 self._read_s = time.monotonic()
@@ -259,7 +296,7 @@ class Lease:
 
     def _remember(self) -> Generator[None, None, Found]:
         """Return how the robot was found: by us, or by who has not ended in good order."""
-        text = yield from self._data(FOUND_KEY)
+        text = (yield from self._data(FOUND_KEY)) if self._keeps else ""
         with contextlib.suppress(*CANNOT_READ):
             return msgspec.json.decode(text, type=Found)
         found = yield from self._look()
@@ -283,15 +320,24 @@ class Lease:
 
     def _data(self, key: str) -> Generator[None, None, Any]:
         """Return what is kept under a key, "" when there is none. Raises NaoqiError."""
-        pending = self._robot.calls.begin(MEMORY, "getData", key)
-        end_s = time.monotonic() + ANSWER_S
-        while not pending.done and time.monotonic() < end_s:
-            yield
         try:
-            return pending.result(0.0)
+            return (yield from self._asked("getData", key))
         except CallFailed:  # which is NAOqi's answer for a key that nobody has written
             return ""
 
     def _write(self, key: str, text: str) -> Task:
-        yield from self._robot.call(MEMORY, "insertData", key, text)
+        """Keep something; a memory that refuses it is not asked again. Raises NaoqiError."""
+        try:
+            if self._keeps:
+                yield from self._asked("insertData", key, text)
+        except CallFailed as problem:
+            log.warning("nobody can be told who drives %s: %s", self._robot.name, problem)
+            self._keeps = False
         return ""
+
+    def _asked(self, method: str, *args: str) -> Generator[None, None, Any]:
+        pending = self._robot.calls.begin(MEMORY, method, *args)
+        end_s = time.monotonic() + ANSWER_S
+        while not pending.done and time.monotonic() < end_s:
+            yield
+        return pending.result(0.0)

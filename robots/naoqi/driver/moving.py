@@ -399,6 +399,7 @@ def walk(robot: RealRobot, forward_m: float, left_m: float, turn: float) -> Task
         return ""
     start = yield from _place(robot)
     for way in legs_of(forward_m, left_m, turn):
+        _check_fit(robot)
         limit_s = 15.0 + math.hypot(*way[:2]) / SLOWEST_M_S + abs(way[2]) / SLOWEST_RAD_S
         yield from robot.call("ALMotion", "moveTo", *way, limit_s=limit_s, uses=robot.names(MOVING))
     end = yield from _place(robot)
@@ -521,9 +522,24 @@ def _place(robot: RealRobot) -> Calling:
     return place
 
 
+def while_fit(robot: RealRobot, task: Task) -> Task:
+    """Do a task as long as the robot is fit to walk, else raise ActionFailed."""
+    try:
+        while not is_over(task):
+            yield
+            _check_fit(robot)
+    finally:
+        task.close()
+    return ""
+
+
 def _check_walk(robot: RealRobot) -> None:
-    check_fit_to_walk(robot.name, robot.hottest, robot.battery)
+    _check_fit(robot)
     _check_standing(robot)
+
+
+def _check_fit(robot: RealRobot) -> None:
+    check_fit_to_walk(robot.name, robot.hottest, robot.battery)
 
 
 def _check_standing(robot: RealRobot) -> None:

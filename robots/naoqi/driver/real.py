@@ -166,6 +166,7 @@ class RealRobot:
     has_fallen: bool = False
     life_is_off: bool = False
     hottest: tuple[str, float] = ("", 0.0)
+    _is_taking_over: bool = False
 
     @property
     def name(self) -> str:
@@ -199,18 +200,24 @@ class RealRobot:
 
     def take_over(self) -> Calling:
         """Switch the robot's own life off once, so that nothing else moves it."""
+        while self._is_taking_over:
+            yield  # for another movement, which waits for it too
         if self.life_is_off:
             return
-        self.life_is_off = True
-        if not self.calls.has("ALAutonomousLife", "setState"):
-            return
-        state = yield from self.call("ALAutonomousLife", "getState")
-        if state != LIFE_OFF:
-            yield from self.calls.finished(self._end_life())
+        self._is_taking_over = True
+        try:
+            if self.calls.has("ALAutonomousLife", "setState"):
+                state = yield from self.call("ALAutonomousLife", "getState")
+                if state != LIFE_OFF:
+                    yield from self.calls.finished(self._end_life())
+            self.life_is_off = True
+        finally:
+            self._is_taking_over = False
 
     def _end_life(self) -> Calling:
         was_awake = not self.known.released
         yield from self.call("ALAutonomousLife", "setState", LIFE_OFF, limit_s=LIFE_S)
+        self.life_is_off = True  # also when this is finished after it was stopped
         if was_awake and self.calls.has("ALMotion", "wakeUp"):
             awake = yield from self.call("ALMotion", "robotIsWakeUp")
             if not awake:  # many robots sit down when their own life ends

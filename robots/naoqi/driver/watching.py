@@ -72,7 +72,7 @@ class Watching:
                 continue
             try:
                 take_in(pending.result(0.0))
-            except (NaoqiError, TypeError, ValueError, IndexError):
+            except (NaoqiError, TypeError, ValueError, LookupError, ArithmeticError):
                 continue  # one robot may not know what another one tells
         self._asked = waiting
         self.has_met = self.has_met or (self._has_told_joints and not self._asked)
@@ -227,7 +227,7 @@ class Noticing:
         try:
             if value and len(value) > 1 and event in readers:
                 yield from readers[event](value)
-        except (IndexError, TypeError, ValueError, KeyError):
+        except (TypeError, ValueError, LookupError, ArithmeticError):
             return  # versions of NAOqi differ: what is not understood is not noticed
 
     def _faces(self, value: Any) -> Iterator[str]:

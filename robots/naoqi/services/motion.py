@@ -78,7 +78,7 @@ class ALMotion(Module):
     def __init__(self, robot: ServedRobot) -> None:
         super().__init__(robot)
         self._ends = Ends(robot)
-        self._next_change_s = 0.0
+        self._next_change_s = self._next_way_s = 0.0
         self._end_waiting: Callable[[], bool] = lambda: False
         self._along: Pending | None = None
         """A walk by several places, which is walked to its end."""
@@ -260,12 +260,23 @@ class ALMotion(Module):
         with self._robot.lock:
             going = self._robot.robot.going
             is_going = any(map(self._is_own_walk, self._robot.actor.schedule.running))
-            return (
-                is_going
-                and not self._has_more_places
-                and going is not None
-                and going.replace(np.array(place, dtype=float))
-            )
+            if not is_going or self._has_more_places or going is None:
+                return False
+            if time.monotonic() < self._next_way_s:  # of those in between the last one is gone
+                self._end_waiting()
+                self._end_waiting = self._robot.when(
+                    lambda: time.monotonic() >= self._next_way_s, lambda: self._go_there(place)
+                )
+                return True
+            begun_s = time.monotonic()
+            is_changed = going.replace(np.array(place, dtype=float))
+            # Who asks again and again makes others wait half of the time at most
+            self._next_way_s = 2.0 * time.monotonic() - begun_s
+            return is_changed
+
+    def _go_there(self, place: Sequence[float]) -> None:
+        if not self._goes_elsewhere(place):  # it stands by now
+            self.move_along([place])
 
     @method("move::v(fff)", "move::v(fffm)")
     def move(self, x: float, y: float, theta: float, config: Any = ()) -> None:

@@ -38,6 +38,26 @@ def test_moves_that_wait_are_counted_and_end_at_once(real_time: NaoqiTheatre) ->
     assert motion.begin("angleInterpolation", ["HeadPitch"], [[0.0]], [[0.3]], True).wait(20.0)
 
 
+def test_walks_that_go_elsewhere_and_waits_for_their_end_are_counted_too(
+    real_time: NaoqiTheatre, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("robots.naoqi.serving.MOST_WAITING", 200)
+    motion = real_time.service("ALMotion")
+    first = motion.begin("moveTo", 0.5, 0.0, 0.0)
+    real_time.until(lambda: real_time.state().base[0] > 0.02)
+    used_s = time.process_time()
+    more = [motion.begin("moveTo", 0.3 + 1e-4 * number, 0.0, 0.0) for number in range(150)]
+    more += [motion.begin("waitUntilMoveIsFinished") for _ in range(100)]
+    real_time.until(lambda: more[-1].done, 60.0)
+    used_s = time.process_time() - used_s
+
+    with pytest.raises(CallFailed, match="200 requests wait already"):
+        more[-1].result(0.0)
+    motion.call("stopMove")
+    real_time.until(lambda: all(one.done for one in (first, *more)))
+    assert used_s < 3.0  # 0.3 s; 9 s when the steps of each walk were planned
+
+
 def test_memory_has_room_for_so_many_names_of_programs(theatre: NaoqiTheatre) -> None:
     memory = theatre.service("ALMemory")
     memory.call("insertListData", [[f"mine/{number}", number] for number in range(MOST_KEYS)])

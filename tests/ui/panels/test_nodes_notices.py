@@ -54,15 +54,39 @@ def test_a_wrong_address_offers_the_robot_on_the_screen_and_the_address() -> Non
     assert tuple(map(str, notice.problem.checklist)) == steps
 
 
-def test_a_robot_that_another_drives_can_be_taken_over() -> None:
-    told = fault_of("NAO is driven by Ana on desk.", code="driven")
+@pytest.mark.parametrize(
+    ("code", "title"),
+    [("driven", "is driven by somebody else"), ("taken_over", "was taken over")],
+)
+def test_a_robot_that_another_drives_can_be_taken_over(code: str, title: str) -> None:
+    told = fault_of("NAO is driven by Ana on desk.", code=code)
     after = changed(event="connection_failed", health="warning", fault=told)
 
     notice = notice_of(READY, after, replace(OURS, has_block=True, address="10.0.0.9"))
 
     assert notice is not None
     assert notice.fixes == ("use_virtual", "take_over")
-    assert "is driven by somebody else" in notice.problem.title
+    assert title in notice.problem.title
+
+
+@pytest.mark.parametrize("code", ["too_hot", "low_battery"])
+def test_a_tired_robot_can_be_sent_to_rest(code: str) -> None:
+    told = fault_of("NAO is hot.", code=code, checklist=("Let it rest.",))
+
+    notice = notice_of(READY, changed(event="warning", health="warning", fault=told), OURS)
+
+    assert notice is not None
+    assert notice.fixes[0] == "rest"
+
+
+def test_motors_that_stay_on_at_the_end_are_told_also_while_all_is_stopped() -> None:
+    told = fault_of("NAO's motors are still on.", code="left_on", checklist=("Let it rest.",))
+    after = changed(event="stopped", health="stopped", fault=told)
+
+    notice = notice_of(READY, after, replace(OURS, is_ending=True))
+
+    assert notice is not None
+    assert not notice.passes and notice.problem.checklist
 
 
 def test_a_killed_node_that_is_started_again_says_so() -> None:

@@ -2,12 +2,18 @@
 
 from __future__ import annotations
 
+import uuid
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Literal
 
 from faults import Text, Words
-from nep_core.wire.messages import PROCESS_ENDED, PROCESS_RESTARTS
+from nep_core.wire.messages import (
+    ACTION_REQUEST,
+    PROCESS_ENDED,
+    PROCESS_RESTARTS,
+    ActionRequest,
+)
 from nep_studio.blocks.edits.content import SetField
 from nep_studio.blocks.errors import EditRefused
 from nep_studio.blocks.program import ROBOT_BLOCK
@@ -30,6 +36,7 @@ Fix = Literal[
     "show_settings",
     "use_virtual",
     "take_over",
+    "rest",
     "test_connection",
     "change_address",
     "run",
@@ -37,8 +44,12 @@ Fix = Literal[
 ]
 
 WELL = frozenset({"ready", "busy"})
-ROBOT_DRIVEN = "driven"
-"""What a real robot's node tells when another program drives the robot."""
+ROBOT_DRIVEN, ROBOT_TAKEN = "driven", "taken_over"
+"""What a real robot's node tells when another program drives the robot, or has taken it."""
+ROBOT_LEFT_ON = "left_on"
+"""The same at its end, of a robot whose motors stay on."""
+TIRED = frozenset({"too_hot", "low_battery"})
+"""The same of a robot that should rest."""
 BAD = frozenset({"frozen", "warning", "crashed", "stopped"})
 """What may have to be told."""
 
@@ -107,6 +118,9 @@ def _no_connection(status: NodeStatus, at: Circumstances) -> Notice:
     if fault.code == ROBOT_DRIVEN:
         title = tr("{name} is driven by somebody else", name=status.name)
         fixes = ("use_virtual", "take_over")
+    elif fault.code == ROBOT_TAKEN:
+        title = tr("{name} was taken over", name=status.name)
+        fixes = ("use_virtual", "take_over")
     else:
         title = tr("{name} does not answer", name=status.name)
         fixes = ("use_virtual", "test_connection", "change_address")
@@ -148,6 +162,9 @@ def _warning(status: NodeStatus, at: Circumstances) -> Notice:
     problem = Problem(title, status.fault.sentence, status.fault.checklist or steps)
     log: tuple[Fix, ...] = ("show_log",) if at.is_ours or at.is_program else ()
     settings: tuple[Fix, ...] = ("show_settings",) if at.has_block else ()
+    if status.fault.code in TIRED:  # told once, and not anew with each degree
+        key, rest = f"warning {status.fault.code}", ("rest", *log, *settings)
+        return Notice(name, key, "warning", problem, rest)
     return Notice(name, f"warning {status.fault}", "warning", problem, log + settings)
 
 
@@ -214,6 +231,10 @@ def master_notice(event: str, sentence: Words) -> Notice:
 
 def _stopped(status: NodeStatus, at: Circumstances) -> Notice | None:
     name = status.name
+    if status.fault.code == ROBOT_LEFT_ON:
+        title = tr("{name}: its motors are still on", name=name)
+        problem = Problem(title, status.fault.sentence, status.fault.checklist)
+        return Notice(name, ROBOT_LEFT_ON, "warning", problem)
     if at.is_ending or at.is_program or not at.is_ours:
         return None
     if at.was_asked:
@@ -261,6 +282,7 @@ class NodeFixes:
             "show_settings": (tr("Show its settings"), lambda: self._show_settings(name)),
             "use_virtual": (tr("Use the robot on the screen"), lambda: self._use_virtual(name)),
             "take_over": (tr("Take it over"), lambda: self._take_over(name)),
+            "rest": (tr("Let it rest"), lambda: self._let_rest(name)),
             "test_connection": (
                 tr("Find it and test the connection"),
                 lambda: self._host.ask("connecting.open", name),
@@ -270,7 +292,7 @@ class NodeFixes:
             "stop": (tr("Stop"), lambda: self._host.services.running.stop()),
         }
         words, do = buttons[fix]
-        is_first = fix in ("start", "restart", "use_virtual", "run")
+        is_first = fix in ("start", "restart", "use_virtual", "run", "rest")
         return Answer(words, do, "primary" if is_first else "quiet")
 
     def _show_settings(self, name: str) -> None:
@@ -312,6 +334,13 @@ class NodeFixes:
         if plan is not None:
             asking = replace(plan, parameters={**plan.parameters, "take_over": True})
             self._host.services.runner.start_node(asking, is_wanted=True)
+
+    def _let_rest(self, name: str) -> None:
+        """Let a robot go down and switch its motors off, as soon as what it does has ended."""
+        plan = self.plan_of(name)
+        robot = str(plan.parameters.get("robot", name)) if plan is not None else name
+        request = ActionRequest(id=uuid.uuid4().hex, robots=[robot], action="rest", priority=100)
+        self._host.services.runner.send(ACTION_REQUEST, request)
 
     def _robot_block(self, name: str) -> str:
         block = self.block_of(name)
