@@ -10,6 +10,8 @@ import zlib
 from collections.abc import Iterator
 from pathlib import Path
 
+from faults.files import content
+
 log = logging.getLogger(__name__)
 
 
@@ -137,9 +139,7 @@ def project_bytes_from(path: Path) -> bytes | None:
     picture or fetched; the project itself is checked by whoever reads it.
     """
     try:
-        if path.stat().st_size > LARGEST_FILE:
-            return None
-        data = path.read_bytes()
+        data = content(path, LARGEST_FILE)
     except OSError as error:
         log.info("The picture %s cannot be read: %s", path, error)
         return None

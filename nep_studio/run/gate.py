@@ -15,6 +15,7 @@ from functools import lru_cache
 from pathlib import Path
 
 from faults import Text, Words, text_of
+from faults.files import opened
 from nep_core.errors import NepError
 from nep_core.places import node_folders
 from nep_core.processes.manifest import Manifest, NodeCatalog
@@ -196,7 +197,7 @@ def _digest(path: Path) -> str:
 @lru_cache(maxsize=4096)
 def _bytes_of(path: Path, _stamp: tuple[int, ...]) -> bytes:
     digest = hashlib.sha256()
-    with path.open("rb") as file:
+    with opened(path) as file:
         while piece := file.read(PIECE_BYTES):
             digest.update(piece)
     return digest.digest()

@@ -37,7 +37,7 @@ from nep_core.networks.zmq_networks import DirectNetwork, PeerNetwork
 from nep_core.processes import node as node_module
 from nep_core.processes.handover import take
 from nep_core.processes.node import Node
-from nep_core.recordings.raw import RawMessage
+from nep_core.recordings.raw import RawMessage, RawSubscriber
 from nep_core.recordings.recorder import Recorder
 from nep_core.wire.frames import CANNOT_DECODE, read_header
 from nep_core.wire.messages import NODE_STATE, NodeState
@@ -142,6 +142,46 @@ def test_a_flood_of_bad_frames_does_not_keep_receive_from_coming_back(
     threading.Thread(target=lambda: (subscriber.receive(0.1), came.set()), daemon=True).start()
     try:
         assert came.wait(10)
+    finally:
+        stop.set()
+        flooding.join()
+
+
+def test_a_frame_of_millions_of_messages_is_one_bad_message(
+    wire: tuple[DirectNetwork, Peer],
+) -> None:
+    network, peer = wire
+    plain, raw = Subscriber[Any]("/x", network=network), None
+    bomb = b"/x\0" + HEAD % (1, b"json") + b"\0" * 300_000
+    send_all(peer, bomb, GOOD)
+
+    assert plain.receive(5) == "the end"
+    plain.close()
+    raw = RawSubscriber("/x", network=network)
+    while peer.recv()[:1] != b"\1":
+        pass
+    send_all(peer, bomb, GOOD)
+
+    assert (message := raw.receive(5)) and message.payload == b"the end"
+    assert (trouble := network.take_warning()) and trouble.sentence.values["count"] == 2
+
+
+def test_a_flood_does_not_keep_pending_from_coming_back(wire: tuple[DirectNetwork, Peer]) -> None:
+    network, peer = wire
+    subscriber = Subscriber[int]("/x", network=network)
+    stop, came = threading.Event(), threading.Event()
+    many = b"/x\0" + HEAD % (1, b"json") + b"\0" + b"\0".join([b"1"] * 10_000)
+    send_all(peer)
+
+    def flood() -> None:
+        while not stop.is_set():
+            peer.send(many)
+
+    flooding = threading.Thread(target=flood)
+    flooding.start()
+    threading.Thread(target=lambda: (subscriber.pending(), came.set()), daemon=True).start()
+    try:
+        assert came.wait(5)
     finally:
         stop.set()
         flooding.join()

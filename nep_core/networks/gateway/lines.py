@@ -25,7 +25,7 @@ import msgspec
 import psutil
 import zmq
 
-from faults.files import whole_file
+from faults.files import content, whole_file
 from nep_core.errors import BadMessage, MasterNotFound, NameTaken, NetworkError, PortTaken
 from nep_core.networks.zmq_networks import PeerNetwork
 from nep_core.wire.frames import CANNOT_DECODE
@@ -65,6 +65,9 @@ def lines_allowed() -> int:
 # A gateway that is started anew opens the same ports again, and they go on as if nothing was.
 
 
+MOST_KEPT_BYTES = 10_000_000
+
+
 class KeptProgram(msgspec.Struct, array_like=True, frozen=True):
     """One that asked for a line: ``born`` is when its process began, 0 when nobody knows."""
 
@@ -95,7 +98,7 @@ def remember(file: Path, lines: list[KeptLine]) -> None:
 def recall(file: Path) -> list[KeptLine]:
     """What the file holds; nothing when it cannot be read."""
     try:
-        return msgspec.json.decode(file.read_bytes(), type=list[KeptLine])
+        return msgspec.json.decode(content(file, MOST_KEPT_BYTES), type=list[KeptLine])
     except (OSError, *CANNOT_DECODE) as error:
         log.info("no ports of the original's programs are known: %s", error)
         return []

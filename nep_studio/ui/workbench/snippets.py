@@ -8,7 +8,7 @@ import unicodedata
 from dataclasses import dataclass
 from pathlib import Path
 
-from faults.files import whole_file
+from faults.files import content, whole_file
 from nep_studio.blocks.errors import BlocksError, EditRefused
 from nep_studio.blocks.language import Language
 from nep_studio.blocks.operations.copying import Clip, from_text, to_text
@@ -91,7 +91,7 @@ def read_snippet(path: Path, language: Language) -> Snippet:
                 tr("The file {name} is too large for a snippet.", name=path.name),
                 checklist=(tr("A snippet is a few blocks: keep more as a project."),),
             )
-        clip = from_text(path.read_text(encoding="utf-8"), language)
+        clip = from_text(content(path, LARGEST_BYTES).decode(), language)
     except (OSError, UnicodeDecodeError) as error:
         raise _refused(path, error) from error
     except BlocksError as error:

@@ -7,6 +7,7 @@ from pathlib import Path
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import QDialog, QLabel, QPlainTextEdit, QPushButton, QWidget
 
+from faults.files import content
 from nep_studio.blocks.own_animations import OwnAnimation, why_not_animation
 from nep_studio.ui.widgets.layouts import in_column, in_row
 from nep_studio.ui.widgets.questions import ask_for_path
@@ -59,7 +60,7 @@ class ImportDialog(QDialog):
         try:
             if path.stat().st_size > LARGEST_FILE:
                 raise OSError(tr("it is too large for a motion"))
-            text = path.read_text(encoding="utf-8")
+            text = content(path, LARGEST_FILE).decode()
         except (OSError, UnicodeDecodeError) as error:
             self.text.clear()
             why = str(getattr(error, "strerror", None) or error)
