@@ -31,7 +31,17 @@ from nep_core.networks.zmq_networks import PeerNetwork
 from nep_core.wire.frames import CANNOT_DECODE
 from nep_core.wire.pubsub import Publisher, Subscriber
 
-from .doors import Context, Door, Request, Shape, Warner, Watch, WayIn, WayOut
+from .doors import (
+    MOST_WAITING_BYTES,
+    Context,
+    Door,
+    Request,
+    Shape,
+    Warner,
+    Watch,
+    WayIn,
+    WayOut,
+)
 
 log = logging.getLogger(__name__)
 
@@ -413,13 +423,21 @@ class Speaker(Side):
         self._encoding = encoding
         self._warn = Warner()
         self._waiting: queue.Queue[Any] = queue.Queue(WAITING)
+        self._waiting_bytes, self._weighing = 0, threading.Lock()
         super().__init__(network, topic)
 
-    def say(self, value: Any) -> None:
-        """Publish soon."""
+    def say(self, value: Any, size: int) -> None:
+        """Publish a value soon, which came as so many bytes."""
+        with self._weighing:
+            has_room = self._waiting_bytes + size <= MOST_WAITING_BYTES or not self._waiting_bytes
+            self._waiting_bytes += size if has_room else 0
         try:
-            self._waiting.put_nowait((value,))
+            if not has_room:
+                raise queue.Full
+            self._waiting.put_nowait((value, size))
         except queue.Full:
+            with self._weighing:
+                self._waiting_bytes -= size if has_room else 0
             self._warn(f"{self._topic}: messages of the original come too fast for our network.")
 
     def close(self) -> None:
@@ -438,8 +456,11 @@ class Speaker(Side):
             item = self._waiting.get()
             if item is None or self._network.closed:
                 break
+            value, size = item
+            with self._weighing:
+                self._waiting_bytes -= size
             try:
-                publisher.send(*item)
+                publisher.send(value)
             except BadMessage as error:
                 self._warn(f"{self._topic}: {error.sentence}")
         publisher.close()
