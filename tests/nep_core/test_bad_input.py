@@ -149,23 +149,18 @@ def test_a_flood_of_bad_frames_does_not_keep_receive_from_coming_back(
         flooding.join()
 
 
+@pytest.mark.parametrize("kind", [Subscriber, RawSubscriber])
 def test_a_frame_of_millions_of_messages_is_one_bad_message(
-    wire: tuple[DirectNetwork, Peer],
+    wire: tuple[DirectNetwork, Peer], kind: type[Subscriber[Any]] | type[RawSubscriber]
 ) -> None:
     network, peer = wire
-    plain, raw = Subscriber[Any]("/x", network=network), None
-    bomb = b"/x\0" + HEAD % (1, b"json") + b"\0" * 300_000
-    send_all(peer, bomb, GOOD)
+    subscriber = kind("/x", network=network)
+    send_all(peer, b"/x\0" + HEAD % (1, b"json") + b"\0" * 300_000, GOOD)
 
-    assert plain.receive(5) == "the end"
-    plain.close()
-    raw = RawSubscriber("/x", network=network)
-    while peer.recv()[:1] != b"\1":
-        pass
-    send_all(peer, bomb, GOOD)
+    message = subscriber.receive(5)
 
-    assert (message := raw.receive(5)) and message.payload == b"the end"
-    assert (trouble := network.take_warning()) and trouble.sentence.values["count"] == 2
+    assert getattr(message, "payload", message) in ("the end", b"the end")
+    assert (trouble := network.take_warning()) and trouble.sentence.values["count"] == 1
 
 
 FLOOD = """
@@ -174,7 +169,7 @@ with zmq.Context() as context, context.socket(zmq.XPUB) as peer:
     peer.linger = 0
     peer.connect(sys.argv[1])
     assert peer.recv() and peer.recv()
-    many = b'/x\\0["n",1,2,"json","12345678"]\\0' + b"\\0".join([b"1"] * 1000)
+    many = b'/x\\0["n",1,2,"json","12345678"]\\0' + b"\\0".join([b"1"] * 19_000)
     while True:
         peer.send(many)
 """
