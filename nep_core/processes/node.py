@@ -125,8 +125,12 @@ class Node:
         and ``policy`` are as those of Subscriber.
         """
         subscriber = Subscriber(topic, kind, network=self.network, callback=callback, policy=policy)
-        self._listening.append(_Listening(ref(subscriber)))
+        self.follow(subscriber)
         return subscriber
+
+    def follow(self, subscriber: Subscriber[Any]) -> None:
+        """Tell of the messages that this one loses, too, which somebody else has made."""
+        self._listening.append(_Listening(ref(subscriber)))
 
     def state(
         self,

@@ -99,7 +99,7 @@ class HumanListener:
         self._lock = threading.RLock()
         self._listeners: list[Listener] = []
         self._kept: deque[HumanBehavior] = deque(maxlen=100)
-        self._states = Subscriber(
+        self.subscriber = Subscriber(
             HUMAN_BEHAVIOR, HumanBehavior, network=network, callback=self._on_behavior
         )
 
