@@ -148,9 +148,9 @@ def states_of(
     end_s = time.monotonic() + MOST_STATES_S
     while (state := subscriber.receive(wait_s)) is not None and time.monotonic() < end_s:
         before, wait_s = states.get(state.node), min(wait_s, 0.05)
-        if state.event == "alive" or (state.pid or pids.get(state.node)) != pids.get(
-            state.node, state.pid
-        ):
+        pid = pids.get(state.node, 0)
+        is_of_another = 0 not in (pid, state.pid) and pid != state.pid
+        if state.event == "alive" or is_of_another:
             continue
         if before is None or _turn(state) >= _turn(before):
             states[state.node] = state
