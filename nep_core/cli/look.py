@@ -214,7 +214,12 @@ def _since_s(state: NodeState, uptime_s: float | None) -> float | None:
     if age_s < -APART_S:
         return None
     age_s = max(0.0, age_s)
-    return round(age_s if uptime_s is None else min(age_s, uptime_s), 1)
+    return _tenths(age_s) if uptime_s is None else min(_tenths(age_s), uptime_s)
+
+
+def _tenths(seconds: float) -> float:
+    """Rounded down: rounded up, a state would be older than its node."""
+    return round(max(0.0, seconds - 0.05), 1)
 
 
 def _uptime_s(told: Registration) -> float | None:
@@ -222,7 +227,7 @@ def _uptime_s(told: Registration) -> float | None:
         return None
     with contextlib.suppress(psutil.Error, ValueError):
         began_s = float(psutil.Process(told.pid).create_time())
-        return round(max(0.0, time.time() - began_s), 1)
+        return _tenths(time.time() - began_s)
     return None
 
 
