@@ -1,6 +1,7 @@
-"""Files that are written whole: whoever reads finds the old one or the new one, never a half.
+"""Files that are written whole, and read only where they are files.
 
-And files that somebody brought, of which nobody knows what they are.
+Whoever reads finds the old one or the new one, never a half; and never waits for a pipe, whatever
+it was that somebody brought.
 
 It stands in this room because it is the one that every other may import, and saving is where a
 fault would lose somebody's work.
@@ -11,17 +12,22 @@ from __future__ import annotations
 import contextlib
 import errno
 import os
+import re
 import secrets
 import stat
 import sys
 import time
+import tomllib
 from collections.abc import Iterator
 from pathlib import Path
-from typing import BinaryIO
+from typing import Any, BinaryIO
 
 IN_USE_S = 1.0
 """Windows gives no new content to a file that another program has open: so long it is tried."""
 AGAIN_S = 0.02
+
+NO_FILE, TOO_LARGE = "it is not a file", "it is too large"
+"""Why something cannot be read, where the system would."""
 
 
 @contextlib.contextmanager
@@ -54,25 +60,6 @@ def write_whole(path: Path, content: str | bytes, *, is_private: bool = False) -
     """
     with whole_file(path, is_private=is_private) as file:
         file.write(content.encode() if isinstance(content, str) else content)
-
-
-def read_file(path: Path, most_bytes: int) -> bytes:
-    """The bytes of a file that somebody brought; raises OSError for one that has more, or none.
-
-    What is called like a picture may be a link to a device that never ends, or a pipe into which
-    nobody writes: who reads that waits for ever.
-    """
-    with open(path, "rb", opener=_opened_at_once) as file:
-        if not stat.S_ISREG(os.fstat(file.fileno()).st_mode):
-            raise OSError(errno.EINVAL, "it is not a file", str(path))
-        data = file.read(most_bytes + 1)
-    if len(data) > most_bytes:
-        raise OSError(errno.EFBIG, os.strerror(errno.EFBIG), str(path))
-    return data
-
-
-def _opened_at_once(name: str, flags: int) -> int:
-    return os.open(name, flags | getattr(os, "O_NONBLOCK", 0))
 
 
 def is_elsewhere(named: str) -> bool:
@@ -119,3 +106,50 @@ def sync_folder(folder: Path) -> None:
             os.fsync(number)
         finally:
             os.close(number)
+
+
+def opened(path: Path) -> BinaryIO:
+    """Open a file to read it; raises OSError for what is none.
+
+    A pipe would keep who opens it for ever, and a device may give bytes without end.
+    """
+    flags = os.O_RDONLY | getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_BINARY", 0)
+    number = os.open(path, flags)
+    mode = os.fstat(number).st_mode
+    if stat.S_ISREG(mode):
+        return os.fdopen(number, "rb")
+    os.close(number)
+    if stat.S_ISDIR(mode):
+        raise IsADirectoryError(errno.EISDIR, os.strerror(errno.EISDIR), str(path))
+    raise OSError(errno.EINVAL, NO_FILE, str(path))
+
+
+def content(path: Path, most: int = sys.maxsize) -> bytes:
+    """The bytes of a file; raises OSError for what is none, or has more than ``most``."""
+    with opened(path) as file:
+        if os.fstat(file.fileno()).st_size > most:
+            raise OSError(errno.EFBIG, TOO_LARGE, str(path))
+        return file.read()
+
+
+LARGEST_TOML = 1_000_000
+_DEEP_KEY = re.compile(r"""(?<![\w"'-])(?:[\w"'-]++[ \t]*+\.[ \t]*+){60}""")
+
+
+def read_toml(path: Path) -> dict[str, Any]:
+    """The values in a TOML file; OSError, ValueError or RecursionError when there are none.
+
+    Python's reader takes seconds for a name of a thousand parts, and for ever for more.
+    """
+    with opened(path) as file:
+        return toml_of(file.read(LARGEST_TOML + 1).decode())
+
+
+def toml_of(text: str) -> dict[str, Any]:
+    """The values in such a text; ValueError or RecursionError when there are none."""
+    text = text.replace("\r\n", "\n")
+    if len(text) > LARGEST_TOML:
+        raise ValueError(TOO_LARGE)
+    if _DEEP_KEY.search(text):
+        raise ValueError("a name in it has too many parts")
+    return tomllib.loads(text)

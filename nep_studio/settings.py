@@ -15,7 +15,7 @@ from typing import Generic, Literal, TypeVar, cast
 
 from PySide6.QtCore import QByteArray, QLocale, QSettings, QStandardPaths
 
-from faults.files import whole_file
+from faults.files import content, whole_file
 from nep_core.places import log_folder, portable_folder, private_folder
 
 from .support.portable import kept_name, not_kept, path_of
@@ -115,6 +115,7 @@ class SettingsFile:
 # that says of its size: a few damaged bytes, and the program ends for want of memory
 # (qsettings.cpp, QSettingsPrivate::stringToVariant). Nothing of ours is kept so: "@@" is a text.
 
+LARGEST_BYTES = 10_000_000
 _STREAM = re.compile(rb"(?<!@)@(?:Variant|DateTime)\(")
 _LETTER = re.compile(rb"\\x([0-9a-fA-F]+)|\\([0-7]+)")
 _UNHEARD = re.compile(rb"[\s\"\\]")
@@ -123,7 +124,7 @@ _UNHEARD = re.compile(rb"[\s\"\\]")
 
 def _leave_out_streams(file: Path) -> None:
     """Take the lines out of a file that QSettings would read as a stream; raises OSError."""
-    data = file.read_bytes()
+    data = content(file, LARGEST_BYTES)
     if not _has_stream(data):
         return
     left = b"\n".join(line for line in re.split(rb"[\r\n]+", data) if not _has_stream(line))

@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from faults import Text, Words, reason_of, text_of
-from faults.files import whole_file
+from faults.files import opened, whole_file
 from nep_core.errors import RecordingError
 from nep_core.wire.messages import Wrist
 
@@ -131,7 +131,7 @@ def check_size(path: Path) -> None:
     if path.exists() and not path.is_file():
         raise OSError(errno.EINVAL, "it is not a file")  # but a pipe, or a device without an end
     size = path.stat().st_size
-    with path.open("rb") as file:
+    with opened(path) as file:
         head = file.read(_HEAD_BYTES)
     if b"\0" in head:
         raise RecordingError(

@@ -6,7 +6,7 @@ import argparse
 import contextlib
 import socket
 import time
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 
 import psutil
@@ -21,8 +21,12 @@ from nep_core.wire.pubsub import Subscriber
 from .console import add_json, join, registrations, say, say_json, seconds, table
 
 RATES_S = 1.0
+TURN_S = 0.2
+"""So long one topic is read before the next has its turn."""
 STATES_S = 0.3
 """The last states of nodes come with the handshake; this is for slow ones."""
+MOST_STATES_S = 2.0
+"""So long states are waited for when they come without end, as from hundreds of nodes."""
 APART_S = 2.0
 """So far may the clocks of two computers be apart without a word."""
 
@@ -101,7 +105,8 @@ def _rates(options: argparse.Namespace, topics: list[TopicEnds]) -> dict[str, fl
         while (passed_s := time.monotonic() - begin_s) < options.rates:
             time.sleep(min(0.05, options.rates - passed_s))
             for topic, subscriber in heard.items():
-                while (message := subscriber.receive(0)) is not None:
+                until_s = time.monotonic() + TURN_S  # a flood may come faster than it is read
+                while time.monotonic() < until_s and (message := subscriber.receive(0)) is not None:
                     counts[topic] += message.arrived_ns >= begin_ns
         passed_s = max(time.monotonic() - begin_s, 1e-9)
     return {topic: round(count / passed_s, 2) for topic, count in counts.items()}
@@ -127,20 +132,28 @@ def programs(told: list[Registration], states: dict[str, NodeState]) -> list[Pro
     return [_program(one, states.get(one.node)) for one in sorted(told, key=lambda one: one.node)]
 
 
-def states_of(network: Network, wait_s: float = STATES_S) -> dict[str, NodeState]:
-    """The newest state of each node, its heartbeats aside.
+def states_of(
+    network: Network, told: Iterable[Registration] = (), wait_s: float = STATES_S
+) -> dict[str, NodeState]:
+    """The newest state of each node, its heartbeats aside; ``told`` is who is registered.
 
     Newest by its time, not by its arrival: what a launcher told of a crash may come after what the
     node, started again, says of itself. What is from the future was told before the clock was set
-    back, and is older than all that is not.
+    back, and is older than all that is not. What was told of another process than the one that is
+    registered says nothing of this one.
     """
     subscriber = Subscriber(NODE_STATE, NodeState, network=network)
+    pids = {one.node: one.pid for one in told}
     states: dict[str, NodeState] = {}
-    while (state := subscriber.receive(wait_s)) is not None:
-        before = states.get(state.node)
-        if state.event != "alive" and (before is None or _turn(state) >= _turn(before)):
+    end_s = time.monotonic() + MOST_STATES_S
+    while (state := subscriber.receive(wait_s)) is not None and time.monotonic() < end_s:
+        before, wait_s = states.get(state.node), min(wait_s, 0.05)
+        pid = pids.get(state.node, 0)
+        is_of_another = 0 not in (pid, state.pid) and pid != state.pid
+        if state.event == "alive" or is_of_another:
+            continue
+        if before is None or _turn(state) >= _turn(before):
             states[state.node] = state
-        wait_s = min(wait_s, 0.05)
     return states
 
 
@@ -154,7 +167,7 @@ def _show_nodes(options: argparse.Namespace) -> None:
     states: dict[str, NodeState] = {}
     if any(NODE_STATE in one.publishes for one in told):
         with join(options) as network:
-            states = states_of(network)
+            states = states_of(network, told)
     found = programs(told, states)
     if options.json:
         say_json(found)
@@ -201,7 +214,12 @@ def _since_s(state: NodeState, uptime_s: float | None) -> float | None:
     if age_s < -APART_S:
         return None
     age_s = max(0.0, age_s)
-    return round(age_s if uptime_s is None else min(age_s, uptime_s), 1)
+    return _tenths(age_s) if uptime_s is None else min(_tenths(age_s), uptime_s)
+
+
+def _tenths(seconds: float) -> float:
+    """Rounded down: rounded up, a state would be older than its node."""
+    return round(max(0.0, seconds - 0.05), 1)
 
 
 def _uptime_s(told: Registration) -> float | None:
@@ -209,7 +227,7 @@ def _uptime_s(told: Registration) -> float | None:
         return None
     with contextlib.suppress(psutil.Error, ValueError):
         began_s = float(psutil.Process(told.pid).create_time())
-        return round(max(0.0, time.time() - began_s), 1)
+        return _tenths(time.time() - began_s)
     return None
 
 

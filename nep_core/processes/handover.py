@@ -16,6 +16,7 @@ from pathlib import Path
 import msgspec
 
 from faults import Fault, heard_fault
+from faults.files import opened
 from nep_core.places import opened_privately
 from nep_core.wire.frames import CANNOT_DECODE
 
@@ -64,7 +65,7 @@ def hand_over(fault: Fault) -> None:
 def take(path: Path) -> Fault | None:
     """What a process left there, which is taken away; None when it left nothing to be read."""
     try:
-        with path.open("rb") as file:
+        with opened(path) as file:
             data = file.read(MOST_BYTES)
     except OSError:
         return None

@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import math
-import re
-import tomllib
 from dataclasses import dataclass
 from functools import lru_cache
 from keyword import iskeyword
@@ -14,6 +12,7 @@ from typing import Any, Literal, get_args
 import msgspec
 
 from faults import Text, Words
+from faults.files import read_toml
 from nep_core.errors import ManifestError, NodeNotFound, ParameterError
 from nep_core.wire.messages import NodeType
 
@@ -190,29 +189,6 @@ def read_manifest(path: Path) -> Manifest:
     if not manifest.command and not path.with_suffix(".py").is_file():
         raise _wrong(path, f"there is no {path.stem}.py beside it, and it has no command")
     return manifest
-
-
-LARGEST_TOML = 1_000_000
-_DEEP_KEY = re.compile(r"""(?<![\w"'-])(?:[\w"'-]++[ \t]*+\.[ \t]*+){60}""")
-
-
-def read_toml(path: Path) -> dict[str, Any]:
-    """The values in a TOML file; OSError, ValueError or RecursionError when there are none.
-
-    Python's reader takes seconds for a name of a thousand parts, and for ever for more.
-    """
-    with path.open("rb") as file:
-        return toml_of(file.read(LARGEST_TOML + 1).decode())
-
-
-def toml_of(text: str) -> dict[str, Any]:
-    """The values in such a text; ValueError or RecursionError when there are none."""
-    text = text.replace("\r\n", "\n")
-    if len(text) > LARGEST_TOML:
-        raise ValueError("it is too large")
-    if _DEEP_KEY.search(text):
-        raise ValueError("a name in it has too many parts")
-    return tomllib.loads(text)
 
 
 @lru_cache(maxsize=MOST_KEPT)

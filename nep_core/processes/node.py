@@ -20,7 +20,7 @@ from faults import Fault, Words, fault_in, fault_of, text_of
 from nep_core.errors import NepError, ParameterError
 from nep_core.networks.network import Network, Policy
 from nep_core.networks.transports import network_for
-from nep_core.wire.frames import Encoding
+from nep_core.wire.frames import MOST, Encoding
 from nep_core.wire.io_thread import Wake
 from nep_core.wire.messages import NODE_STATE, NodeEvent, NodeState, NodeType, described
 from nep_core.wire.pubsub import Publisher, Subscriber
@@ -125,8 +125,12 @@ class Node:
         and ``policy`` are as those of Subscriber.
         """
         subscriber = Subscriber(topic, kind, network=self.network, callback=callback, policy=policy)
-        self._listening.append(_Listening(ref(subscriber)))
+        self.follow(subscriber)
         return subscriber
+
+    def follow(self, subscriber: Subscriber[Any]) -> None:
+        """Tell of the messages that this one loses, too, which somebody else has made."""
+        self._listening.append(_Listening(ref(subscriber)))
 
     def state(
         self,
@@ -266,7 +270,7 @@ class Node:
         if lost:
             self._beats_since_loss, self._well_again = 0, "It keeps up again."
             words = "Messages of {lost} were lost: {count}. It could not keep up."
-            self.state("warning", words, lost=", ".join(lost), count=lost.total())
+            self.state("warning", words, lost=", ".join(lost), count=min(lost.total(), MOST))
         elif self._beats_since_loss < QUIET_BEATS:
             self._beats_since_loss += 1
             if self._beats_since_loss == QUIET_BEATS:

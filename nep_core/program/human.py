@@ -99,7 +99,7 @@ class HumanListener:
         self._lock = threading.RLock()
         self._listeners: list[Listener] = []
         self._kept: deque[HumanBehavior] = deque(maxlen=100)
-        self._states = Subscriber(
+        self.subscriber = Subscriber(
             HUMAN_BEHAVIOR, HumanBehavior, network=network, callback=self._on_behavior
         )
 
@@ -143,7 +143,10 @@ class HumanListener:
     def _on_behavior(self, behavior: HumanBehavior) -> None:
         with self._lock:
             self.state, self.heard_s = behavior.human_state, CLOCK.now_s()
+            self.told.pop(behavior.source, None)
             self.told[behavior.source] = Stamp(behavior.time, time.monotonic())
+            if len(self.told) > MOST_STATES:
+                del self.told[next(iter(self.told))]
             seen = self._seen.pop(self.state, Seen())  # the newest last
             self._seen[self.state] = Seen(self.heard_s, seen.times + 1)
             if len(self._seen) > MOST_STATES:

@@ -23,6 +23,8 @@ from .tasks import POLL_S, Stamp, current_task
 FIRST_STATE_S = 5.0
 """A robot that says nothing about itself for so long does not answer."""
 FRESH_STATE_S = 1.0
+MOST_ROBOTS = 200
+"""So many robots are known, those heard last: a stranger may make up a name each time."""
 
 
 class RobotListener:
@@ -58,7 +60,10 @@ class RobotListener:
 
     def _on_state(self, state: RobotState) -> None:
         with self._news:
+            self._states.pop(state.robot, None)
             self._states[state.robot] = state, Stamp(state.time, time.monotonic())
+            if len(self._states) > MOST_ROBOTS:
+                del self._states[next(iter(self._states))]
             self._news.notify_all()
 
 

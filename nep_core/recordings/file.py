@@ -8,11 +8,12 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import IO, TYPE_CHECKING, Any
 
 import msgspec
 
 from faults import reason_of
+from faults.files import opened
 from nep_core.errors import RecordingError
 from nep_core.wire.frames import CANNOT_DECODE, Encoding
 from nep_core.wire.messages import BY_TOPIC
@@ -150,9 +151,43 @@ LARGEST_RECORD = 256_000_000
 _MOST_UNPACKED, _MOST_PACKED = 2_000_000, 20
 """A chunk is unpacked to 2 MB, twice what is usual, or to 20 times its packed size. What packs
 better was made to fill the memory: the sizes that such a file tells of itself may be lies too."""
+_MOST_RECORDS = 200_000
+"""A chunk has so many records at most: one takes much more memory than its 9 bytes."""
 _MAGIC = b"\x89MCAP0\r\n"
 _LARGEST_WINDOW = 8_388_608
 """What zstd itself lets a stranger's file ask for, in bytes."""
+
+
+class WholeChunks:
+    """The records of an open MCAP file, a chunk at a time, as far as they can be read.
+
+    ``is_whole`` is known after that. What unpacks to more than is bearable counts as damaged.
+    """
+
+    def __init__(self, file: IO[bytes]) -> None:
+        self.is_whole = True
+        self._file = file
+
+    def __iter__(self) -> Iterator[list[McapRecord]]:
+        """The records of each chunk, or one that is in none."""
+        from mcap.records import Chunk
+        from mcap.stream_reader import StreamReader
+
+        reader = StreamReader(
+            self._file, emit_chunks=True, validate_crcs=True, record_size_limit=LARGEST_RECORD
+        )
+        records = reader.records
+        while True:
+            record = _next_whole(lambda: next(records, None))
+            if isinstance(record, Chunk):
+                found = _next_whole(partial(_records_in, record))
+            else:
+                found = record if record in (None, _DAMAGED) else [record]
+            if found is _DAMAGED:
+                self.is_whole = False
+            if found is None or found is _DAMAGED:
+                return
+            yield found
 
 
 class Recording:
@@ -168,7 +203,7 @@ class Recording:
         self.is_whole = True
         self.skipped: set[str] = set()
         try:
-            with self.path.open("rb") as file:
+            with opened(self.path) as file:
                 start = file.read(len(_MAGIC))
         except OSError as error:
             raise RecordingError(
@@ -189,30 +224,11 @@ class Recording:
         """Each message, read as it is wanted."""
         channels: dict[int, Channel | None] = {}
         self.is_whole = True
-        with self.path.open("rb") as file:
-            for records in self._records(file):
+        with opened(self.path) as file:
+            chunks = WholeChunks(file)
+            for records in chunks:
                 yield from self._sorted(records, channels)
-
-    def _records(self, file: Any) -> Iterator[list[McapRecord]]:
-        """The records of a chunk at a time, as far as they can be read."""
-        from mcap.records import Chunk
-        from mcap.stream_reader import StreamReader
-
-        reader = StreamReader(
-            file, emit_chunks=True, validate_crcs=True, record_size_limit=LARGEST_RECORD
-        )
-        records = reader.records
-        while True:
-            record = _next_whole(lambda: next(records, None))
-            if isinstance(record, Chunk):
-                found = _next_whole(partial(_records_in, record))
-            else:
-                found = record if record in (None, _DAMAGED) else [record]
-            if found is _DAMAGED:
-                self.is_whole = False
-            if found is None or found is _DAMAGED:
-                return
-            yield found
+            self.is_whole = chunks.is_whole
 
     def _sorted(
         self, records: list[McapRecord], channels: dict[int, Channel | None]
@@ -308,6 +324,8 @@ def _records_in(chunk: Chunk) -> list[McapRecord]:
     if chunk.uncompressed_size > room:
         raise ValueError("the chunk is far larger than its file")
     data = _unpack(chunk.compression, chunk.data, int(chunk.uncompressed_size))
+    if len(data) > _MOST_UNPACKED and _counts_more(data, _MOST_RECORDS):
+        raise ValueError("the chunk has more records than can be read at once")
     unpacked = ChunkRecord(
         compression="",
         data=data,
@@ -317,6 +335,15 @@ def _records_in(chunk: Chunk) -> list[McapRecord]:
         uncompressed_size=len(data),
     )
     return breakup_chunk(unpacked, validate_crc=True)
+
+
+def _counts_more(data: bytes, most: int) -> bool:
+    """Whether there are more records than that."""
+    at = count = 0
+    while at + 9 <= len(data) and count <= most:
+        at += 9 + int.from_bytes(data[at + 1 : at + 9], "little")
+        count += 1
+    return count > most
 
 
 def _unpack(compression: str, packed: bytes, size: int) -> bytes:

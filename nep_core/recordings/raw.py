@@ -8,7 +8,14 @@ from dataclasses import dataclass
 
 from nep_core.errors import BadMessage
 from nep_core.networks.network import HANDSHAKE_S, Network
-from nep_core.wire.frames import NUL, Encoding, check_topic, read_header
+from nep_core.wire.frames import (
+    MOST_TOGETHER,
+    NUL,
+    Encoding,
+    check_topic,
+    holds_too_many,
+    read_header,
+)
 from nep_core.wire.pubsub import MOST_LOGGED
 
 log = logging.getLogger(__name__)
@@ -105,6 +112,9 @@ class RawSubscriber:
             header = read_header(parts[1])
         except BadMessage as error:
             self._skip(str(error))
+            return []
+        if header.encoding == "json" and holds_too_many(parts[2]):
+            self._skip(f"a frame of {header.node} holds more than {MOST_TOGETHER} messages")
             return []
         payloads = parts[2].split(NUL) if header.encoding == "json" else [parts[2]]
         return [

@@ -25,6 +25,9 @@ NUL = b"\0"
 RUN_CHARACTERS = 8
 MOST = 2**63 - 1
 """The largest number in a header: files and other languages count with 64 bits."""
+MOST_TOGETHER = 20_000
+"""So many messages share a frame at most, of which ours have 16 KB: a stranger's 50 MB of nothing
+but ends would keep who reads them busy for minutes."""
 JSON_HEAD = slice(-18, -10)
 JSON_MARK = b'"json","'
 """head[JSON_HEAD] == JSON_MARK in a frame of JSON: what is frequent is found without decoding."""
@@ -120,6 +123,11 @@ def read_header(head: bytes) -> Header:
             checklist=("Use the same version of NEP Studio on all computers.",),
             error=error,
         ) from error
+
+
+def holds_too_many(payloads: bytes) -> bool:
+    """Whether more JSON messages are together here than may share a frame."""
+    return len(payloads) > MOST_TOGETHER and payloads.count(NUL) >= MOST_TOGETHER
 
 
 def natural_encoding(message: Sendable) -> Encoding:

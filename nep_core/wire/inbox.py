@@ -17,7 +17,7 @@ from nep_core.networks.network import Policy
 from nep_core.networks.security import connect
 
 from . import outbox
-from .frames import NUL, RUN_CHARACTERS, Header, read_header, subscription
+from .frames import MOST, NUL, RUN_CHARACTERS, Header, read_header, subscription
 from .outbox import HIGH_WATER_MARK, PRIVATE_BYTE, bind
 
 if TYPE_CHECKING:
@@ -69,7 +69,7 @@ class Backlog:
     @property
     def lost(self) -> int:
         """How many messages are lost so far."""
-        return self._lost if self.policy == "events" else 0
+        return min(self._lost, MOST) if self.policy == "events" else 0
 
     @property
     def notes(self) -> int:

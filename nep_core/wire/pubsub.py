@@ -19,6 +19,7 @@ from .frames import (
     CANNOT_DECODE,
     JSON_HEAD,
     JSON_MARK,
+    MOST_TOGETHER,
     NUL,
     Decode,
     Encoding,
@@ -26,6 +27,7 @@ from .frames import (
     Sendable,
     check_topic,
     decoders,
+    holds_too_many,
     read_header,
 )
 from .messages import LATCHED
@@ -36,6 +38,8 @@ T = TypeVar("T")
 
 MOST_LOGGED = 10
 """So many lines a second are logged of what is wrong with a topic's messages."""
+PENDING_S = 0.1
+"""So long what has arrived is read at once: in a flood it would go on for ever."""
 AFTER_ERROR_S = 0.02
 """So long a thread that hears rests after an error of ours: never spin on one that repeats."""
 
@@ -209,10 +213,16 @@ class Subscriber(Generic[T]):
                 timeout_s = max(0.0, until_s - time.monotonic())
 
     def pending(self) -> list[T]:
-        """All that has arrived, without waiting."""
-        messages = []
+        """All that has arrived, without waiting.
+
+        In a flood, which may come faster than it can be read, the rest has to wait.
+        """
+        messages: list[T] = []
+        until_s = time.monotonic() + PENDING_S
         while (message := self.receive(0)) is not None:
             messages.append(message)
+            if time.monotonic() >= until_s:
+                break
         return messages
 
     def wait_for_publishers(self, count: int, timeout_s: float) -> bool:
@@ -267,6 +277,9 @@ class Subscriber(Generic[T]):
 
     def _take_in(self, payloads: bytes) -> None:
         """Decode several messages at once, which is faster, or else one by one."""
+        if holds_too_many(payloads):
+            self._skip(f"a frame of {self._sender()} holds more than {MOST_TOGETHER} messages")
+            return
         if self._keeps_newest:
             payloads = payloads.rpartition(NUL)[2]
         try:

@@ -22,7 +22,7 @@ from pathlib import Path
 
 import msgspec
 
-from faults.files import whole_file
+from faults.files import content, whole_file
 from nep_core.places import opened_privately, private_folder
 from nep_core.wire.frames import CANNOT_DECODE
 from nep_studio.blocks.editor import Editor
@@ -190,10 +190,10 @@ def recover(folder: Path, language: Language) -> list[Recoverable]:
 
 
 def _read(journal: Path, language: Language) -> Recoverable | None:
-    about = msgspec.json.decode((journal / "about.json").read_bytes(), type=About)
+    about = msgspec.json.decode(content(journal / "about.json"), type=About)
     snapshot = max(journal.glob("*.nep"), key=lambda path: int(path.stem))
     edits = snapshot.with_suffix(".edits")
-    project = from_bytes(snapshot.read_bytes(), snapshot.name, language)
+    project = from_bytes(content(snapshot), snapshot.name, language)
     steps = _replay(project, edits) if edits.exists() else 0
     if not steps and not about.unsaved:
         shutil.rmtree(journal, ignore_errors=True)
@@ -221,7 +221,7 @@ def _replay(project: Project, edits: Path) -> int:
 
 
 def _steps(edits: Path) -> Iterator[list[Edit]]:
-    for line in edits.read_bytes().splitlines():
+    for line in content(edits).splitlines():
         try:
             yield _DECODER.decode(line)
         except CANNOT_DECODE:

@@ -10,7 +10,7 @@ import zlib
 from collections.abc import Iterator
 from pathlib import Path
 
-from faults.files import read_file
+from faults.files import content
 
 log = logging.getLogger(__name__)
 
@@ -139,7 +139,7 @@ def project_bytes_from(path: Path) -> bytes | None:
     picture or fetched; the project itself is checked by whoever reads it.
     """
     try:
-        data = read_file(path, LARGEST_FILE)
+        data = content(path, LARGEST_FILE)
     except OSError as error:
         log.info("The picture %s cannot be read: %s", path, error)
         return None

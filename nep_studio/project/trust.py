@@ -22,7 +22,7 @@ from typing import Literal
 import msgspec
 
 from faults import Text, Words, text_of
-from faults.files import whole_file
+from faults.files import content, whole_file
 from nep_core.places import own_folder, private_folder
 from nep_core.wire.frames import CANNOT_DECODE
 from nep_studio.blocks.code_text import python_slots
@@ -179,7 +179,7 @@ class Approvals:
             stamp = (found.st_mtime_ns, found.st_size, str(self.path))
             if stamp == self._stamp:
                 return
-            self._keys = dict.fromkeys(msgspec.json.decode(self.path.read_bytes(), type=list[str]))
+            self._keys = dict.fromkeys(msgspec.json.decode(content(self.path), type=list[str]))
             self._stamp = stamp
         except (OSError, *CANNOT_DECODE):
             self._keys, self._stamp = {}, None

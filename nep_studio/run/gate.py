@@ -18,7 +18,7 @@ from functools import lru_cache
 from pathlib import Path
 
 from faults import Text, Words, text_of
-from faults.files import read_file
+from faults.files import content, opened
 from nep_core.errors import NepError
 from nep_core.places import node_folders
 from nep_core.processes.manifest import Manifest, NodeCatalog
@@ -182,7 +182,7 @@ def _imported(files: Iterable[Path]) -> list[Path]:
 
 @lru_cache(maxsize=256)
 def _names_imported(file: Path, _stamp: Stamp) -> frozenset[str]:
-    tree = parse_lines(read_file(file, MOST_PYTHON_BYTES).decode("utf-8", "replace"))
+    tree = parse_lines(content(file, MOST_PYTHON_BYTES).decode("utf-8", "replace"))
     names = [
         name
         for node in ast.walk(tree)
@@ -239,7 +239,7 @@ def _stamp(found: os.stat_result) -> Stamp:
 @lru_cache(maxsize=4096)
 def _bytes_of(path: Path, _stamp: Stamp) -> bytes:
     digest = hashlib.sha256()
-    with path.open("rb") as file:
+    with opened(path) as file:
         while piece := file.read(PIECE_BYTES):
             digest.update(piece)
     return digest.digest()

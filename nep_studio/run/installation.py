@@ -9,10 +9,10 @@ from pathlib import Path
 from typing import Any
 
 from faults import Text, Words, text_of
-from faults.files import is_elsewhere
+from faults.files import is_elsewhere, read_toml
 from nep_core.errors import ManifestError, NepError
 from nep_core.places import node_folders
-from nep_core.processes.manifest import NodeCatalog, read_manifest, read_toml
+from nep_core.processes.manifest import NodeCatalog, read_manifest
 from nep_studio import paths
 from nep_studio.blocks.checks import KnownChains, check_steps
 from nep_studio.blocks.checks.diagnostic import SEVERITIES, Diagnostic

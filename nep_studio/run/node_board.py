@@ -12,10 +12,15 @@ from typing import Any, Literal
 from PySide6.QtCore import QThread, Signal
 
 from faults import Fault, Text
+from nep_core.processes.node import LONGEST_NAME
 from nep_core.wire.messages import NodeEvent, NodeState, NodeType
 
 FROZEN_S = 3.0
 """A node that has said nothing for so long, three heartbeats, is frozen."""
+
+MOST_NODES = 300
+"""So many nodes are shown, more than a network has: a stranger may make up a name each time, and a
+window draws them all."""
 
 Health = Literal["planned", "starting", "ready", "busy", "warning", "frozen", "crashed", "stopped"]
 
@@ -96,6 +101,8 @@ class NodeBoard:
 
         ``heard_s``: when it was heard; another computer's clock may be wrong.
         """
+        if not self._has_room(state.node):
+            return False
         known = before = self.nodes.get(state.node) or NodeStatus(state.node, state.type)
         pid, heard_s = state.pid or before.pid, state.time if heard_s is None else heard_s
         if state.measures or state.event == "starting":
@@ -121,6 +128,20 @@ class NodeBoard:
             )
         self.nodes[state.node] = after
         return replace(after, heard_s=known.heard_s) != known
+
+    def _has_room(self, name: str) -> bool:
+        """Whether a node can be shown; where there are too many, one gives way that is silent."""
+        if name in self.nodes:
+            return True
+        if len(name) > LONGEST_NAME:
+            return False
+        if len(self.nodes) >= MOST_NODES:
+            strangers = (one for one in self.nodes.values() if not one.node)
+            silent = (one for one in strangers if not one.is_there or one.health == "frozen")
+            if (gone := next(silent, None)) is None:
+                return False
+            del self.nodes[gone.name]
+        return True
 
     def frozen(self, now_s: float) -> list[str]:
         """Mark the nodes that have fallen silent; those that have just become so."""

@@ -26,7 +26,7 @@ from typing import Literal, TypeVar
 import msgspec
 
 from faults import Tr, plain
-from faults.files import whole_file, write_whole
+from faults.files import content, whole_file, write_whole
 from nep_core.wire.frames import CANNOT_DECODE
 
 # The System Usability Scale: its items and its score, as in the paper and as Brooke made it.
@@ -255,7 +255,7 @@ class StudyFolder:
     def sitting(self) -> Sitting | None:
         """The sitting that is recorded now, also after a new start of the program."""
         try:
-            return msgspec.json.decode(self._open.read_bytes(), type=Sitting)
+            return msgspec.json.decode(content(self._open), type=Sitting)
         except (OSError, *CANNOT_DECODE):
             return None
 
@@ -271,7 +271,7 @@ class StudyFolder:
     def conditions(self) -> list[str]:
         """The conditions that are compared, as they were given last."""
         try:
-            return msgspec.json.decode(self._setup.read_bytes(), type=list[str])
+            return msgspec.json.decode(content(self._setup), type=list[str])
         except (OSError, *CANNOT_DECODE):
             return []
 
@@ -329,7 +329,7 @@ class StudyFolder:
 
 def _lines(path: Path, kind: type[Record]) -> Iterator[Record]:
     try:
-        lines = path.read_bytes().splitlines()
+        lines = content(path).splitlines()
     except OSError:
         return
     for number, line in enumerate(lines, 1):

@@ -11,7 +11,7 @@ from itertools import takewhile
 from pathlib import Path
 
 from faults import Text, Words, filled, told
-from nep_core.processes.manifest import read_toml, toml_of
+from faults.files import opened, read_toml, toml_of
 from nep_studio import paths
 
 log = logging.getLogger(__name__)
@@ -21,6 +21,7 @@ PSEUDO = "qps-rtl"
 """A made-up language for tests: longer than English, written from the right, still readable."""
 
 LONGEST_NAME = 60
+LONGEST_HEAD = 100_000
 _RIGHT_TO_LEFT = {"ar", "dv", "fa", "he", "ks", "ku", "ps", "sd", "ug", "ur", "yi", PSEUDO}
 _PLACES = re.compile(r"(\{[^{}]*\})")
 _ACCENTED = str.maketrans("aeiouyAEIOUYcnCN", "àéîôûýÀÉÎÔÛÝçñÇÑ")
@@ -99,9 +100,10 @@ def _name(code: str) -> str:
 def read_name(path: Path) -> str:
     """The own name of a table's language, which stands before the rest: that takes long to read."""
     try:
-        with path.open(encoding="utf-8") as lines:
-            head = takewhile(lambda line: not line.startswith("["), lines)
-            name = toml_of("".join(head)).get("name", "")
+        with opened(path) as file:
+            lines = file.read(LONGEST_HEAD).splitlines(keepends=True)
+        head = takewhile(lambda line: not line.startswith(b"["), lines)
+        name = toml_of(b"".join(head).decode()).get("name", "")
     except (OSError, ValueError, RecursionError):
         return path.stem  # what is wrong is told when it is chosen
     is_name = isinstance(name, str) and name.isprintable() and 0 < len(name) <= LONGEST_NAME

@@ -69,7 +69,8 @@ def run(node: Node, *, file: str, hold: bool, trace: bool) -> None:
         return failure_of(error), line_of(error, file)
 
     explain_by(explain)
-    human_listener(node.network)  # what the person does from now on reaches the rules
+    human = human_listener(node.network)  # what the person does from now on reaches the rules
+    node.follow(human.subscriber)  # what does not is told
     node.ready("runs {name}", name=Path(file).name)
     try:
         if hold:

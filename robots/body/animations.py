@@ -16,6 +16,7 @@ from typing import Literal
 import msgspec
 
 from faults import Text
+from faults.files import read_toml
 from robots.errors import ActionFailed, FilesUnusable
 
 from .body import Body
@@ -150,12 +151,12 @@ def load_animations(folder: Path, body: Body) -> Animations:
 def load_animation(path: Path, body: Body) -> Animation:
     """Read one animation. Raises FilesUnusable, which names file and place."""
     try:
-        file = msgspec.toml.decode(path.read_bytes(), type=_AnimationFile)
+        file = msgspec.convert(read_toml(path), _AnimationFile)
         if file.joints and file.poses:
             raise ValueError("poses: there are joints too; a file has either of them")
         keys = {name: Track(j.times, j.keys, j.handles) for name, j in file.joints.items()}
         tracks = keys or tracks_of(file.poses)
-    except (OSError, ValueError) as error:
+    except (OSError, ValueError, RecursionError) as error:
         raise _unusable(path, str(error)) from error
     if problem := _problem(file, tracks, body):
         raise _unusable(path, problem)

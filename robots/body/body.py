@@ -12,6 +12,7 @@ import msgspec
 import numpy as np
 from numpy.typing import NDArray
 
+from faults.files import content, read_toml
 from robots.errors import ActionFailed, FilesUnusable
 
 from .limbs import Limb
@@ -20,6 +21,7 @@ Angles = NDArray[np.float64]
 """Rad in the body's joint order (hands 0 to 1), or rows of them, one every tick."""
 Vector = tuple[float, float, float]
 
+LARGEST_BODY = 4_000_000
 CLAMP_TOLERANCE_RAD = 1e-6
 
 
@@ -198,12 +200,12 @@ def load_body(folder: Path) -> Body:
     """
     path, profile = folder / "body.json", folder / "robot.toml"
     try:
-        file = msgspec.json.decode(path.read_bytes(), type=_BodyFile)
+        file = msgspec.json.decode(content(path, LARGEST_BODY), type=_BodyFile)
         if not profile.exists():
             return Body(file, folder.name)
         path = profile
-        return Body(file, msgspec.toml.decode(path.read_bytes(), type=_Profile).title)
-    except (OSError, msgspec.DecodeError) as error:
+        return Body(file, msgspec.convert(read_toml(path), _Profile).title)
+    except (OSError, ValueError, RecursionError) as error:
         raise FilesUnusable(
             "The description of the robot's body, {path}, cannot be read.",
             checklist=("Install NEP Studio again: this file comes with it.",),

@@ -11,6 +11,7 @@ from typing import NamedTuple
 
 import msgspec
 
+from faults.files import read_toml
 from robots.errors import FilesUnusable
 
 from .animations import NO_GESTURE, Animations
@@ -81,8 +82,8 @@ def load_gesture_words(folder: Path) -> GestureWords:
     if not path.exists():
         return GestureWords()
     try:
-        return msgspec.toml.decode(path.read_bytes(), type=GestureWords)
-    except (OSError, ValueError) as error:
+        return msgspec.convert(read_toml(path), GestureWords)
+    except (OSError, ValueError, RecursionError) as error:
         raise FilesUnusable(
             "The words for gestures, {path}, cannot be read.",
             checklist=("Install NEP Studio again: this file comes with it.",),

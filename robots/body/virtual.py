@@ -9,6 +9,8 @@ from __future__ import annotations
 
 import math
 from collections.abc import Collection, Sequence
+from itertools import islice
+from typing import Any
 
 import numpy as np
 
@@ -163,11 +165,16 @@ def put(robot: VirtualRobot, place: Place) -> None:
 # What a virtual robot is told to feel, see and hear, and what that says about the person.
 
 THINGS = ("face", "ball", "sound", "mark")
+MOST_TOLD = 200
+"""So many sensors are told what to measure, and things to be in sight, those told last: a stranger
+may make up a name each time, and each state of the robot tells them all."""
 HANDLED = {"push": push, "place": put}
 
 
 def sense(robot: VirtualRobot, request: SenseRequest) -> list[str]:
     """Take in what the robot is told to sense; return the human states that follow from it."""
+    if not all(map(math.isfinite, (request.value, *request.place))):
+        return []  # no sensor measures that, and nobody could read it in the robot's state
     if request.sense == "word":
         return [state_of_word(request.name)] if plain(request.name) else []
     if request.sense in THINGS:
@@ -178,11 +185,17 @@ def sense(robot: VirtualRobot, request: SenseRequest) -> list[str]:
     if request.sense in HANDLED:
         HANDLED[request.sense](robot, request.place)
         return []
-    was_touched = robot.felt.get(request.sense, 0.0) > 0.0
+    was_touched = robot.felt.pop(request.sense, 0.0) > 0.0
     robot.felt[request.sense] = request.value
+    _forget_oldest(robot.felt)
     if request.sense in TOUCH_SENSORS and request.value > 0.0 and not was_touched:
         return states_of_touch(request.sense)
     return []
+
+
+def _forget_oldest(told: dict[str, Any]) -> None:
+    while len(told) > MOST_TOLD:
+        del told[next(iter(told))]
 
 
 def _see(robot: VirtualRobot, request: SenseRequest) -> list[str]:
@@ -196,7 +209,10 @@ def _see(robot: VirtualRobot, request: SenseRequest) -> list[str]:
             robot.sees.pop(thing, None)
         return []
     place = to_world(robot, request.place)
+    for thing in things:
+        robot.sees.pop(thing, None)
     robot.sees |= dict.fromkeys(things, place)
+    _forget_oldest(robot.sees)
     states = [state_of_thing(thing) for thing in reversed(new)]
     if request.sense == "face":
         states.append(f"person_{distance_word(request.place)}")
@@ -212,6 +228,14 @@ MOST_TICKS = 100
 """In one step: between two of them its node answers, and a slow machine needs long for a tick."""
 FELL = "robot_fell"
 """What is told when the robot has lost its balance."""
+
+
+MOST_THINGS = 500
+"""So many things stand around a robot: it looks at each of them ten times a second."""
+
+
+def _is_somewhere(thing: Thing) -> bool:
+    return all(map(math.isfinite, (*thing.place, thing.heading, *thing.size)))
 
 
 class VirtualDriver:
@@ -287,7 +311,8 @@ class VirtualDriver:
 
     def surroundings(self, things: Sequence[Thing]) -> None:
         """Take in what stands around the robot; it notices by itself what is in sight."""
-        self.robot.things = tuple(things)
+        usable = (thing for thing in things if _is_somewhere(thing))
+        self.robot.things = tuple(islice(usable, MOST_THINGS))
         self._next_look_s = self._clock_s
 
     def step(self, now_s: float) -> list[Ended]:

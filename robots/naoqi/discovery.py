@@ -15,7 +15,7 @@ from typing import Any
 import msgspec
 import platformdirs
 
-from faults.files import make_privately, whole_file
+from faults.files import content, make_privately, whole_file
 from robots.errors import WrongAddress
 
 # Where a NAOqi robot is found: the host and port that a person wrote.
@@ -186,7 +186,7 @@ def _key(place: str) -> str:
 
 def _read() -> dict[str, SavedLogin]:
     try:
-        return msgspec.json.decode(logins_file().read_bytes(), type=dict[str, SavedLogin])
+        return msgspec.json.decode(content(logins_file()), type=dict[str, SavedLogin])
     except (
         OSError,
         ValueError,

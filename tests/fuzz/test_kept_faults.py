@@ -3,7 +3,11 @@
 from __future__ import annotations
 
 import logging
+import os
+import shutil
+import threading
 import zlib
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
@@ -13,18 +17,38 @@ from faults import FaultError
 from fuzz.target import SEEDS
 from fuzz.targets import target
 from nep_core.errors import ManifestError
+from nep_core.networks.gateway.lines import recall
+from nep_core.networks.security.keys import KeyFile
 from nep_core.places import NODES_VARIABLE
-from nep_core.processes.manifest import NodeCatalog
+from nep_core.processes.handover import take
+from nep_core.processes.manifest import NodeCatalog, read_manifest
 from nep_core.recordings.file import overview
 from nep_studio.blocks.errors import ProjectFileError
 from nep_studio.blocks.file_text import MOST_VALUES, decode
 from nep_studio.blocks.program import split_slot
-from nep_studio.project.picture_files import png_with_program, program_in_png
+from nep_studio.project.picture_files import (
+    png_with_program,
+    program_in_png,
+    project_bytes_from,
+)
+from nep_studio.project.trust import Approvals
 from nep_studio.run.installation import launchable_nodes, table_in
 from nep_studio.settings import Settings
+from nep_studio.ui.plugins.gestures.exchange import read_mcap
+from nep_studio.ui.robot_view.parts import read_view
 from nep_studio.ui.words import read_catalogue, read_name
+from nodes.perceptual.recognition.model import read_model
+from nodes.recordings import read_recording
+from nodes.resources import resource_folder
+from nodes.sensory.connectors.bluetooth import read_profile
 from nodes.sensory.connectors.phyphox import read_answer
 from nodes.sensory.connectors.sensor_logger import read_message
+from robots.body.animations import load_animation
+from robots.body.body import load_body
+from robots.body.speech import load_gesture_words
+from robots.errors import FilesUnusable
+
+NAO = resource_folder() / "robots" / "nao"
 
 
 @pytest.mark.parametrize(
@@ -75,6 +99,73 @@ def test_one_broken_manifest_hides_no_other(
     for path in kept:
         with pytest.raises(ManifestError):
             NodeCatalog((tmp_path,)).find(f"sensory/{path.stem}")
+
+
+Reads = Callable[[Path], object]
+WAITING_FOR_NOBODY: dict[str, tuple[str, Reads]] = {
+    "a recording": ("a.mcap", overview),
+    "recorded gestures": ("a.mcap", read_mcap),
+    "a movement": ("a.csv", read_recording),
+    "a gesture model": ("a.gestures", read_model),
+    "a manifest": ("sensory/a.toml", read_manifest),
+    "keys": ("keys", KeyFile),
+    "a picture": ("a.png", project_bytes_from),
+    "words": (
+        "xx.toml",
+        lambda path: (read_name(path), read_catalogue("xx", path), table_in(path)),
+    ),
+    "a motion": ("a.toml", lambda path: load_animation(path, load_body(NAO))),
+    "a body": ("body.json", lambda path: load_body(path.parent)),
+    "a robot's look": ("view.toml", read_view),
+    "a robot's gestures": ("gesture_words.toml", lambda path: load_gesture_words(path.parent)),
+    "a Bluetooth device": ("a.toml", read_profile),
+    "ports of the original": ("ports.json", recall),
+    "a fault": ("fault.json", take),
+    "what was approved": ("approved.json", lambda path: Approvals(path).has("")),
+}
+
+
+@pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="there are no such pipes here")
+@pytest.mark.parametrize(("name", "read"), WAITING_FOR_NOBODY.values(), ids=WAITING_FOR_NOBODY)
+def test_a_pipe_in_the_place_of_a_file_keeps_nobody_waiting(
+    tmp_path: Path, name: str, read: Reads
+) -> None:
+    path = tmp_path / name
+    path.parent.mkdir(exist_ok=True)
+    os.mkfifo(path)
+    ended: list[Exception | None] = []
+
+    def reads() -> None:
+        try:
+            read(path)
+        except Exception as error:
+            ended.append(error)
+        else:
+            ended.append(None)
+
+    reading = threading.Thread(target=reads, daemon=True)
+    reading.start()
+    reading.join(10)
+
+    assert [isinstance(one, FaultError) for one in ended if one is not None] in ([], [True])
+    assert ended
+
+
+@pytest.mark.parametrize("name", ["body.json", "robot.toml", "gesture_words.toml", "a.toml"])
+@pytest.mark.parametrize(
+    "data", [b"\xff", b"[" * 3000, b".".join([b"a"] * 5000) + b" = 1", b"z = " + b"[" * 3000]
+)
+def test_what_describes_a_robot_of_ones_own_is_told_when_it_is_broken(
+    tmp_path: Path, name: str, data: bytes
+) -> None:
+    for shipped in ("body.json", "robot.toml"):
+        shutil.copy(NAO / shipped, tmp_path / shipped)
+    (tmp_path / name).write_bytes(data)
+
+    with pytest.raises(FilesUnusable):
+        load_body(tmp_path)
+        load_gesture_words(tmp_path)
+        load_animation(tmp_path / "a.toml", load_body(NAO))
 
 
 def test_a_push_that_is_no_text_is_no_message() -> None:

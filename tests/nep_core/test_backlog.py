@@ -65,6 +65,15 @@ def test_what_was_sent_before_the_first_notice_says_where_to_begin_is_counted_on
     assert len(backlog) == 3
 
 
+def test_numbers_that_jump_make_no_loss_that_cannot_be_told() -> None:
+    backlog = Backlog("/t")
+
+    for number in (1, frames.MOST, 1, frames.MOST, 1, frames.MOST):
+        backlog.put(frame(number))
+
+    assert frames.to_json(backlog.lost) == b"9223372036854775807"
+
+
 def test_a_publisher_that_starts_again_loses_nothing_with_or_without_a_run() -> None:
     backlog = Backlog("/t")
     for number, run in ((100, "aaaaaaaa"), (101, "aaaaaaaa"), (1, "bbbbbbbb"), (2, "bbbbbbbb")):

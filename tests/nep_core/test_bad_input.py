@@ -5,6 +5,8 @@ from __future__ import annotations
 import contextlib
 import json
 import queue
+import subprocess
+import sys
 import threading
 from collections.abc import Callable, Iterator
 from pathlib import Path
@@ -37,7 +39,7 @@ from nep_core.networks.zmq_networks import DirectNetwork, PeerNetwork
 from nep_core.processes import node as node_module
 from nep_core.processes.handover import take
 from nep_core.processes.node import Node
-from nep_core.recordings.raw import RawMessage
+from nep_core.recordings.raw import RawMessage, RawSubscriber
 from nep_core.recordings.recorder import Recorder
 from nep_core.wire.frames import CANNOT_DECODE, read_header
 from nep_core.wire.messages import NODE_STATE, NodeState
@@ -145,6 +147,48 @@ def test_a_flood_of_bad_frames_does_not_keep_receive_from_coming_back(
     finally:
         stop.set()
         flooding.join()
+
+
+@pytest.mark.parametrize("kind", [Subscriber, RawSubscriber])
+def test_a_frame_of_millions_of_messages_is_one_bad_message(
+    wire: tuple[DirectNetwork, Peer], kind: type[Subscriber[Any]] | type[RawSubscriber]
+) -> None:
+    network, peer = wire
+    subscriber = kind("/x", network=network)
+    send_all(peer, b"/x\0" + HEAD % (1, b"json") + b"\0" * 300_000, GOOD)
+
+    message = subscriber.receive(5)
+
+    assert getattr(message, "payload", message) in ("the end", b"the end")
+    assert (trouble := network.take_warning()) and trouble.sentence.values["count"] == 1
+
+
+FLOOD = """
+import sys, zmq
+with zmq.Context() as context, context.socket(zmq.XPUB) as peer:
+    peer.linger = 0
+    peer.connect(sys.argv[1])
+    assert peer.recv() and peer.recv()
+    many = b'/x\\0["n",1,2,"json","12345678"]\\0' + b"\\0".join([b"1"] * 19_000)
+    while True:
+        peer.send(many)
+"""
+
+
+def test_a_flood_does_not_keep_pending_from_coming_back(free_port: int) -> None:
+    endpoint = f"tcp://127.0.0.1:{free_port}"
+    with DirectNetwork(endpoint, binds="subscriber") as network:
+        subscriber = Subscriber[int]("/x", network=network)
+        flooding = subprocess.Popen([sys.executable, "-c", FLOOD, endpoint])
+        came = threading.Event()
+        try:
+            assert subscriber.receive(20) == 1
+            threading.Thread(target=lambda: (subscriber.pending(), came.set()), daemon=True).start()
+            assert came.wait(5)
+        finally:
+            subscriber.close()  # ends it, also where it goes on for ever
+            flooding.kill()
+            flooding.wait()
 
 
 def test_no_frame_ends_a_recording(wire: tuple[DirectNetwork, Peer], tmp_path: Path) -> None:

@@ -2,13 +2,17 @@
 
 from __future__ import annotations
 
+import os
+import threading
 import time
 from collections.abc import Callable
 
 import pytest
 import zmq
 
+from nep_core.cli import look
 from nep_core.cli.look import states_of
+from nep_core.networks.master_messages import ask_master
 from nep_core.networks.zmq_networks import DirectNetwork, PeerNetwork
 from nep_core.wire import inbox
 from nep_core.wire.frames import Header, read_header
@@ -36,6 +40,45 @@ def test_the_state_of_a_node_is_its_newest_whichever_comes_last(master: object, 
     assert {name: state.event for name, state in found.items()} == {
         f"x{number}": "ready" for number in range(4)
     }
+
+
+def test_what_was_told_of_a_process_that_has_ended_says_nothing_of_this_one(
+    master: object, join: Join
+) -> None:
+    """Also where a clock that was set back makes the older word look like the newer one."""
+    watch = join("watch")
+    watch.join()
+    registered = ask_master(watch.master)
+    assert registered is not None
+    for event, pid, time_s in (("ready", os.getpid(), 100.0), ("crashed", 2**30, 101.0)):
+        told = NodeState(node="watch", type="sensory", event=event, pid=pid, time=time_s)  # type: ignore[arg-type]
+        Publisher(NODE_STATE, network=watch if event == "ready" else join("launcher")).send(told)
+
+    found = states_of(join("looker"), registered.registrations)
+
+    assert found["watch"].event == "ready"
+
+
+def test_states_that_come_without_end_are_looked_at_for_a_while(
+    master: object, join: Join, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(look, "MOST_STATES_S", 0.2, raising=False)
+    told = Publisher(NODE_STATE, network=join("busy"))
+    stop, came = threading.Event(), threading.Event()
+
+    def tell() -> None:
+        while not stop.wait(0.01):
+            told.send(NodeState(node="busy", type="sensory", event="ready"))
+
+    telling = threading.Thread(target=tell)
+    telling.start()
+    looker = join("looker")
+    threading.Thread(target=lambda: (states_of(looker), came.set()), daemon=True).start()
+    try:
+        assert came.wait(5)
+    finally:
+        stop.set()
+        telling.join()
 
 
 def test_every_link_asks_for_heartbeats(master: object, join: Join) -> None:

@@ -35,7 +35,8 @@ def test_lost_messages_are_a_warning_until_the_node_keeps_up_again(
     monkeypatch.setattr(node_module, "HEARTBEAT_S", 0.1)
     states = Subscriber(NODE_STATE, NodeState, network=join("watcher"))
     with Node("slow", "perceptual", network=join("slow")) as slow:
-        samples = slow.subscriber("/samples")
+        samples = Subscriber[object]("/samples", network=slow.network)
+        slow.follow(samples)
         publisher = Publisher("/samples", network=join("fast"), wait_for_subscribers=1)
         publisher.send({"number": -1})
         samples.receive(5)

@@ -103,6 +103,8 @@ OF_THE_SYSTEM = [
     "file name too long",
     "input/output error",
     "is a directory",
+    "it is not a file",
+    "it is too large",
     "no space left on device",
     "no such file or directory",
     "it is not a file",

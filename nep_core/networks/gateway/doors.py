@@ -351,6 +351,10 @@ class WayIn(Door):
             self._on_frame(b" ".join(frames))
 
 
+MOST_WAITING, MOST_WAITING_BYTES = 1000, 64_000_000
+"""So many frames, and so many bytes, wait for a program that does not read."""
+
+
 class WayOut(Door):
     """Gives programs what they subscribe to; ``wanted`` are their subscriptions.
 
@@ -372,12 +376,13 @@ class WayOut(Door):
     ) -> None:
         super().__init__(context, watch, on_change)
         self.wanted: set[bytes] = set()
+        self._most = 0
         self.shape = shape
         self._topic = topic
 
     def send(self, value: object) -> None:
         """Give all who are here a value; raises BadMessage."""
-        self._socket.send(write(value, self._topic, self.shape.kind, self._prefixed))
+        self._give(write(value, self._topic, self.shape.kind, self._prefixed))
 
     def takes(self, frame: bytes, shape: Shape) -> bool:
         """Send on, as it is, a frame that the programs here read; else False."""
@@ -385,8 +390,15 @@ class WayOut(Door):
         if is_read and shape.kind == "json":  # 0.5.4.6 asks like later ones, but has prefixes
             is_read = frame.startswith(self._topic.encode() + b" ") == self._prefixed
         if is_read:
-            self._socket.send(frame)
+            self._give(frame)
         return is_read
+
+    def _give(self, frame: bytes) -> None:
+        # ZeroMQ counts frames: the larger they are, the fewer may wait
+        most = max(1, min(MOST_WAITING, MOST_WAITING_BYTES // max(1, len(frame))))
+        if most != self._most:
+            self._socket.sndhwm = self._most = most  # of those who are connected, too
+        self._socket.send(frame)
 
     @property
     def _prefixed(self) -> bool:

@@ -25,13 +25,23 @@ import msgspec
 import psutil
 import zmq
 
-from faults.files import whole_file
+from faults.files import content, whole_file
 from nep_core.errors import BadMessage, MasterNotFound, NameTaken, NetworkError, PortTaken
 from nep_core.networks.zmq_networks import PeerNetwork
 from nep_core.wire.frames import CANNOT_DECODE
 from nep_core.wire.pubsub import Publisher, Subscriber
 
-from .doors import Context, Door, Request, Shape, Warner, Watch, WayIn, WayOut
+from .doors import (
+    MOST_WAITING_BYTES,
+    Context,
+    Door,
+    Request,
+    Shape,
+    Warner,
+    Watch,
+    WayIn,
+    WayOut,
+)
 
 log = logging.getLogger(__name__)
 
@@ -65,6 +75,9 @@ def lines_allowed() -> int:
 # A gateway that is started anew opens the same ports again, and they go on as if nothing was.
 
 
+MOST_KEPT_BYTES = 10_000_000
+
+
 class KeptProgram(msgspec.Struct, array_like=True, frozen=True):
     """One that asked for a line: ``born`` is when its process began, 0 when nobody knows."""
 
@@ -95,7 +108,7 @@ def remember(file: Path, lines: list[KeptLine]) -> None:
 def recall(file: Path) -> list[KeptLine]:
     """What the file holds; nothing when it cannot be read."""
     try:
-        return msgspec.json.decode(file.read_bytes(), type=list[KeptLine])
+        return msgspec.json.decode(content(file, MOST_KEPT_BYTES), type=list[KeptLine])
     except (OSError, *CANNOT_DECODE) as error:
         log.info("no ports of the original's programs are known: %s", error)
         return []
@@ -410,13 +423,21 @@ class Speaker(Side):
         self._encoding = encoding
         self._warn = Warner()
         self._waiting: queue.Queue[Any] = queue.Queue(WAITING)
+        self._waiting_bytes, self._weighing = 0, threading.Lock()
         super().__init__(network, topic)
 
-    def say(self, value: Any) -> None:
-        """Publish soon."""
+    def say(self, value: Any, size: int) -> None:
+        """Publish a value soon, which came as so many bytes."""
+        with self._weighing:
+            has_room = self._waiting_bytes + size <= MOST_WAITING_BYTES or not self._waiting_bytes
+            self._waiting_bytes += size if has_room else 0
         try:
-            self._waiting.put_nowait((value,))
+            if not has_room:
+                raise queue.Full
+            self._waiting.put_nowait((value, size))
         except queue.Full:
+            with self._weighing:
+                self._waiting_bytes -= size if has_room else 0
             self._warn(f"{self._topic}: messages of the original come too fast for our network.")
 
     def close(self) -> None:
@@ -435,8 +456,11 @@ class Speaker(Side):
             item = self._waiting.get()
             if item is None or self._network.closed:
                 break
+            value, size = item
+            with self._weighing:
+                self._waiting_bytes -= size
             try:
-                publisher.send(*item)
+                publisher.send(value)
             except BadMessage as error:
                 self._warn(f"{self._topic}: {error.sentence}")
         publisher.close()

@@ -16,7 +16,7 @@ import msgspec
 import zmq
 
 from faults import Text, reason_of
-from faults.files import make_privately, whole_file
+from faults.files import make_privately, opened, whole_file
 from nep_core.errors import KeyFileError
 from nep_core.wire.frames import CANNOT_DECODE
 
@@ -149,7 +149,7 @@ class KeyFile:
 
     def _read(self) -> tuple[tuple[int, ...], Keys]:
         try:
-            with self.path.open("rb") as file:
+            with opened(self.path) as file:
                 status = os.fstat(file.fileno())
                 _require_private(self.path, status)
                 return _stamp_of(status), _decode(self.path, file.read(MOST_BYTES + 1))

@@ -13,6 +13,7 @@ import numpy as np
 from msgspec import Meta
 from numpy.typing import NDArray
 
+from faults.files import read_toml
 from nep_core.errors import NodeStartError
 from robots.body.kinematics import rotation as turned_by
 
@@ -223,14 +224,14 @@ class Shaped(msgspec.Struct, frozen=True):
 def read_view(path: Path) -> ViewFile:
     """Read how a robot or a thing looks. Raises NodeStartError when it cannot be used."""
     try:
-        view = msgspec.toml.decode(path.read_bytes(), type=ViewFile)
+        view = msgspec.convert(read_toml(path), ViewFile)
         names = {part.name for part in view.part}
         for part in view.part:
             if part.colour not in view.colours:
                 raise ValueError(f"part {part.name}: there is no colour {part.colour}")
             if part.on and part.on not in names:
                 raise ValueError(f"part {part.name}: there is no part {part.on} that it lies on")
-    except (OSError, msgspec.DecodeError, ValueError) as error:
+    except (OSError, ValueError, RecursionError) as error:
         raise NodeStartError(
             "The description of how a robot or a thing looks, {path}, cannot be read.",
             checklist=("Install NEP Studio again: this file comes with it.",),

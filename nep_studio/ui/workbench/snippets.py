@@ -9,7 +9,7 @@ import unicodedata
 from dataclasses import dataclass
 from pathlib import Path
 
-from faults.files import read_file, whole_file
+from faults.files import content, whole_file
 from nep_studio.blocks.errors import BlocksError, EditRefused
 from nep_studio.blocks.language import Language
 from nep_studio.blocks.operations.copying import Clip, from_text, to_text
@@ -87,7 +87,7 @@ class Snippets:
 def read_snippet(path: Path, language: Language) -> Snippet:
     """Read a snippet's file; raises EditRefused with what is wrong."""
     try:
-        clip = from_text(read_file(path, LARGEST_BYTES).decode(), language)
+        clip = from_text(content(path, LARGEST_BYTES).decode(), language)
     except (OSError, UnicodeDecodeError) as error:
         if getattr(error, "errno", 0) == errno.EFBIG:
             raise EditRefused(

@@ -20,7 +20,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from faults import reason_of
-from faults.files import whole_file
+from faults.files import opened, whole_file
 from nep_core.errors import RecordingError
 from nep_core.wire.messages import Wrist
 from nodes.recordings import writing
@@ -401,7 +401,7 @@ def _content(path: Path) -> bytes:
             raise RecordingError(
                 "{path} is a folder, not a gesture model.", checklist=_TRAIN_AGAIN, path=path
             )
-        with path.open("rb") as file:
+        with opened(path) as file:
             return file.read(MAX_BYTES + 1)
     except FileNotFoundError as error:
         raise RecordingError(

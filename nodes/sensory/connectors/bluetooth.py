@@ -7,7 +7,6 @@ import importlib.util
 import math
 import struct
 import time
-import tomllib
 import uuid
 from collections.abc import Iterable, Mapping
 from functools import cached_property, partial
@@ -17,6 +16,7 @@ from typing import TYPE_CHECKING, Annotated, Literal
 import msgspec
 
 from faults import Text, Words, text_of
+from faults.files import read_toml
 from nep_core.errors import NodeStartError
 from nodes.resources import resource_folder
 from nodes.sensory.phone_page.server import certificate_folder
@@ -151,9 +151,9 @@ class Decoder:
 def read_profile(path: Path) -> Profile:
     """The profile in a file. Raises NodeStartError with what is wrong in it."""
     try:
-        profile = msgspec.convert(tomllib.loads(path.read_text(encoding="utf-8")), Profile)
+        profile = msgspec.convert(read_toml(path), Profile)
         _check(profile)
-    except (OSError, ValueError) as error:
+    except (OSError, ValueError, RecursionError) as error:
         raise NodeStartError(
             "The Bluetooth device file {name} cannot be used: {error}.",
             checklist=(

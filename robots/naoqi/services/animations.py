@@ -9,6 +9,7 @@ from typing import Any
 
 import msgspec
 
+from faults.files import read_toml
 from robots.body.animations import Animations
 from robots.body.pose import VirtualRobot
 from robots.errors import FilesUnusable
@@ -70,8 +71,8 @@ def load_animation_names(folder: Path) -> AnimationNames:
     if not path.exists():
         return AnimationNames({}, {})
     try:
-        table = msgspec.toml.decode(path.read_bytes(), type=_Table)
-    except (OSError, msgspec.DecodeError) as error:
+        table = msgspec.convert(read_toml(path), _Table)
+    except (OSError, ValueError, RecursionError) as error:
         raise FilesUnusable(
             "The table of NAOqi's animations, {path}, cannot be read.",
             checklist=("Install NEP Studio again: this file comes with it.",),

@@ -10,12 +10,15 @@ from contextlib import closing
 from pathlib import Path
 from typing import Any
 
+import psutil
 import pytest
 import zmq
 
 from nep_core.errors import PortTaken
 from nep_core.networks.gateway import lines
+from nep_core.networks.gateway.doors import MOST_WAITING_BYTES, Shape, Watch, WayOut
 from nep_core.networks.gateway.gateway import Gateway, Ports
+from nep_core.networks.gateway.lines import Speaker
 from nep_core.networks.master import Master
 from nep_core.networks.master_messages import ask_master
 from nep_core.networks.zmq_networks import PeerNetwork
@@ -82,6 +85,39 @@ def test_a_message_that_a_reader_cannot_take_is_left_out(raw: RawPrograms, join:
     speaker.send({"x": 1})
 
     assert reader.recv() == b'{"x":1}'
+
+
+def test_a_program_that_does_not_read_costs_bounded_memory(ports: Ports) -> None:
+    with zmq.Context() as context, context.socket(zmq.SUB) as frozen:
+        watch = Watch()
+        way = WayOut(context, watch, lambda: None, "t", Shape(False, "bytes"))
+        way.bind(f"tcp://127.0.0.1:{ports.topics}")
+        frozen.linger, frozen.rcvhwm = 0, 1
+        frozen.subscribe(b"")
+        frozen.connect(f"tcp://127.0.0.1:{ports.topics}")
+        while not way.wanted:
+            watch.once(0.1)
+        before_bytes = psutil.Process().memory_info().rss
+
+        for _ in range(300):
+            way.send(b"x" * 1_000_000)
+        grown_bytes = psutil.Process().memory_info().rss - before_bytes
+        for _ in range(2000):
+            way.send(b"small")
+        way.close()
+
+    assert grown_bytes < MOST_WAITING_BYTES + 30_000_000
+
+
+def test_what_waits_for_our_network_is_bounded_in_bytes(master: Master) -> None:
+    with PeerNetwork("gateway", master="tcp://127.0.0.1:9") as nobody:  # no master is there
+        speaker = Speaker(nobody, "/large")
+        for _ in range(1000):
+            speaker.say("x", 1_000_000)
+        waiting = speaker._waiting.qsize()
+        speaker.close()
+
+    assert waiting * 1_000_000 <= MOST_WAITING_BYTES
 
 
 def test_second_programs_that_bind_get_a_port_of_their_own(raw: RawPrograms, join: Join) -> None:

@@ -152,3 +152,20 @@ def test_a_node_that_starts_anew_has_measured_nothing(board: NodeBoard) -> None:
     board.update(state("starting"))
 
     assert not board.nodes["karate"].measures
+
+
+def test_names_without_end_or_of_any_length_do_not_fill_the_board() -> None:
+    board = NodeBoard()
+    board.plan("NAO", "action", "action/nao")
+    for number in range(1000):
+        board.update(NodeState(node=f"stranger {number}", type="sensory", event="ready"), 1.0)
+    board.update(NodeState(node="x" * 100_000, type="sensory", event="ready"), 1.0)
+    assert len(board.nodes) < 500
+
+    board.frozen(100.0)
+    board.update(NodeState(node="late", type="sensory", event="ready"), 100.0)
+    board.update(NodeState(node="NAO", type="action", event="ready"), 100.0)
+
+    assert board.nodes["late"].is_there
+    assert board.nodes["NAO"].health == "ready"
+    assert max(map(len, board.nodes)) <= 100

@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+import math
+
+import msgspec
 import pytest
 from nao_stage import Stage
 
-from robots.body.driver import RobotState, SenseRequest
+from robots.body.driver import RobotState, SenseRequest, Thing
 
 
 def sense(stage: Stage, what: str, value: float = 1.0, **more: object) -> list[str]:
@@ -176,3 +179,32 @@ def test_the_eyes_play_with_colours_and_are_as_before(action: str) -> None:
 
     assert len(colours) >= 3
     assert state(stage).leds["LeftFaceLeds"] == 0xFFFFFF
+
+
+ODD = (math.nan, math.inf, -math.inf)
+
+
+def test_what_no_sensor_can_measure_is_not_felt_and_the_robot_still_tells_how_it_is() -> None:
+    """A number that JSON has not would come as null: nobody could read the robot's state again."""
+    stage = Stage()
+    for odd in ODD:
+        for what in ("battery", "head_front", "face", "ball", "place", "push"):
+            sense(stage, what, odd)
+            sense(stage, what, place=(odd, odd, odd))
+        stage.driver.surroundings([Thing(id="t", kind="ball", place=(odd, 0.3, odd), heading=odd)])
+        stage.pass_time(0.5)
+
+    told = msgspec.json.decode(msgspec.json.encode(state(stage)), type=RobotState)
+
+    assert told.battery <= 1.0
+    assert told.sensors["head_front"] in (0.0, 1.0)
+
+
+def test_what_is_told_to_be_felt_and_seen_under_ever_new_names_is_bounded() -> None:
+    stage = Stage()
+    for number in range(2000):
+        sense(stage, f"sensor_{number}")
+        sense(stage, "face", name=f"name {number}")
+
+    assert len(msgspec.json.encode(state(stage))) < 100_000
+    assert state(stage).sees["face_name_1999"]

@@ -7,6 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from fuzz.target import SEEDS
 from nep_core.errors import RecordingError
 from nep_studio.ui.messages import Message
 from nep_studio.ui.plugins.gestures.exchange import (
@@ -224,6 +225,22 @@ def test_a_place_that_cannot_be_written_is_told(
     Exchange(filled, None).export_csv(tmp_path / "out")
 
     assert [one.kind for one in told] == ["error", "error", "success"]
+
+
+@pytest.mark.parametrize("kept", ["bomb_zstd.mcap", "bomb_lz4.mcap", "bomb_lies.mcap"])
+def test_an_mcap_file_that_unpacks_to_far_more_is_not_unpacked(kept: str) -> None:
+    with pytest.raises(RecordingError, match="not a whole"):
+        read_mcap(SEEDS / "mcap" / kept)
+
+
+def test_an_mcap_file_with_more_samples_than_can_be_shown_is_refused(
+    filled: GestureController, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("nep_studio.ui.plugins.gestures.exchange.MAX_SAMPLES", 100, raising=False)
+    write_mcap(tmp_path / "many.mcap", filled.gestures, filled.recordings)
+
+    with pytest.raises(RecordingError, match="too large"):
+        read_mcap(tmp_path / "many.mcap")
 
 
 def test_a_huge_mcap_file_is_refused(

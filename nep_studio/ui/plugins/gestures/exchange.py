@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import contextlib
-import errno
+import itertools
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from datetime import datetime
@@ -15,8 +15,9 @@ import numpy as np
 from msgspec.structs import replace
 
 from faults import reason_of, text_of
-from faults.files import whole_file
+from faults.files import opened, whole_file
 from nep_core.errors import RecordingError
+from nep_core.recordings.file import WholeChunks
 from nep_core.wire.frames import CANNOT_DECODE
 from nep_core.wire.messages import IMU, Imu
 from nep_studio.blocks.edits.content import SetExtra
@@ -31,6 +32,7 @@ from nep_studio.blocks.own_gestures import (
 )
 from nep_studio.project.kept_files import EVERYDAY, NEITHER, spans_of
 from nodes.recordings import (
+    MAX_SAMPLES,
     MAY_WRITE,
     Recording,
     read_recording,
@@ -188,11 +190,9 @@ def _made(key: str, gestures: dict[str, OwnGesture]) -> str:
 
 TAKES = "/gesture_takes"
 LARGEST_BYTES = 300_000_000
-_LARGEST_RECORD = 64_000_000
 _BATCH = 50
 _CHUNK_BYTES = 64_000
 """Small chunks: of a file that was cut, little is lost."""
-_UNPACKING = ("zstandard", "lz4", "struct", "_struct")
 _IS_MCAP = (
     "Is it a file that ends with .mcap?",
     "If it was sent or downloaded, get it once more: it may not be whole.",
@@ -289,11 +289,12 @@ def read_mcap(path: Path) -> tuple[list[Imported], bool]:
     marks: list[TakeMark] = []
     try:
         if path.stat().st_size > LARGEST_BYTES:
-            raise _unusable(path, "is too large to be read", ("Export a part of it only.",))
-        if not path.is_file():
-            raise OSError(errno.EINVAL, "it is not a file")
-        with path.open("rb") as file:
+            raise _TooMuch
+        with opened(path) as file:
             is_whole = _read(file, channels, marks)
+    except _TooMuch as error:
+        told, steps = "is too large to be read", ("Export a part of it only.",)
+        raise _unusable(path, told, steps) from error
     except OSError as error:
         sentence = text_of("{path} cannot be read: {reason}.", path=path, reason=reason_of(error))
         raise RecordingError(sentence, checklist=_IS_MCAP, details=str(error)) from error
@@ -305,35 +306,38 @@ def read_mcap(path: Path) -> tuple[list[Imported], bool]:
     return imported, is_whole
 
 
+class _TooMuch(Exception):
+    """There is more in a file than can be shown."""
+
+
 def _read(file: IO[bytes], channels: dict[int, _Channel], marks: list[TakeMark]) -> bool:
-    """Read as far as the file can be read; gives whether that was to its end."""
-    from mcap.exceptions import McapError
+    """Read as far as the file can be read; gives whether that was to its end.
+
+    Raises _TooMuch when there is more in it than a window can show.
+    """
     from mcap.records import Channel, Message
-    from mcap.stream_reader import StreamReader
 
     topics: dict[int, str] = {}
-    reader = StreamReader(file, validate_crcs=True, record_size_limit=_LARGEST_RECORD)
-    try:
-        for record in reader.records:
-            if isinstance(record, Channel) and record.message_encoding == "json":
-                topics[record.id] = record.topic
-                if record.topic == IMU:
-                    channels.setdefault(record.id, _Channel(dict(record.metadata)))
-            elif isinstance(record, Message):
-                topic = topics.get(record.channel_id)
-                with contextlib.suppress(*CANNOT_DECODE):  # another program says else there
-                    if topic == IMU:
-                        batch = msgspec.json.decode(record.data, type=Imu)
-                        channels[record.channel_id].batches.append(batch)
-                    elif topic == TAKES:
-                        marks.append(msgspec.json.decode(record.data, type=TakeMark))
-    except (McapError, ValueError, EOFError, KeyError, IndexError, MemoryError, RuntimeError):
-        return False
-    except Exception as error:  # those of the libraries that unpack have no common name
-        if type(error).__module__.partition(".")[0] not in _UNPACKING:
-            raise
-        return False
-    return True
+    chunks, room = WholeChunks(file), MAX_SAMPLES
+    for record in itertools.chain.from_iterable(chunks):
+        if isinstance(record, Channel) and record.message_encoding == "json":
+            topics[record.id] = record.topic
+            if record.topic == IMU:
+                channels.setdefault(record.id, _Channel(dict(record.metadata)))
+                room -= 1
+        elif isinstance(record, Message):
+            topic = topics.get(record.channel_id)
+            with contextlib.suppress(*CANNOT_DECODE):  # another program says else there
+                if topic == IMU:
+                    batch = msgspec.json.decode(record.data, type=Imu)
+                    channels[record.channel_id].batches.append(batch)
+                    room -= 1 + max(len(batch.t), len(batch.acc), len(batch.gyr or ()))
+                elif topic == TAKES:
+                    marks.append(msgspec.json.decode(record.data, type=TakeMark))
+                    room -= 1
+        if room < 0:
+            raise _TooMuch
+    return chunks.is_whole
 
 
 def _imported_from(channel: _Channel, marks: list[TakeMark]) -> Imported | None:

@@ -8,7 +8,7 @@ from pathlib import Path
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import QDialog, QLabel, QPlainTextEdit, QPushButton, QWidget
 
-from faults.files import read_file
+from faults.files import content
 from nep_studio.blocks.own_animations import OwnAnimation, why_not_animation
 from nep_studio.ui.widgets.forms import plain_label
 from nep_studio.ui.widgets.layouts import in_column, in_row
@@ -60,7 +60,7 @@ class ImportDialog(QDialog):
     def read_file(self, path: Path) -> None:
         """Take the text of a file."""
         try:
-            text = read_file(path, LARGEST_FILE).decode()
+            text = content(path, LARGEST_FILE).decode()
         except (OSError, UnicodeDecodeError) as error:
             self.text.clear()
             why = str(getattr(error, "strerror", None) or error)
