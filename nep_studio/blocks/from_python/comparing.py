@@ -269,6 +269,8 @@ def _require_unused(node: ast.Assign, used: set[str]) -> None:
         match node.value:
             case ast.Call(func=ast.Name(id="Behavior")):
                 step = "Call it “behavior”, wherever it stands."
+            case ast.Call(args=[ast.List()]) if target.id == "all_robots":
+                step = "Put the names of all robots into this list, as on the page Robots."
             case ast.Call(args=[ast.List()]):
                 step = "Call it “all_robots”, wherever it stands."
         raise CodeUnread(
