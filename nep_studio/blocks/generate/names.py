@@ -91,9 +91,10 @@ def python_name(text: str, fallback: str) -> str:
     stays it, so that Python of a person keeps the names in it; but for those such as __name__.
     """
     normal = unicodedata.normalize("NFKC", text)
-    if normal.isidentifier() and not (normal.startswith("__") and normal.endswith("__")):
-        if normal.strip("_") and unicodedata.normalize("NFKC", normal) == normal:
-            return normal
+    is_special = normal.startswith("__") and normal.endswith("__")
+    is_same = unicodedata.normalize("NFKC", normal) == normal
+    if normal.isidentifier() and normal.strip("_") and is_same and not is_special:
+        return normal
     kept = "".join(c if f"a{c}".isidentifier() else "_" for c in normal)
     name = re.sub("_+", "_", kept)[:_LONGEST].strip("_")
     if name and not name.isidentifier():
