@@ -42,6 +42,8 @@ LARGEST_POWER_DIGITS = 1000
 """A longer whole number as a power is refused: it would take the computer's time and memory."""
 LONGEST = 40
 """Letters of a value in a sentence."""
+DEEPEST_LIST, MOST_LISTS = 100, 100_000
+"""A list in more lists than these, or with more in it, is in itself or grows without end."""
 
 _words = WORDS["en"]
 
@@ -63,8 +65,26 @@ def as_text(value: object) -> str:
     if isinstance(value, float):
         return _told_fraction(value)
     if isinstance(value, list | tuple):
-        return _enumerated([as_text(item) for item in value])
+        _require_end(value)
+        return _told_items(value)
     return "" if value is None else str(value)
+
+
+def _told_items(items: Sequence[object]) -> str:
+    is_list = (list, tuple)
+    return _enumerated([_told_items(i) if isinstance(i, is_list) else as_text(i) for i in items])
+
+
+def _require_end(items: Sequence[object]) -> None:
+    """Raise ValueRefused for a list through which nobody comes to an end."""
+    level, seen = [items], 0
+    for _ in range(DEEPEST_LIST):
+        seen += len(level)
+        if not level or seen > MOST_LISTS:
+            break
+        level = [one for many in level for one in many if isinstance(one, list | tuple)]
+    if level:
+        refuse("This list goes too deep: perhaps it is an item of itself.", LOOK, CHECK_LIST)
 
 
 def _digits(number: int) -> str:
@@ -141,8 +161,13 @@ def shown(value: Any) -> str:
         text = f"“{value[: LONGEST + 1]}”"
     elif _is_number(value) and not -(10**LONGEST) < value < 10**LONGEST:
         return "…"
+    elif isinstance(value, list):
+        try:
+            text = as_text(value[:LONGEST]) or "[]"
+        except ValueRefused:
+            return "…"
     else:
-        text = as_text(value[:LONGEST] if isinstance(value, list) else value)
+        text = as_text(value)
     text = " ".join(text.split())
     return text if len(text) <= LONGEST + 2 else f"{text[:LONGEST]}…"
 
@@ -207,8 +232,20 @@ def is_same(a: Any, b: Any) -> bool:
     if isinstance(a, bool) or isinstance(b, bool):
         return a is b
     if isinstance(a, list) and isinstance(b, list):
-        return len(a) == len(b) and all(map(is_same, a, b))
+        if a is b or len(a) != len(b):
+            return a is b
+        _require_end(a)
+        return _have_same(a, b)
     return bool(a == b)
+
+
+def _have_same(a: list[Any], b: list[Any]) -> bool:
+    pairs = zip(a, b, strict=False)
+    is_deep = [isinstance(one, list) and isinstance(other, list) for one, other in pairs]
+    return len(a) == len(b) and all(
+        _have_same(one, other) if deep else is_same(one, other)
+        for one, other, deep in zip(a, b, is_deep, strict=True)
+    )
 
 
 def is_less(a: Any, b: Any) -> bool:
@@ -327,7 +364,8 @@ def number_in(text: str) -> Number:
     number = Decimal(found[1].replace(",", "."))
     if number == 0:
         return 0
-    if number.adjusted() > _LARGEST_EXPONENT and "e" in found[1].lower():
+    is_short = "e" in found[1].lower()
+    if number.adjusted() >= (_LARGEST_EXPONENT if is_short else LARGEST_POWER_DIGITS):
         refuse(TOO_LARGE, STOP_GROWING, SHOW_VALUES)
     if number.adjusted() >= 0 and number == number.to_integral_value():
         return int(number)

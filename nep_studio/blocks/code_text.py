@@ -129,9 +129,8 @@ def read_value(text: str) -> CodeText:
     value = tree.body
     if isinstance(value, ast.Tuple):
         plain = f"({plain})"
-    closed = isinstance(
-        value, ast.Name | ast.Attribute | ast.Call | ast.Subscript | ast.List | ast.Tuple
-    )
+    whole = ast.Name | ast.Attribute | ast.Call | ast.Subscript | ast.List | ast.Tuple
+    closed = isinstance(value, whole | ast.JoinedStr)
     return CodeText((plain,), frozenset(), read, made, is_closed=closed)
 
 

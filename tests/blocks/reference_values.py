@@ -61,7 +61,7 @@ def _digits(value: float) -> str:
     if isinstance(value, int) or value == int(value):
         return str(int(value))
     rounded = float(f"{value:.11e}")
-    if not 1e-6 <= abs(rounded) < 1e15:
+    if not 1e-6 <= abs(rounded) < 1e16:
         mantissa, exponent = f"{rounded:.11e}".split("e")
         mantissa = mantissa.rstrip("0").rstrip(".")
         return f"{mantissa}e{exponent}"
@@ -268,6 +268,8 @@ def number_in(text: str) -> int | float:
     if _NUMBER.fullmatch(written) is None:
         raise Wrong("no number")
     if written.lstrip("+-").isdigit():
+        if len(written.lstrip("+-0")) > 1000:
+            raise Wrong("too many digits")
         return int(written)
     found = float(written.replace(",", "."))
     if not math.isfinite(found):

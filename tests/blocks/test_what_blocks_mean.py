@@ -548,6 +548,33 @@ def test_a_list_in_a_list_that_grows_is_gone_through_as_it_was(language):
     assert run(language, put(LIST, listed(listed(1, 2))), loop)["l"] == [[1, 2, 1, 2]]
 
 
+ITSELF = [put(LIST, listed(1)), note(get(LIST))]
+DOUBLED = [put(LIST, listed(1)), *[put(LIST, listed(get(LIST), get(LIST)))] * 30]
+
+
+@pytest.mark.parametrize("chain", [ITSELF, DOUBLED])
+@pytest.mark.parametrize(
+    ("value", "words"),
+    [
+        (with_slots("text.join", {"item.1": ""}, **{"item.2": get(LIST)}), "too deep"),
+        (with_slots("logic.compare", None, a=get(LIST), b=get(WORD)), "too deep"),
+        (with_slots("math.arithmetic", None, a=get(LIST), b=1), "number"),
+        (with_slots("logic.compare", {"comparison": "less"}, a=get(LIST), b=get(LIST)), "larger"),
+    ],
+)
+def test_a_list_without_end_is_told_at_once(language, chain, value, words):
+    value.groups = {"item": 2} if value.type == "text.join" else {}
+    other = [put(WORD, with_slots("list.part", None, first=1, last=9, list=get(LIST)))]
+
+    with pytest.raises(ValueRefused, match=words):
+        given(language, value, *chain, *other)
+
+
+def test_a_number_of_a_million_digits_in_a_text_is_refused_at_once(language):
+    with pytest.raises(ValueRefused, match="too large"):
+        values.number_in("1234567890" * 100_000)
+
+
 @pytest.mark.parametrize("number", [0, -2.5, 3])
 def test_a_number_with_its_sign_changed_is_read_back(language, number):
     minus = with_slots("math.function", {"function": "minus"}, number=number)

@@ -79,12 +79,19 @@ def _require_own_names(source: Source, parts: Sequence[Part]) -> None:
     for part in parts:
         for node in ast.parse(part.text).body if part.function is None else ():
             for name in sorted(taken.intersection(_bound(node))):
-                raise CodeUnread(
-                    "“{name}” has a meaning in the program already, and cannot be a variable.",
-                    part.line + node.lineno - 1,
-                    checklist=("Give the variable another name.",),
-                    name=name,
-                )
+                raise _taken(name, node, part.line + node.lineno - 1)
+
+
+def _taken(name: str, node: ast.stmt, line: int) -> CodeUnread:
+    """That a statement gives another meaning to what the program calls so, in words that fit."""
+    sentence, step = "“{name}” has a meaning in the program already.", "Give it another name."
+    match node:
+        case ast.Assign(value=ast.Call()) if name not in API:
+            step = 'Write it as the program does: nao = Robot("NAO"), behavior = Behavior("Test").'
+        case ast.Assign() | ast.AnnAssign() | ast.AugAssign() | ast.For():
+            sentence = "“{name}” has a meaning in the program already, and cannot be a variable."
+            step = "Give the variable another name."
+    return CodeUnread(sentence, line, checklist=(step,), name=name)
 
 
 def _bound(node: ast.stmt) -> set[str]:
@@ -258,10 +265,18 @@ def _require_unused(node: ast.Assign, used: set[str]) -> None:
     """What the program calls otherwise cannot be used by this name."""
     (target,) = node.targets
     if isinstance(target, ast.Name) and target.id in used:
+        step = "Call a robot as on the page Robots, in small letters."
+        match node.value:
+            case ast.Call(func=ast.Name(id="Behavior")):
+                step = "Call it “behavior”, wherever it stands."
+            case ast.Call(args=[ast.List()]) if target.id == "all_robots":
+                step = "Put the names of all robots into this list, as on the page Robots."
+            case ast.Call(args=[ast.List()]):
+                step = "Call it “all_robots”, wherever it stands."
         raise CodeUnread(
             "The program does not say this by the name “{name}”.",
             node.lineno,
-            checklist=("Call a robot as on the page Robots, in small letters.",),
+            checklist=(step,),
             name=target.id,
         )
 

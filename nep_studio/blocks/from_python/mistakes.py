@@ -18,6 +18,11 @@ _USUAL = (
 _BRACKET = ("Count the brackets in this line: each one that opens needs one that closes.",)
 _QUOTE = ("Begin and end the text with the same quote, on one line.",)
 _INDENT = ("Are the lines inside a block moved in by the same number of spaces?",)
+_EMPTY = (
+    "Write below this line what it does, moved in by four spaces: “pass” does nothing.",
+    *_INDENT,
+)
+_ALONE = ("Below a line with “@” comes one that begins with “def”.",)
 _TABS = ("Use spaces alone at the beginning of lines, four for each step, and no tabs.",)
 _OTHER_LANGUAGE = ("This looks like another language: write it in Python.",)
 _SIGNS = (
@@ -113,7 +118,11 @@ def checklist_of(error: SyntaxError, lines: Sequence[str]) -> Sequence[Words]:
     if "inconsistent use of tabs" in message or "indent" in message:
         above = lines[number - 2] if number > 1 else ""
         is_foreign = _fitting(_FOREIGN, above)
-        return (*(is_foreign or ()), *(_TABS if "tabs" in message else _INDENT))
+        usual = _EMPTY if message.startswith("expected an indented block after") else _INDENT
+        return (*(is_foreign or ()), *(_TABS if "tabs" in message else usual))
+    before = next((one for one in reversed(lines[: number - 1]) if one.strip()), "")
+    if before.lstrip().startswith("@") and not line.lstrip().startswith(("def", "async", "@")):
+        return (*_ALONE, _USUAL[-1])
     plain = _without_texts(line)
     found = _keyword_as_name(plain) or _fitting(_BY_LINE, plain)
     if found is None:

@@ -121,7 +121,8 @@ def names_in(
         if node.name not in as_code:
             assigned += _kept(node, tree)
     for name in [*assigned, *_begun(tree), *_shared(tree, loose=loose)]:
-        if name not in names.robots and name not in names.variables and name not in RESERVED:
+        is_known = name in names.robots or name in names.variables or name in RESERVED
+        if not is_known and python_name(name, "") == name:
             # A name for a new variable that no other has; its Python name is the same
             project = editor.project
             taken = {variable.name for variable in project.variables}

@@ -55,6 +55,14 @@ def is_frame(node: ast.stmt) -> bool:
     return is_run(node)
 
 
+def _is_head(node: ast.stmt) -> bool:
+    """Whether a statement is of those that the program writes in any case, not for its blocks."""
+    match node:
+        case ast.Assign(targets=[ast.Name()], value=ast.Call(func=ast.Name(id=made))):
+            return made in HEADERS
+    return isinstance(node, ast.ImportFrom) and is_frame(node)
+
+
 def is_run(node: ast.stmt) -> bool:
     """Whether this is the line that lets the behaviour run."""
     match node:
@@ -103,7 +111,7 @@ class _Splitter:
         for number, node in enumerate(body):
             begin = begin_of(node)
             if isinstance(node, ast.FunctionDef) and self._is_function(node):
-                if begin >= self.end_from:
+                if number >= self.end_from:
                     raise _below_the_end(node)
                 self._wait_for(after, self.source.first_line(node, after))
                 self._add_waiting(HERE)
@@ -114,7 +122,7 @@ class _Splitter:
                 continue
             self._wait_for(after, begin)
             after = node.end_lineno or node.lineno
-            place = END if begin >= self.end_from else TOP if begin <= head else HERE
+            place = END if number >= self.end_from else TOP if begin <= head else HERE
             if self._is_own(node, number):
                 can_be_top = isinstance(node, ast.Import | ast.ImportFrom) or _is_text(node)
                 place = HERE if place == TOP and not can_be_top else place
@@ -125,22 +133,28 @@ class _Splitter:
             self.waiting += [n for n in range(begin, after + 1) if n in self.source.comments]
             self._add_waiting(place)
         self._wait_for(after, len(self.source.lines) + 1)
-        self._add_waiting(END if after >= self.end_from else HERE)
+        self._add_waiting(END if self.end_from < len(body) else HERE)
         self._flush()
         return self.parts
 
     def _find_end(self) -> tuple[ast.stmt | None, int]:
-        """The line that lets the behaviour run, when it is the usual one, and from where on all
+        """The line that lets the behaviour run, when it is the usual one, and the number of the
 
-        is written as it is: below it, or from the first statement on that runs the behaviour.
+        statement from which on all is written as it is: that one, or the first that runs the
+        behaviour, also by what is defined above.
         """
         body = self.source.tree.body
         mentions = [node for node in body if _runs(node)]
         if len(mentions) == 1 and is_run(mentions[0]) and mentions[0].lineno not in self.kept:
-            return mentions[0], mentions[0].lineno
-        definitions = (ast.FunctionDef, ast.AsyncFunctionDef, ast.ClassDef)
-        lines = [begin_of(node) for node in mentions if not isinstance(node, definitions)]
-        return None, min(lines, default=len(self.source.lines) + 2)
+            return mentions[0], body.index(mentions[0])
+        running = set[str]()
+        for number, node in enumerate(body):
+            if not (_runs(node) or running & _read(node)):
+                continue
+            if not isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef | ast.ClassDef):
+                return None, number
+            running.add(node.name)
+        return None, len(body)
 
     def _is_function(self, node: ast.FunctionDef) -> bool:
         """Whether a function becomes blocks: a rule, or an own block."""
@@ -148,17 +162,19 @@ class _Splitter:
             return True
         plain = not (node.decorator_list or node.returns) and _takes_plain_values(node.args)
         own = plain and node.lineno not in self.kept and self.names[node.name] == 1
-        return own and node.name not in API and _gives_at_once(node)
+        return own and node.name not in API and _gives_at_once(node) and not _runs(node)
 
     def _is_own(self, node: ast.stmt, number: int) -> bool:
         """Whether a statement is kept as it is written."""
         begin, end = begin_of(node), node.end_lineno or node.lineno
         if node is self.run:
             return False
-        if begin >= self.end_from or begin in self.kept:
+        if number >= self.end_from or (begin in self.kept and not _is_head(node)):
             return True
         if number == 0 and _is_text(node):
             return not is_made_docstring(node)
+        if _is_beginning(node) and (self.parts or self.lines) and self.place != TOP:
+            return True  # what variables begin with is written above all else: it stays where it is
         if isinstance(node, ast.Import) or _is_beginning(node):
             is_commented = any(n in self.source.comments for n in range(begin, end + 1))
             return is_commented or not is_frame(node)
@@ -285,6 +301,12 @@ def _runs(node: ast.stmt) -> bool:
     return any(isinstance(n, ast.Attribute) and n.attr == "run" for n in ast.walk(node)) and runs(
         (ast.unparse(node),)
     )
+
+
+def _read(node: ast.stmt) -> set[str]:
+    """The names that a statement reads."""
+    named = (n for n in ast.walk(node) if isinstance(n, ast.Name))
+    return {n.id for n in named if isinstance(n.ctx, ast.Load)}
 
 
 def _named(node: ast.stmt) -> Iterator[str]:

@@ -94,7 +94,7 @@ class StatementReader:
         first = self._source.first_line(node, after)
         hat.text = self._source.text(first, node.lineno)
         nodes = _without_global(node.body)
-        if node.lineno in self._kept and nodes:
+        if nodes and (node.lineno in self._kept or _is_one_piece(node)):
             last = self._source.last_line(node.body)
             return [hat, self.code(nodes, self._source.line_before(node.body), last)]
         return [hat, *self.body(node.body)]
@@ -129,6 +129,12 @@ class StatementReader:
                 made = self.values.made_from(pattern, found) if found is not None else None
                 if made is not None:
                     return made
+        if len(node.decorator_list) > 1:
+            raise CodeUnread(
+                "The function of a rule has one line with “@” above it.",
+                node.decorator_list[1].lineno,
+                checklist=("Make a function of its own for each of them.",),
+            )
         raise CodeUnread(
             "No “when” block stands for “@{code}”.",
             node.decorator_list[0].lineno,
@@ -242,6 +248,11 @@ def _without_end(nodes: Sequence[ast.stmt]) -> Sequence[ast.stmt]:
 
 def _without_global(body: Sequence[ast.stmt]) -> list[ast.stmt]:
     return [node for node in body if not isinstance(node, ast.Global)]
+
+
+def _is_one_piece(node: ast.FunctionDef) -> bool:
+    """Whether functions in a function change what that one has for itself, as no blocks can."""
+    return any(isinstance(inner, ast.Nonlocal) for inner in ast.walk(node))
 
 
 def _require_no_values(node: ast.FunctionDef) -> None:

@@ -112,9 +112,7 @@ class ChainUpdater:
     def _replace(self, block_id: str, made: Made, place: Callable[[int], Place]) -> None:
         """Change a block to another: itself when it is of the same type, else by a new one."""
         block = self._editor.project.blocks[block_id]
-        groups = {name: count for name, count in block.groups.items() if count}
-        wanted = {name: count for name, count in made.groups.items() if count}
-        if block.type == made.type and groups == wanted:
+        if self._is_such(block, made):
             self._change(block, made)
             return
         chain = chain_around(self._editor.project, block_id)
@@ -127,21 +125,39 @@ class ChainUpdater:
         """Give a block other fields, plugged blocks, comment, and what is in its bodies."""
         editor = self._editor
         definition = editor.language.definitions[block.type]
-        if block.comment != made.comment:
+        if block.comment != made.comment and not definition.is_value:  # a value's is in no Python
             editor.apply(SetComment(block.id, made.comment))
         for key, slot in list(definition.keys(block.groups)):
             if slot.kind.name == "body":
                 body = list(block.bodies.get(key, []))
                 self._update(body, made.bodies.get(key, []), partial(InBody, block.id, key))
                 continue
-            if key in block.inputs:
-                editor.apply(DeleteBlocks(block.inputs[key], 1))
+            plugged = editor.project.blocks.get(block.inputs.get(key, ""))
+            stays = plugged is not None and self._stays(plugged, made.inputs.get(key))
+            if plugged is not None and not stays:
+                editor.apply(DeleteBlocks(plugged.id, 1))
             # what the Python does not say is as in a new block
             wanted = made.fields.get(key, definition.defaults.get(split_slot(key)[0]))
             if key not in made.inputs and definition.value(block, key) != wanted:
                 editor.apply(SetField(block.id, key, wanted))
-            if key in made.inputs:
+            if key in made.inputs and not stays:
                 self._create([made.inputs[key]], InInput(block.id, key))
+
+    def _stays(self, plugged: Block, made: Made | None) -> bool:
+        """Whether a value block can stay where it is; what is in it becomes what is wanted."""
+        if made is None:
+            return plugged.disabled
+        if plugged.disabled or not self._is_such(plugged, made):
+            return False
+        self._change(plugged, made)
+        return True
+
+    @staticmethod
+    def _is_such(block: Block, made: Made) -> bool:
+        """Whether a block is of the wanted type and has as many of all its parts."""
+        groups = {name: count for name, count in block.groups.items() if count}
+        wanted = {name: count for name, count in made.groups.items() if count}
+        return block.type == made.type and groups == wanted
 
     def _create(self, chain: Sequence[Made], place: Place) -> None:
         roots, blocks = blocks_of(self._editor.project, self._editor.language, chain)

@@ -119,6 +119,8 @@ def _kinds_of(node: ast.expr, seen: Seen | None) -> int:
     match node:
         case ast.Constant(value=value):
             return _of_constant(value)
+        case ast.JoinedStr():
+            return TEXT
         case ast.UnaryOp(op=ast.Not()) | ast.Compare():
             return TRUTH
         case ast.UnaryOp(operand=operand):

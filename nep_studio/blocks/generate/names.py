@@ -87,9 +87,14 @@ def python_name(text: str, fallback: str) -> str:
     """Turn any text into an identifier, as near to it as can be: “größe (cm)” to größe_cm.
 
     Python reads identifiers in NFKC form, so that the result is in that form. ``fallback`` is
-    used where nothing is left, and stands before what cannot begin a name.
+    used where nothing is left, and stands before what cannot begin a name. What is a name already
+    stays it, so that Python of a person keeps the names in it; but for those such as __name__.
     """
     normal = unicodedata.normalize("NFKC", text)
+    is_special = normal.startswith("__") and normal.endswith("__")
+    is_same = unicodedata.normalize("NFKC", normal) == normal
+    if normal.isidentifier() and normal.strip("_") and is_same and not is_special:
+        return normal
     kept = "".join(c if f"a{c}".isidentifier() else "_" for c in normal)
     name = re.sub("_+", "_", kept)[:_LONGEST].strip("_")
     if name and not name.isidentifier():

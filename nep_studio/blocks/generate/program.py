@@ -146,7 +146,7 @@ class ProgramGenerator:
         sharing = yield from self._sharing(written, names)
         self._kinds = yield from self._kinds_in(written, names)
         functions = NameTable(names.taken())
-        ordered = self._in_order(written, set(headers.values()), headers, outside)
+        ordered = self._in_order(written, names, headers, outside)
         for stack in ordered:
             self._rules[stack] = yield from self._rule(
                 stack, written[stack], names, functions, sharing
@@ -193,19 +193,28 @@ class ProgramGenerator:
     def _in_order(
         self,
         written: dict[str, list[str]],
-        defining: set[str],
+        names: ProgramNames,
         headers: dict[str, str],
         outside: dict[str, Outside],
     ) -> list[str]:
         """The stacks as they stand in the text: own blocks are defined before the rules.
 
-        Own Python stands where it is on its page, above all of them when nothing is above it.
+        Own Python stands where it is on its page, above all of them when nothing is above it, but
+        below the own blocks that it names.
         """
         of_place = {place: [s for s in outside if outside[s].place == place] for place in PLACES}
         others = [s for s in written if s not in of_place["top"] and s not in of_place["end"]]
         first = list(itertools.takewhile(lambda s: s in outside, others))
-        rest = [s for s in others[len(first) :] if s not in defining]
-        return [*of_place["top"], *first, *headers.values(), *rest, *of_place["end"]]
+        rest = others[len(first) :]
+        defining = list(headers.values())
+        if not any(s in outside for s in rest):
+            rest = [*defining, *rest]
+        own, between = frozenset(names.procedures.values()), list[str]()
+        for stack in rest:
+            is_free = stack in outside and not own & outside[stack].read.read
+            between += [] if is_free or stack in defining else defining
+            between.append(stack)
+        return [*of_place["top"], *dict.fromkeys([*first, *between]), *of_place["end"]]
 
     def _sharing(self, written: dict[str, list[str]], names: ProgramNames) -> Steps[Sharing]:
         """What parts that run at once change, from all chains; those that are known stay so."""

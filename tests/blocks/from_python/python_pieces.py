@@ -46,3 +46,19 @@ TOP = [
     *["# Anna\n# 2026", "#!/usr/bin/env python3\n# -*- coding: utf-8 -*-", '"""My own."""', "'''Several\nlines.'''\nimport time"],
     *["from __future__ import annotations", "import json  # data", "\ufeff# with a mark", "PLAYERS = 2", "# a\nPLAYERS = 2  # b"],
 ]  # fmt: skip
+
+START = '@behavior.when_started\ndef when_started():\n    nao.say("hi")\n'
+MAKE = 'from nep_core import Behavior, Robot\n\nnao = Robot("NAO")\nbehavior = Behavior("T")\n'
+RUN = "\n\nbehavior.run()\n"
+
+WHOLE = [
+    f'{MAKE}\n\n{START}\n\ndef main():\n    print("go")\n    behavior.run()\n\n\nif __name__ == "__main__":\n    main()\n',
+    f'{MAKE}\n\nclass App:\n    def start(self):\n        behavior.run()\n\n\ndef go():\n    App().start()\n\n\n{START}\n\ngo()\nprint("end")\n',
+    f'{MAKE}\n\n{START}\nprint("begin"); behavior.run(); print("end")\n',
+    f'from nep_core import Behavior, Robot; import random\nnao = Robot("NAO"); behavior = Behavior("T"); SIDES = 6\n\n\n{START}{RUN}',
+    f'{MAKE}_private = 0\n__dunder = 1\ntwo__parts = 2\nafter_ = 3\n__author__ = "Mia"\n\n\n@behavior.when_started\ndef when_started():\n    global _private, __dunder, two__parts, after_\n    _private += 1\n    __dunder += 1\n    two__parts *= 2\n    after_ -= 1\n    nao.say(str(_private) + str(two__parts) + str(after_) + __author__){RUN}',
+    f"{MAKE}LIVES = 3\npoints = 0\nnames = []\nSPEED = 2.5\n\n\ndef one():\n    return points\n\n\nVALUE = 3\n\n\ndef two():\n    nao.say(str(VALUE))\n\n\nRESULT = one()\n\n\n@behavior.when_started\ndef when_started():\n    global points\n    points = RESULT\n    names.append(SPEED)\n    two(){RUN}",
+    f"{MAKE}\n\ndef sign(n):\n    if n > 0:\n        return 'plus'\n    return 'minus'\n\n\ndef maybe(n):\n    if n:\n        return n\n\n\ndef nothing(n):\n    if n:\n        return\n    nao.say('x')\n\n\n@behavior.when_started\ndef when_started():\n    nao.say(sign(-2))\n    nao.say(str(maybe(0)))\n    nothing(1){RUN}",
+    f"{MAKE}\n\n@behavior.when_started\ndef when_started():\n    k = 2\n\n    def left():\n        nonlocal k\n        k += 1\n\n    left()\n    nao.say(str(k)){RUN}",
+]
+"""Programs as people write them whole: who runs the behaviour, in which order all stands."""

@@ -164,3 +164,17 @@ def test_a_second_robot_is_no_other_name_of_the_first(language):
 
     names = [one.name for one in robot_entries(editor.project, language)]
     assert names == ["NAO", "Otto"]
+
+
+def test_a_text_with_values_in_braces_is_a_value_among_blocks(language):
+    editor = build(
+        language,
+        [B("event.started"), B("robot.say", {"text": "That is "})],
+    )
+    text = generate_program(editor.project, language).text
+    said = 'nao.say(f\'{1 + 1} of \' + str(len("abc")) + "!")'
+
+    update_from_python(editor, text.replace('nao.say("That is ")', said))
+
+    assert said in generate_program(editor.project, language).text
+    assert not any(block.type == "code.lines" for block in editor.project.blocks.values())

@@ -15,7 +15,7 @@ from nep_studio.blocks.from_python.source import read_source
 from nep_studio.blocks.from_python.updating import update_from_python
 from nep_studio.blocks.generate.program import generate_program
 from nep_studio.blocks.program import Project
-from tests.blocks.from_python.python_pieces import IN_RULE, OUTSIDE, TOP
+from tests.blocks.from_python.python_pieces import IN_RULE, MAKE, OUTSIDE, RUN, START, TOP, WHOLE
 from tests.blocks.from_python.python_traces import assert_does_the_same
 
 HEAD = '"""T. Made with NEP Studio."""\nfrom nep_core import Behavior, Robot, together, wait\n\n'
@@ -34,6 +34,7 @@ PROGRAMS = (
     [program(outside=piece) for piece in OUTSIDE]
     + [program(rule=piece) for piece in IN_RULE]
     + [program(top=piece) for piece in TOP]
+    + WHOLE
 )
 
 
@@ -52,6 +53,14 @@ def said(text: str) -> tuple[Counter[str], Counter[str]]:
     return statements, Counter(" ".join(c.split()) for c in source.comments.values())
 
 
+def order(text: str) -> list[str]:
+    """What stands outside of the functions, and the functions by what they do, in their order."""
+    by_program = ("Made with NEP", "Import", "id='Robot'", "id='Behavior'")  # has places of its own
+    body = read_source(text).tree.body
+    said = [ast.dump(n.body[-1] if isinstance(n, ast.FunctionDef) else n) for n in body]
+    return [one for one in said if not any(part in one for part in by_program)]
+
+
 @pytest.mark.parametrize("text", PROGRAMS, ids=range(len(PROGRAMS)))
 def test_each_line_is_kept_or_refused_with_its_line(language, text, monkeypatch):
     editor = Editor(Project("T"), language)
@@ -68,15 +77,38 @@ def test_each_line_is_kept_or_refused_with_its_line(language, text, monkeypatch)
     made = generate_program(editor.project, language).text
     for ours, theirs in zip(said(text), said(made), strict=True):
         assert not ours - theirs
+    again = order(made)
+    assert [one for one in order(text) if one in again] == [o for o in again if o in order(text)]
     assert_does_the_same(made, text, monkeypatch)
     loaded = Editor(from_bytes(to_bytes(editor.project), "x", language), language)
     assert generate_program(loaded.project, language).text == made
-    update_from_python(loaded, made)
-    assert generate_program(loaded.project, language).text == made
+    after = to_bytes(loaded.project)
+    for same in (made, text):
+        update_from_python(loaded, same)
+        assert to_bytes(loaded.project) == after
 
 
 def test_there_are_enough_pieces():
     assert len(PROGRAMS) >= 150
+
+
+@pytest.mark.parametrize(
+    ("text", "told"),
+    [
+        (f"{MAKE}\n\ndef remember(what):\n    pass\n\n\n{START}{RUN}", "another name"),
+        (f"{MAKE}{START}{RUN}".replace("behavior", "mine"), "behavior"),
+        (f"{MAKE}{START}{RUN}".replace('"NAO"', '["A", "B"]').replace("nao", "both"), "all_robots"),
+        (f"{MAKE}{START}{RUN}".replace(" Behavior(", " nep.Behavior("), "as the program does"),
+        (f"{MAKE}@behavior.when('touched_head')\n{START}{RUN}", "function of its own"),
+        (f"{MAKE}@behavior.when_started\n{RUN}", "def"),
+        (f"{MAKE}def greet():\n{RUN}", "pass"),
+    ],
+)
+def test_what_no_block_says_is_told_with_what_fits_it(language, text, told):
+    with pytest.raises(CodeUnread) as refused:
+        update_from_python(Editor(Project("T"), language), text)
+
+    assert told in str(refused.value.checklist[0])
 
 
 @pytest.mark.parametrize(
