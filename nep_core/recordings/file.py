@@ -8,7 +8,7 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import IO, TYPE_CHECKING, Any
 
 import msgspec
 
@@ -155,6 +155,38 @@ _LARGEST_WINDOW = 8_388_608
 """What zstd itself lets a stranger's file ask for, in bytes."""
 
 
+class Records:
+    """The records of an open MCAP file, those of a chunk at a time, as far as they can be read.
+
+    ``is_whole`` is known after that: False when the file ends or is damaged in the middle.
+    """
+
+    def __init__(self, file: IO[bytes]) -> None:
+        self.is_whole = True
+        self._file = file
+
+    def __iter__(self) -> Iterator[list[McapRecord]]:
+        """Records, read as they are wanted."""
+        from mcap.records import Chunk
+        from mcap.stream_reader import StreamReader
+
+        reader = StreamReader(
+            self._file, emit_chunks=True, validate_crcs=True, record_size_limit=LARGEST_RECORD
+        )
+        records = reader.records
+        while True:
+            record = _next_whole(lambda: next(records, None))
+            if isinstance(record, Chunk):
+                found = _next_whole(partial(_records_in, record))
+            else:
+                found = record if record in (None, _DAMAGED) else [record]
+            if found is _DAMAGED:
+                self.is_whole = False
+            if found is None or found is _DAMAGED:
+                return
+            yield found
+
+
 class Recording:
     """An MCAP file; raises RecordingError when it is none, or cannot be read.
 
@@ -190,29 +222,10 @@ class Recording:
         channels: dict[int, Channel | None] = {}
         self.is_whole = True
         with self.path.open("rb") as file:
-            for records in self._records(file):
+            found = Records(file)
+            for records in found:
                 yield from self._sorted(records, channels)
-
-    def _records(self, file: Any) -> Iterator[list[McapRecord]]:
-        """The records of a chunk at a time, as far as they can be read."""
-        from mcap.records import Chunk
-        from mcap.stream_reader import StreamReader
-
-        reader = StreamReader(
-            file, emit_chunks=True, validate_crcs=True, record_size_limit=LARGEST_RECORD
-        )
-        records = reader.records
-        while True:
-            record = _next_whole(lambda: next(records, None))
-            if isinstance(record, Chunk):
-                found = _next_whole(partial(_records_in, record))
-            else:
-                found = record if record in (None, _DAMAGED) else [record]
-            if found is _DAMAGED:
-                self.is_whole = False
-            if found is None or found is _DAMAGED:
-                return
-            yield found
+            self.is_whole = found.is_whole
 
     def _sorted(
         self, records: list[McapRecord], channels: dict[int, Channel | None]

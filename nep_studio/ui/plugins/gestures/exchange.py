@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import itertools
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from datetime import datetime
@@ -16,6 +17,7 @@ from msgspec.structs import replace
 from faults import reason_of, text_of
 from faults.files import whole_file
 from nep_core.errors import RecordingError
+from nep_core.recordings.file import Records
 from nep_core.wire.frames import CANNOT_DECODE
 from nep_core.wire.messages import IMU, Imu
 from nep_studio.blocks.edits.content import SetExtra
@@ -187,11 +189,9 @@ def _made(key: str, gestures: dict[str, OwnGesture]) -> str:
 
 TAKES = "/gesture_takes"
 LARGEST_BYTES = 300_000_000
-_LARGEST_RECORD = 64_000_000
 _BATCH = 50
 _CHUNK_BYTES = 64_000
 """Small chunks: of a file that was cut, little is lost."""
-_UNPACKING = ("zstandard", "lz4", "struct", "_struct")
 _IS_MCAP = (
     "Is it a file that ends with .mcap?",
     "If it was sent or downloaded, get it once more: it may not be whole.",
@@ -304,33 +304,24 @@ def read_mcap(path: Path) -> tuple[list[Imported], bool]:
 
 def _read(file: IO[bytes], channels: dict[int, _Channel], marks: list[TakeMark]) -> bool:
     """Read as far as the file can be read; gives whether that was to its end."""
-    from mcap.exceptions import McapError
     from mcap.records import Channel, Message
-    from mcap.stream_reader import StreamReader
 
     topics: dict[int, str] = {}
-    reader = StreamReader(file, validate_crcs=True, record_size_limit=_LARGEST_RECORD)
-    try:
-        for record in reader.records:
-            if isinstance(record, Channel) and record.message_encoding == "json":
-                topics[record.id] = record.topic
-                if record.topic == IMU:
-                    channels.setdefault(record.id, _Channel(dict(record.metadata)))
-            elif isinstance(record, Message):
-                topic = topics.get(record.channel_id)
-                with contextlib.suppress(*CANNOT_DECODE):  # another program says else there
-                    if topic == IMU:
-                        batch = msgspec.json.decode(record.data, type=Imu)
-                        channels[record.channel_id].batches.append(batch)
-                    elif topic == TAKES:
-                        marks.append(msgspec.json.decode(record.data, type=TakeMark))
-    except (McapError, ValueError, EOFError, KeyError, IndexError, MemoryError, RuntimeError):
-        return False
-    except Exception as error:  # those of the libraries that unpack have no common name
-        if type(error).__module__.partition(".")[0] not in _UNPACKING:
-            raise
-        return False
-    return True
+    found = Records(file)
+    for record in itertools.chain.from_iterable(found):
+        if isinstance(record, Channel) and record.message_encoding == "json":
+            topics[record.id] = record.topic
+            if record.topic == IMU:
+                channels.setdefault(record.id, _Channel(dict(record.metadata)))
+        elif isinstance(record, Message):
+            topic = topics.get(record.channel_id)
+            with contextlib.suppress(*CANNOT_DECODE):  # another program says else there
+                if topic == IMU:
+                    batch = msgspec.json.decode(record.data, type=Imu)
+                    channels[record.channel_id].batches.append(batch)
+                elif topic == TAKES:
+                    marks.append(msgspec.json.decode(record.data, type=TakeMark))
+    return found.is_whole
 
 
 def _imported_from(channel: _Channel, marks: list[TakeMark]) -> Imported | None:
