@@ -153,7 +153,7 @@ def read_profile(path: Path) -> Profile:
     try:
         profile = msgspec.convert(tomllib.loads(path.read_text(encoding="utf-8")), Profile)
         _check(profile)
-    except (OSError, ValueError) as error:
+    except (OSError, ValueError, RecursionError) as error:
         raise NodeStartError(
             "The Bluetooth device file {name} cannot be used: {error}.",
             checklist=(
