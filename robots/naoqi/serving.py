@@ -12,7 +12,7 @@ import threading
 from collections.abc import Callable, Iterable, Iterator
 from typing import Any
 
-from robots.body.actor import FINAL, Actor
+from robots.body.actor import FINAL, MOST_WAITING, Actor
 from robots.body.driver import ActionRequest, ActionResult, RobotState
 from robots.body.gait import is_stepping
 from robots.body.limbs import Limb
@@ -23,8 +23,6 @@ from robots.naoqi.wire.errors import CallFailed
 OnEnd = Callable[[ActionResult], None]
 Condition = Callable[[], bool]
 Ending = tuple[OnEnd, ActionResult]
-MOST_WAITING = 2000
-"""A program that asks for more at once has lost its way, and would make all others wait."""
 
 
 class ServedRobot:
