@@ -184,11 +184,14 @@ def master(folder: Path) -> Iterator[Feed]:
 def gateway(folder: Path) -> Iterator[Feed]:
     """A request of the original's programs at both ports, and a frame of theirs of each kind."""
     from faults import FaultError
+    from nep_core.networks.gateway import lines
     from nep_core.networks.gateway.doors import KINDS, read, read_request, write
     from nep_core.networks.gateway.gateway import Gateway, Ports
     from nep_core.networks.gateway.lines import recall
     from nep_core.networks.master import Master
 
+    # A line has 80 kB of sockets: those of ten seconds are 30 MB, which would hide what is kept
+    lines.UNUSED_S = 1.0
     server = Master(f"tcp://{HOST}:*")
     old, new, registry, topics = free_ports(4)
     topics = min(topics, 60000)
