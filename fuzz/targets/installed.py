@@ -9,6 +9,7 @@ import random
 import tempfile
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
+from functools import partial
 from pathlib import Path
 
 from fuzz.formats import mcap_changed, toml_changed
@@ -172,7 +173,7 @@ def brought(folder: Path) -> Iterator[Feed]:
         assert newest is None or newest.is_newer in (True, False)
         read_text(text, Voice(), with_instructions=True)
         assert speaking_time_s(text) >= 0.0
-        for read in (lambda: motion(text), lambda: device(data)):
+        for read in (partial(motion, text), partial(device, data)):
             try:
                 read()
             except FaultError as error:
