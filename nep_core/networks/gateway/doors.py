@@ -355,6 +355,10 @@ class WayIn(Door):
             self._on_frame(b" ".join(frames))
 
 
+MOST_FRAMES, ROOM_BYTES = 1000, 64_000_000
+"""So many frames are kept for a program that does not read, and about so many bytes of them."""
+
+
 class WayOut(Door):
     """Gives programs what they subscribe to; ``wanted`` are their subscriptions.
 
@@ -378,10 +382,11 @@ class WayOut(Door):
         self.wanted: set[bytes] = set()
         self.shape = shape
         self._topic = topic
+        self._largest = ROOM_BYTES // MOST_FRAMES
 
     def send(self, value: object) -> None:
         """Give all who are here a value; raises BadMessage."""
-        self._socket.send(write(value, self._topic, self.shape.kind, self._prefixed))
+        self._send(write(value, self._topic, self.shape.kind, self._prefixed))
 
     def takes(self, frame: bytes, shape: Shape) -> bool:
         """Send on, as it is, a frame that the programs here read; else False."""
@@ -389,8 +394,14 @@ class WayOut(Door):
         if is_read and shape.kind == "json":  # 0.5.4.6 asks like later ones, but has prefixes
             is_read = frame.startswith(self._topic.encode() + b" ") == self._prefixed
         if is_read:
-            self._socket.send(frame)
+            self._send(frame)
         return is_read
+
+    def _send(self, frame: bytes) -> None:
+        if len(frame) > self._largest:  # ZeroMQ counts frames: of larger ones it may keep fewer
+            self._largest = len(frame)
+            self._socket.sndhwm = max(1, ROOM_BYTES // len(frame))
+        self._socket.send(frame)
 
     @property
     def _prefixed(self) -> bool:

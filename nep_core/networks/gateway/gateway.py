@@ -293,7 +293,7 @@ class Gateway:
             self._warn(str(error))
             return
         self._give(others, value)
-        self._speaker(topic, _encoding(shape)).say(value)
+        self._speaker(topic, _encoding(shape)).say(value, len(frame))
 
     def _take_ours(self, topic: str, value: Any) -> None:
         """Our network says something (in a thread of the listener)."""

@@ -370,8 +370,8 @@ def _has_ended(program: KeptProgram, born: Callable[[int], float] = _born) -> bo
 T = TypeVar("T")
 
 
-WAITING = 10_000
-"""Messages that may wait for our network; when there are more, the newest are dropped."""
+WAITING, WAITING_BYTES = 10_000, 64_000_000
+"""Messages that may wait for our network, and bytes; of more the newest are dropped."""
 AGAIN_S = 1.0
 ENDS_S = 2.0
 
@@ -419,12 +419,18 @@ class Speaker(Side):
         self._encoding = encoding
         self._warn = Warner()
         self._waiting: queue.Queue[Any] = queue.Queue(WAITING)
+        self._counting = threading.Lock()
+        self._bytes = 0
         super().__init__(network, topic)
 
-    def say(self, value: Any) -> None:
-        """Publish soon."""
+    def say(self, value: Any, size: int) -> None:
+        """Publish soon; ``size`` are the bytes of the frame in which it came."""
         try:
-            self._waiting.put_nowait((value,))
+            with self._counting:
+                if self._bytes and self._bytes + size > WAITING_BYTES:
+                    raise queue.Full
+                self._waiting.put_nowait((value, size))
+                self._bytes += size
         except queue.Full:
             self._warn(f"{self._topic}: messages of the original come too fast for our network.")
 
@@ -444,8 +450,11 @@ class Speaker(Side):
             item = self._waiting.get()
             if item is None or self._network.closed:
                 break
+            value, size = item
+            with self._counting:
+                self._bytes -= size
             try:
-                publisher.send(*item)
+                publisher.send(value)
             except BadMessage as error:
                 self._warn(f"{self._topic}: {error.sentence}")
         publisher.close()

@@ -14,7 +14,7 @@ import pytest
 import zmq
 
 from nep_core.errors import PortTaken
-from nep_core.networks.gateway import lines
+from nep_core.networks.gateway import doors, lines
 from nep_core.networks.gateway.doors import LONGEST_NAME
 from nep_core.networks.gateway.gateway import Gateway, Ports
 from nep_core.networks.master import Master
@@ -163,6 +163,40 @@ def test_names_that_strangers_make_up_do_not_pile_up(
     nodes = told["/t"]["nodes"]
     assert [name.split()[0] for name in nodes] == ["15", "16", "17", "18", "19"]
     assert {len(name) for name in nodes} == {LONGEST_NAME}
+
+
+def test_what_waits_for_a_reader_that_stands_still_is_bounded_in_bytes(
+    raw: RawPrograms, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(doors, "ROOM_BYTES", 2_000_000)
+    port = raw.register("/t", "publisher", msg_type="bytes")
+    publisher, quick, slow = raw.publisher(port), raw.reader(port + 1), raw.reader(port + 1)
+    slow.rcvhwm = 1
+    until(lambda: all_hear(publisher, b"hello", quick, slow))
+
+    for number in range(200):
+        publisher.send(bytes([number]) * 200_000)
+        while quick.recv()[:1] != bytes([number]):
+            pass
+
+    heard = [slow.recv()]
+    while slow.poll(200):
+        heard.append(slow.recv())
+    assert len(heard) < 150  # what the system keeps of a connection comes on top
+    until(lambda: all_hear(publisher, b"hello", slow))
+
+
+def test_what_waits_for_our_master_is_bounded_in_bytes(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(lines, "WAITING_BYTES", 1000)
+    with PeerNetwork("gateway", master=f"tcp://127.0.0.1:{free_ports().old}") as ours:
+        pass  # nobody takes what waits
+    speaker = lines.Speaker(ours, "/t")
+
+    for _ in range(20):
+        speaker.say("a" * 300, 300)
+
+    assert speaker._waiting.qsize() == 3
+    speaker.wait()
 
 
 def test_both_generations_get_the_list_of_topics_at_one_port(raw: RawPrograms) -> None:
