@@ -40,7 +40,7 @@ ROOMS = {
     "dev": Room(("dev_system", "dev_tests")),
     "fuzz": Room(("fuzz", "fuzz.targets", "faults"), ("msgspec", "psutil")),
     "fuzz.targets": Room(
-        ("fuzz", *UI),  # every door, wherever it is
+        ("fuzz", *UI, "nep_studio.ui.plugins"),  # every door, wherever it is
         ("zmq", "msgspec", "numpy", "aiohttp"),
     ),
     "dev_tests": Room(("dev_system",)),

@@ -8,10 +8,11 @@ from fuzz.target import Target
 
 # By the module that has them: a child loads what its target needs, and no more.
 MODULES = {
-    "network": ("frames", "master", "gateway", "pairing", "naoqi"),
+    "network": ("frames", "master", "gateway", "pairing"),
+    "robots": ("naoqi", "requests", "robot"),
     "sensors": ("lines", "push", "page", "csv", "models"),
     "projects": ("nep", "png", "python"),
-    "installed": ("mcap", "manifests", "settings", "translations"),
+    "installed": ("mcap", "manifests", "settings", "translations", "brought"),
 }
 NAMES = tuple(name for names in MODULES.values() for name in names)
 

@@ -2,22 +2,27 @@
 
 from __future__ import annotations
 
+import contextlib
 import itertools
 import os
+import random
 import tempfile
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
+from functools import partial
 from pathlib import Path
 
 from fuzz.formats import mcap_changed, toml_changed
-from fuzz.mutations import lines_changed
+from fuzz.mutations import flipped, json_changed, lines_changed
 from fuzz.target import Feed, Target
 
 
 @contextmanager
 def mcap(folder: Path) -> Iterator[Feed]:
-    """A recording: what `nep play` and the window's player do with one before they play it."""
+    """A recording: what `nep play`, the player and who learns gestures do with one first."""
+    from faults import FaultError
     from nep_core.recordings.file import Recording, overview
+    from nep_studio.ui.plugins.gestures.exchange import read_mcap
 
     path = folder / "take.mcap"
 
@@ -29,6 +34,8 @@ def mcap(folder: Path) -> Iterator[Feed]:
             message.payload.count(b"a")
         assert recording.is_whole == told.is_whole
         assert told.seconds >= 0.0 and told.messages >= 0
+        with contextlib.suppress(FaultError):
+            read_mcap(path)
 
     yield feed
 
@@ -127,6 +134,65 @@ def translations(folder: Path) -> Iterator[Feed]:
     yield feed
 
 
+@contextmanager
+def brought(folder: Path) -> Iterator[Feed]:
+    """Small things: a motion of Choregraphe, a sound, a Bluetooth device, an update, words."""
+    import struct
+
+    from faults import FaultError
+    from nep_studio.blocks.own_animations import JointKeys, OwnAnimation, why_not_animation
+    from nep_studio.support.updates import newest_in
+    from nodes.sensory.connectors.bluetooth import Decoder, profiles, read_profile
+    from nodes.sensory.sample_stream import SampleStream
+    from robots.body.choregraphe import read_choregraphe
+    from robots.body.sense_tasks import length_s
+    from robots.body.speech import speaking_time_s
+    from robots.naoqi.services.speech import Voice, read_text
+
+    path = folder / "brought"
+    known = [one for profile in profiles().values() for one in profile.characteristics]
+
+    def motion(text: str) -> None:
+        tracks = read_choregraphe(text).tracks
+        joints = {name: JointKeys(o.times, o.keys, o.handles) for name, o in tracks.items()}
+        str(why_not_animation("motion", OwnAnimation("A motion", joints))).encode()
+
+    def device(data: bytes) -> None:
+        sent = (data, data[:12], struct.pack("<3h", *data[:3].ljust(3)))
+        for one in (*known, *read_profile(path).characteristics):
+            decoder, stream = Decoder(one), SampleStream()
+            for number, message in enumerate(sent):
+                stream.samples(decoder.readings(message) or [], 1000.0 + number)
+
+    def feed(data: bytes) -> None:
+        path.write_bytes(data)
+        text, refused = data.decode(errors="replace"), None
+        with contextlib.suppress(ValueError):  # it is no sound
+            assert length_s(path) >= 0.0
+        newest = newest_in(data)
+        assert newest is None or newest.is_newer in (True, False)
+        read_text(text, Voice(), with_instructions=True)
+        assert speaking_time_s(text) >= 0.0
+        for read in (partial(motion, text), partial(device, data)):
+            try:
+                read()
+            except FaultError as error:
+                refused = error
+        if refused is not None:
+            raise refused
+
+    yield feed
+
+
+def _brought_changed(data: bytes, chance: random.Random, seeds: Sequence[bytes]) -> bytes:
+    if b"[[characteristics]]" in data:
+        return toml_changed(data, chance, seeds)
+    if data.startswith(b"{"):
+        return json_changed(data, chance, seeds)
+    is_text = data.isascii() and b"\0" not in data
+    return (lines_changed if is_text else flipped)(data, chance, seeds)
+
+
 TARGETS = {
     one.name: one
     for one in (
@@ -134,5 +200,6 @@ TARGETS = {
         Target("manifests", manifests, toml_changed),
         Target("settings", settings, lines_changed),
         Target("translations", translations, toml_changed),
+        Target("brought", brought, _brought_changed),
     )
 }

@@ -1,4 +1,4 @@
-"""What strangers on the network say: frames, requests to masters, pairing, NAOqi programs."""
+"""What strangers on the network say: frames, requests to masters and gateways, pairing."""
 
 from __future__ import annotations
 
@@ -7,7 +7,6 @@ import itertools
 import queue
 import random
 import socket
-import threading
 import time
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
@@ -185,11 +184,14 @@ def master(folder: Path) -> Iterator[Feed]:
 def gateway(folder: Path) -> Iterator[Feed]:
     """A request of the original's programs at both ports, and a frame of theirs of each kind."""
     from faults import FaultError
+    from nep_core.networks.gateway import lines
     from nep_core.networks.gateway.doors import KINDS, read, read_request, write
     from nep_core.networks.gateway.gateway import Gateway, Ports
     from nep_core.networks.gateway.lines import recall
     from nep_core.networks.master import Master
 
+    # A line has 80 kB of sockets: those of ten seconds are 30 MB, which would hide what is kept
+    lines.UNUSED_S = 1.0
     server = Master(f"tcp://{HOST}:*")
     old, new, registry, topics = free_ports(4)
     topics = min(topics, 60000)
@@ -307,130 +309,6 @@ def _guest_hears(
     return None
 
 
-# NAOqi: frames of 28 bytes of header and values, to a virtual robot with all its services.
-
-
-@contextmanager
-def naoqi(folder: Path) -> Iterator[Feed]:
-    """What a NAOqi program says to a virtual NAO: values read, and a connection of its own."""
-    from nep_core.places import robot_folder
-    from nodes.resources import model_of, resource_folder
-    from robots.body.actor import Actor
-    from robots.body.animations import load_animations
-    from robots.body.body import load_body
-    from robots.body.pose import VirtualRobot
-    from robots.body.virtual import VirtualDriver
-    from robots.naoqi.services.all import Offered
-    from robots.naoqi.wire.codec import decode
-    from robots.naoqi.wire.errors import NaoqiError
-    from robots.naoqi.wire.line import FrameReader
-
-    nao = resource_folder() / "robots" / "nao"
-    body = load_body(nao)
-    robot = VirtualRobot(
-        "NAO",
-        body,
-        load_animations(nao / "animations", body),
-        model=model_of(nao),
-        files=robot_folder("NAO"),
-    )
-    driver = VirtualDriver(robot)
-    actor = Actor("NAO", driver)
-    driver.connect()
-    offered = Offered(actor, robot, nao, 0)
-    is_over = threading.Event()
-
-    def live() -> None:
-        start_s = time.monotonic()
-        while not is_over.wait(0.02):
-            with offered.lock:
-                told = actor.step(time.monotonic() - start_s)
-            offered.hear(told, [])
-
-    life = threading.Thread(target=live, daemon=True)
-    life.start()
-    check = _naoqi_check()
-
-    def feed(data: bytes) -> None:
-        refused: Exception | None = None
-        try:
-            for frame in FrameReader().take(data):
-                for kind in ("m", "(m)", "(IIL)", "{sm}", "[(sm)]"):
-                    with contextlib.suppress(NaoqiError):
-                        decode(kind, frame.payload)
-        except NaoqiError as error:
-            refused = error
-        with socket.create_connection((HOST, offered.port), 5.0) as caller:
-            with contextlib.suppress(OSError):
-                caller.sendall(data)
-                caller.shutdown(socket.SHUT_WR)
-            caller.settimeout(0.15)  # nobody answers a program that has gone
-            with contextlib.suppress(OSError):
-                while caller.recv(65536):
-                    pass
-        check(offered.port)
-        assert life.is_alive(), "the robot lives no more"
-        if refused is not None:
-            raise refused
-
-    try:
-        yield feed
-    finally:
-        is_over.set()
-        life.join()
-        offered.close()
-
-
-def _naoqi_check() -> Callable[[int], None]:
-    """Asks the directory for a service, as a program does, by a connection that stays."""
-    from robots.naoqi.client.session import Session
-
-    sessions: list[Session] = []
-
-    def check(port: int) -> None:
-        if not sessions:
-            sessions.append(Session((HOST, port)))
-            sessions[0].connect()
-        name = sessions[0].service("ALRobotModel").call("getRobotType", timeout_s=5.0)
-        assert name
-
-    return check
-
-
-_MAGIC = b"\x42\xde\xad\x42"
-
-
-def _naoqi_changed(data: bytes, chance: random.Random, seeds: Sequence[bytes]) -> bytes:
-    """Frames with other kinds, services, actions and values; their lengths made right mostly."""
-    frames = data.split(_MAGIC)[1:]
-    if not frames or chance.random() < 0.15:
-        return flipped(data, chance, seeds)
-    for _ in range(chance.choice((1, 1, 2, 4))):
-        at = chance.randrange(len(frames))
-        frame = bytearray(frames[at])
-        match chance.randrange(6):
-            case 0 if len(frames) > 2:
-                del frames[at]
-                continue
-            case 1:
-                frames[at:at] = chance.choice(seeds).split(_MAGIC)[1:][:3]
-                continue
-            case 2 if len(frame) >= 24:
-                frame[12:24] = flipped(bytes(frame[12:24]), chance, [bytes(frame)])[:12].ljust(
-                    12, b"\0"
-                )
-            case 3 if len(frame) >= 24:
-                frame[20:24] = chance.choice((0, 1, 2, 100, 101, 102, 103, 120, 200)).to_bytes(
-                    4, "little"
-                )
-            case _:
-                frame[24:] = flipped(bytes(frame[24:]), chance, [bytes(frame[24:])])
-        if chance.random() < 0.9 and len(frame) >= 24:
-            frame[4:8] = (len(frame) - 24).to_bytes(4, "little")
-        frames[at] = bytes(frame)
-    return b"".join(_MAGIC + frame for frame in frames)
-
-
 def _frame_changed(data: bytes, chance: random.Random, seeds: Sequence[bytes]) -> bytes:
     """A frame with its header or a payload changed as JSON."""
     parts = data.split(b"\0")
@@ -450,6 +328,5 @@ TARGETS = {
         Target("master", master, json_changed),
         Target("gateway", gateway, json_changed),
         Target("pairing", pairing, lines_changed),
-        Target("naoqi", naoqi, _naoqi_changed),
     )
 }

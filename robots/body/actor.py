@@ -22,6 +22,9 @@ from .limbs import MOVING, Limb
 from .schedule import Command, Schedule
 
 REMEMBERED_REQUESTS = 500
+MOST_WAITING = 2000
+"""A program that asks for more at once has lost its way, and would make all others wait."""
+FULL = "{most} requests wait already: wait for the end of some of them, or stop them."
 FOLLOWING = "following"
 """The command by which the head follows what it tracks; nobody has asked for it."""
 APPROACHING = "approaching"
@@ -68,6 +71,9 @@ class Actor:
             return [self._result(request.id, "failed", problem.fault)]
         if isinstance(action, WalkFreely) and action.was_known:
             return [self._result(request.id, "cancelled", fault_of("stopped"))]
+        if len(self.schedule.waiting) >= MOST_WAITING:
+            full = fault_of(FULL, most=MOST_WAITING)
+            return [ActionResult(id=request.id, robot=self.robot, state="failed", fault=full)]
         ended = self._end_free_walk() if Limb.LEGS in limbs else []
         if isinstance(action, SetAngles):
             self._aim(action)

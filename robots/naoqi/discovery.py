@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ipaddress
+import logging
 import os
 import tempfile
 import threading
@@ -17,6 +18,8 @@ import platformdirs
 
 from faults.files import content, make_privately, whole_file
 from robots.errors import WrongAddress
+
+log = logging.getLogger(__name__)
 
 # Where a NAOqi robot is found: the host and port that a person wrote.
 
@@ -60,6 +63,7 @@ SERVICE = "_naoqi._tcp.local."
 SEARCH_S = 4.0
 ASK_S = 1.5
 LOOK_EVERY_S = 0.05
+MOST_FOUND = 50
 
 
 @dataclass(frozen=True)
@@ -96,7 +100,8 @@ def find_robots(
     names: list[str] = []
 
     def on_change(name: str, **_news: object) -> None:
-        if name not in names:  # called by a thread of zeroconf, which must not wait
+        # called by a thread of zeroconf, which must not wait
+        if name not in names and len(names) < MOST_FOUND:
             names.append(name)
 
     network = Zeroconf(interfaces=list(interfaces) or InterfaceChoice.All)
@@ -118,8 +123,12 @@ def find_robots(
 
 def _ask(network: Any, name: str) -> FoundRobot | None:
     """Where a robot is, None when it does not tell it; ``network`` is a Zeroconf."""
-    info = network.get_service_info(SERVICE, name, timeout=round(ASK_S * 1000))
-    host = _host(info) if info is not None else ""
+    try:
+        info = network.get_service_info(SERVICE, name, timeout=round(ASK_S * 1000))
+        host = _host(info) if info is not None else ""
+    except Exception as error:  # one odd announcement must not hide the others
+        log.info("an announcement cannot be asked for: %s", error)
+        return None
     if info is None or not host:
         return None
     return FoundRobot(name.removesuffix(f".{SERVICE}"), host, info.port or NAOQI_PORT)

@@ -13,7 +13,7 @@ import threading
 from collections.abc import Callable, Iterable, Iterator
 from typing import Any
 
-from robots.body.actor import FINAL, Actor
+from robots.body.actor import FINAL, MOST_WAITING, Actor
 from robots.body.driver import ActionRequest, ActionResult, RobotState
 from robots.body.gait import comes_to_rest, is_stepping
 from robots.body.limbs import Limb
@@ -26,8 +26,6 @@ log = logging.getLogger(__name__)
 OnEnd = Callable[[ActionResult], None]
 Condition = Callable[[], bool]
 Ending = tuple[OnEnd, ActionResult]
-MOST_WAITING = 2000
-"""A program that asks for more at once has lost its way, and would make all others wait."""
 
 
 class ServedRobot:

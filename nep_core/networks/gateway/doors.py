@@ -133,6 +133,8 @@ Role = Literal["publisher", "subscriber", "service", "unknown"]
 MODES = ("many2many", "one2many", "many2one")
 SERVICES = ("client", "server", "surveyor", "respondent")
 MAX_PID = 2**31 - 1
+LONGEST_NAME = 200
+"""So many letters of a name are kept: whoever asks writes them, and all who look are told them."""
 
 
 @dataclass(frozen=True)
@@ -163,6 +165,8 @@ def read_request(frame: bytes, old: bool) -> Request:
         check_topic(topic)
     except NetworkError as error:
         raise BadMessage(error.sentence) from error
+    if len(topic) > LONGEST_NAME:
+        raise BadMessage("A topic here has {longest} letters at most.", longest=LONGEST_NAME)
     paper = "node_name" in told and "node" not in told
     mode = _text(told, "mode", "one2many" if paper else "many2many")
     if mode not in MODES:
@@ -224,7 +228,7 @@ def _text(told: dict[str, Any], key: str, default: str) -> str:
     value = told.get(key)
     if not isinstance(value, str):
         return default
-    return value.encode(errors="replace").decode()
+    return value[:LONGEST_NAME].encode(errors="replace").decode()
 
 
 def _role(socket: str) -> Role:

@@ -18,6 +18,7 @@ import time
 from abc import ABC, abstractmethod
 from collections.abc import Callable
 from dataclasses import dataclass, field
+from functools import cache
 from pathlib import Path
 from typing import Any, Literal, TypeVar
 
@@ -123,6 +124,12 @@ DECIDES_S = 0.5
 CLOCK_S = 2.0
 """When a process began is known less exactly when the computer's clock was set meanwhile."""
 LAST_PORT = 65535
+MOST_PROGRAMS = 100
+"""So many programs of a line are known, those that asked last: each is told to all at each change.
+
+One that made up another name for each request would else fill the memory. A line that somebody is
+connected to stays, whoever is known of it.
+"""
 
 Key = tuple[object, ...]
 
@@ -194,7 +201,8 @@ class Lines:
         line.idle_since_s = time.monotonic()
         known = [p for p in line.programs if (p.node, p.pid) != (request.node, request.pid)]
         born = _born(request.pid)
-        line.programs = [*known, KeptProgram(request.node, request.pid, request.socket, born)]
+        asks = KeptProgram(request.node, request.pid, request.socket, born)
+        line.programs = [*known, asks][-MOST_PROGRAMS:]
         return line.port
 
     def kept(self) -> list[KeptLine]:
@@ -219,6 +227,7 @@ class Lines:
         """Free what nobody needs any more; whether that was anything."""
         now_s = time.monotonic()
         changed = False
+        born = cache(_born)  # many programs may name one process
         for line in list(self.all):
             if line.decides_s and now_s >= line.decides_s:
                 # See who binds: if the program does, it is the one side; else it is on the other
@@ -233,7 +242,7 @@ class Lines:
                 except PortTaken:
                     self._close_doors(line)
                     theirs(line).connect(endpoint)
-            here = [program for program in line.programs if not _has_ended(program)]
+            here = [program for program in line.programs if not _has_ended(program, born)]
             changed |= len(here) < len(line.programs)
             line.programs = here
             if not line.is_idle:
@@ -362,9 +371,9 @@ def _born(pid: int) -> float:
         return 0.0
 
 
-def _has_ended(program: KeptProgram) -> bool:
+def _has_ended(program: KeptProgram, born: Callable[[int], float] = _born) -> bool:
     """Whether a process was there and is gone; never true for one that cannot be seen."""
-    return bool(program.born) and abs(_born(program.pid) - program.born) > CLOCK_S
+    return bool(program.born) and abs(born(program.pid) - program.born) > CLOCK_S
 
 
 # A topic on our side of the gateway: it speaks and listens in our network for the original's.

@@ -15,7 +15,7 @@ import ssl
 import threading
 import time
 import uuid
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
@@ -64,6 +64,7 @@ WRONG_PORT = (
     "NAO listens at port 9559, or 9503 when it asks for user and password.",
     "A NAO that has just been switched on needs about two minutes.",
 )
+STRANGE = "What arrived is not a NAOqi message."
 TRY_PLAIN = (
     "Connect without encryption: a NAO of this kind asks for no user and no password.",
     "Is the port right? 9503 is the encrypted one, 9559 the other.",
@@ -226,7 +227,9 @@ def is_about_login(said: str) -> bool:
 def _authenticate(peer: Peer, said: dict[str, Any], until_s: float) -> dict[str, Any]:
     payload = encode("{sm}", said)
     pending = peer.begin(0, 0, AUTHENTICATE, payload, reader_of("{sm}"))
-    answer: dict[str, Any] = result_of(pending, until_s)
+    answer = result_of(pending, until_s)
+    if not isinstance(answer, dict):  # a robot says itself of which type its answer is
+        raise BadFrame(STRANGE)
     return answer
 
 
@@ -266,10 +269,17 @@ class Place:
     endpoints: tuple[str, ...]
 
     @classmethod
-    def of(cls, information: Sequence[Any]) -> Place:
-        """Return what a robot's ServiceInfo says."""
-        _, number, machine, _, endpoints, *_ = information
-        return cls(number, machine, tuple(endpoints))
+    def of(cls, information: Any) -> Place:
+        """Return what a robot's ServiceInfo says. Raises BadFrame."""
+        try:
+            _, number, machine, _, endpoints, *_ = information
+            place = cls(number, machine, tuple(endpoints))
+        except (TypeError, ValueError) as problem:
+            raise BadFrame(STRANGE) from problem
+        texts = (machine, *place.endpoints)
+        if type(number) is not int or not all(isinstance(text, str) for text in texts):
+            raise BadFrame(STRANGE)
+        return place
 
 
 def best_place(place: Place, here: Place, address: tuple[str, int]) -> tuple[str, int, bool] | None:
@@ -292,7 +302,9 @@ def _parsed(endpoint: str) -> tuple[str, int, bool] | None:
     """Read ``tcp://host:port`` or ``tcps://host:port``."""
     scheme, mark, rest = endpoint.partition("://")
     host, _, port = rest.rpartition(":")
-    if not mark or scheme not in ("tcp", "tcps") or not port.isdigit() or not host:
+    # int() knows no signs as "²", which str.isdigit() does, and no number of 5,000 digits
+    is_port = port.isascii() and port.isdigit() and len(port) <= 5
+    if not mark or scheme not in ("tcp", "tcps") or not is_port or not host:
         return None
     return host.strip("[]"), int(port), scheme == "tcps"
 
@@ -378,7 +390,11 @@ class Session:
 
     def services(self) -> list[str]:
         """Return the names of all services that are there now. Raises NaoqiError."""
-        return [information[0] for information in self._asked().call("services")]
+        told = self._asked().call("services")
+        try:
+            return [str(name) for name, *_ in told]
+        except (TypeError, ValueError) as problem:
+            raise BadFrame(STRANGE) from problem
 
     def register(self, name: str, service: object) -> int:
         """Offer a service of this program to the robot; its number. Raises NaoqiError."""

@@ -26,8 +26,10 @@ from .module import Asked, Begin, Module, Plot, Script, always, play_script
 # ^wait(path), ^run(path), ^stop(path) and ^mode(name); the first four also with a tag:
 # ^startTag(hello).
 
-VOICE_TAG = re.compile(r"\\+(\w+)(?:=([^\\]*))?\\+")
-INSTRUCTION = re.compile(r"\^(start|wait|run|stop)(Tag)?\(([^)]*)\)|\^mode\(([^)]*)\)")
+# A text of nothing but beginnings is read once, not once more from each: of backslashes only the
+# first begins a tag, and an instruction ends before the next one.
+VOICE_TAG = re.compile(r"(?<!\\)\\+(\w+)(?:=([^\\]*))?\\+")
+INSTRUCTION = re.compile(r"\^(start|wait|run|stop)(Tag)?\(([^)^]*)\)|\^mode\(([^)^]*)\)")
 PIECE = re.compile(f"{VOICE_TAG.pattern}|{INSTRUCTION.pattern}")
 SLOWEST, FASTEST = 50.0, 200.0
 

@@ -16,7 +16,13 @@ import zmq
 
 from nep_core.errors import PortTaken
 from nep_core.networks.gateway import lines
-from nep_core.networks.gateway.doors import MOST_WAITING_BYTES, Shape, Watch, WayOut
+from nep_core.networks.gateway.doors import (
+    LONGEST_NAME,
+    MOST_WAITING_BYTES,
+    Shape,
+    Watch,
+    WayOut,
+)
 from nep_core.networks.gateway.gateway import Gateway, Ports
 from nep_core.networks.gateway.lines import Speaker
 from nep_core.networks.master import Master
@@ -182,6 +188,22 @@ def test_ports_of_a_program_that_cannot_be_seen_are_freed_when_nobody_is_connect
     reader.close()
 
     assert json.loads(registry.recv()) == {}
+
+
+def test_names_that_strangers_make_up_do_not_pile_up(
+    raw: RawPrograms, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(lines, "MOST_PROGRAMS", 5)
+    registry = raw.reader(raw.ports.registry)
+
+    for number in range(20):
+        raw.register("/t", "publisher", node=f"{number} {'long' * 1000}", pid=number % 2)
+
+    told: dict[str, Any] = {}
+    until(lambda: told.update(json.loads(registry.recv())) or "19 long" in str(told))
+    nodes = told["/t"]["nodes"]
+    assert [name.split()[0] for name in nodes] == ["15", "16", "17", "18", "19"]
+    assert {len(name) for name in nodes} == {LONGEST_NAME}
 
 
 def test_both_generations_get_the_list_of_topics_at_one_port(raw: RawPrograms) -> None:

@@ -73,7 +73,10 @@ def test_requests_that_no_client_makes_keep_nobody_waiting(raw: RawPrograms) -> 
 
 @pytest.mark.parametrize(
     "request_",
-    [{}, [], 7, {"topic": 5}, {"topic": ""}, {"topic": "a\0b"}, {"topic": "/t", "mode": "all"}],
+    [
+        *({}, [], 7, {"topic": 5}, {"topic": ""}, {"topic": "a\0b"}, {"topic": "a" * 5000}),
+        {"topic": "/t", "mode": "all"},
+    ],
 )
 def test_a_request_that_cannot_be_gets_the_answer_that_clients_give_up_at(
     busy: RawPrograms, request_: object

@@ -10,6 +10,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from nao_stage import ANIMATIONS, BODY, Stage
 
+from robots.body import actor
 from robots.body.actor import FINAL, REMEMBERED_REQUESTS
 from robots.body.driver import ActionRequest
 
@@ -168,6 +169,30 @@ def test_it_remembers_some_hundred_requests_and_never_forgets_one_that_runs() ->
 
     assert stage.told[-2:] == ["long started", "999 failed"]
     assert len(stage.actor._last_result) == REMEMBERED_REQUESTS
+
+
+def test_only_so_many_requests_wait_and_who_asks_for_more_is_told(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr(actor, "MOST_WAITING", 20)
+    stage = Stage()
+    for number in range(21):  # the first is under way
+        stage.actor.request(look(str(number)))
+        if not number:
+            stage.actor.step(0.0)
+
+    [refused] = stage.actor.request(look("one more"))
+    [stopped, *_] = stage.actor.request(
+        ActionRequest(id="end", robots=["NAO"], action="stop", args={"request": "7"})
+    )
+    [asked] = stage.actor.request(look("in its place"))
+
+    assert refused.state == "failed" and refused.description.startswith("20 requests wait")
+    assert (stopped.state, asked.state) == ("cancelled", "accepted")
+
+
+def look(request_id: str) -> ActionRequest:
+    return ActionRequest(id=request_id, robots=["NAO"], action="look")
 
 
 def test_stop_cancels_everything_at_once_and_the_robot_comes_to_rest_smoothly() -> None:

@@ -10,7 +10,7 @@ from collections.abc import Iterator
 
 import pytest
 from driver_stage import ServedNao
-from zeroconf import ServiceInfo, Zeroconf
+from zeroconf import DNSOutgoing, DNSPointer, ServiceInfo, Zeroconf
 
 from robots.naoqi.discovery import SERVICE, FoundRobot, find_robots
 from robots.naoqi.probe import STEPS, Check, probe
@@ -19,6 +19,8 @@ from robots.naoqi.wire.line import Login
 from robots.naoqi.wire.service import method
 
 LOOPBACK = "127.0.0.1"
+ANSWER, POINTER, INTERNET = 0x8400, 12, 1
+"""As RFC 1035 and 6762 number them."""
 
 
 @contextlib.contextmanager
@@ -39,7 +41,28 @@ def announced(name: str, port: int) -> Iterator[None]:
         network.close()
 
 
-def test_a_robot_that_announces_itself_is_found() -> None:
+@contextlib.contextmanager
+def something_odd() -> Iterator[None]:
+    """Something that says that it is a robot, by the name of another thing."""
+    network, is_over = Zeroconf(interfaces=[LOOPBACK]), threading.Event()
+    odd = DNSOutgoing(ANSWER)
+    odd.add_answer_at_time(DNSPointer(SERVICE, POINTER, INTERNET, 120, "odd._lamp._tcp.local."), 0)
+
+    def say() -> None:
+        while not is_over.wait(0.05):
+            network.send(odd)
+
+    saying = threading.Thread(target=say)
+    saying.start()
+    try:
+        yield
+    finally:
+        is_over.set()
+        saying.join()
+        network.close()
+
+
+def test_a_robot_that_announces_itself_is_found_beside_what_is_none() -> None:
     found: list[FoundRobot] = []
     cancelled = threading.Event()
 
@@ -47,7 +70,7 @@ def test_a_robot_that_announces_itself_is_found() -> None:
         found.append(robot)
         cancelled.set()
 
-    with announced("nao-blue", 9559):
+    with something_odd(), announced("nao-blue", 9559):
         robots = find_robots(note, cancelled, seconds=10, interfaces=[LOOPBACK])
 
     assert robots == found == [FoundRobot("nao-blue", LOOPBACK, 9559)]

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import time
+
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
@@ -125,3 +127,12 @@ def test_any_value_is_read_or_refused_in_words(value: object) -> None:
             read()
         except CallFailed as refused:
             assert str(refused.sentence).endswith(".")
+
+
+@pytest.mark.parametrize("piece", ["\\", "^start(", "\\a=", "^mode("])
+def test_a_text_of_nothing_but_beginnings_is_read_at_once(piece: str) -> None:
+    text, began_s = piece * (60_000 // len(piece)), time.process_time()
+
+    read_text(text, Voice(), with_instructions=True)
+
+    assert time.process_time() - began_s < 0.5  # it took 10 s and more, with the robot held
