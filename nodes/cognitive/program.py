@@ -15,6 +15,8 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TextIO
 
+import psutil
+
 from faults import Fault, fault_of
 from nep_core.networks.transports import set_default_network
 from nep_core.processes.node import STOP_SIGNALS, Node
@@ -38,6 +40,8 @@ if TYPE_CHECKING:
 
 ONE_HOUR_S = 3600.0
 LOOK_S = 1.0
+PART_OF_MEMORY = 0.5
+"""A program that would take more than that of the computer's memory gets a MemoryError."""
 
 
 def run(node: Node, *, file: str, hold: bool, trace: bool) -> None:
@@ -62,6 +66,7 @@ def run(node: Node, *, file: str, hold: bool, trace: bool) -> None:
     begin = threading.Event()
     _listen_for_orders(node, begin, tracer)
     set_default_network(node.network)
+    _keep_memory_for_others()
     failures: list[BaseException] = []
 
     def explain(error: BaseException) -> tuple[Fault, int]:
@@ -97,6 +102,22 @@ def run(node: Node, *, file: str, hold: bool, trace: bool) -> None:
         node.stop_on_signals()  # the program is over: end the node in the usual way
     if failures:  # rules of a program that went on, and was stopped in the end
         raise SystemExit(1)
+
+
+def _keep_memory_for_others() -> None:
+    """Let Python refuse a text or a list that doubles in a loop, before it fills the computer.
+
+    Without a limit Linux would end some program then, maybe the window. macOS and Windows have none
+    that counts what a process really uses.
+    """
+    if sys.platform != "linux":
+        return
+    import resource
+
+    most = int(psutil.virtual_memory().total * PART_OF_MEMORY)
+    soft, hard = resource.getrlimit(resource.RLIMIT_DATA)
+    given = [one for one in (soft, hard) if one != resource.RLIM_INFINITY]
+    resource.setrlimit(resource.RLIMIT_DATA, (min(most, *given) if given else most, hard))
 
 
 def _tracer(states: Publisher, node: Node, file: str) -> Tracer:

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import queue
+import sys
 from collections.abc import Iterator
 from pathlib import Path
 from textwrap import dedent
 from typing import Any
 
+import psutil
 import pytest
 from program_following import WAIT_S, Heard
 
@@ -161,6 +163,18 @@ def test_a_failure_tells_its_line_and_a_checklist(studio: Studio, trace: bool) -
     assert launched.ended.wait(WAIT_S)
     assert launched.outcome is not None
     assert str(launched.outcome.checklist[0]) == "Check the number: the first item is number 1."
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="only Linux limits what is really used")
+def test_a_program_that_would_fill_the_memory_is_an_error_with_its_line(studio: Studio) -> None:
+    most_of_it = int(psutil.virtual_memory().total * 0.6)
+    studio.open(f"x = 1\ntext = bytes({most_of_it})", trace=False)
+    studio.order("start")
+
+    failed = studio.ended("failed")
+
+    sentence = "The program needs more memory than there is."
+    assert (failed.line, failed.description) == (2, sentence)
 
 
 @pytest.mark.parametrize("command", ["pause", "step", "resume", "set"])
