@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import signal
 from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 
 import pytest
@@ -44,24 +45,27 @@ def drop(window: MainWindow, path: Path) -> bool:
     return enter.isAccepted()
 
 
-@pytest.fixture
+@contextmanager
 def full_disk() -> Iterator[None]:
-    """No file of this process may have more than 200 bytes."""
+    """No file of this process may have more than 200 bytes; not for long: pytest writes one too."""
     before = resource.getrlimit(resource.RLIMIT_FSIZE)
     ignored = signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
     resource.setrlimit(resource.RLIMIT_FSIZE, (200, before[1]))
-    yield
-    resource.setrlimit(resource.RLIMIT_FSIZE, before)
-    signal.signal(signal.SIGXFSZ, ignored)
+    try:
+        yield
+    finally:
+        resource.setrlimit(resource.RLIMIT_FSIZE, before)
+        signal.signal(signal.SIGXFSZ, ignored)
 
 
 def test_on_a_full_disk_nothing_is_saved_and_nothing_is_lost(
-    karate: MainWindow, chooser, tmp_path: Path, full_disk: None
+    karate: MainWindow, chooser, tmp_path: Path
 ) -> None:
     chooser.path = tmp_path / "mine.nep"
     chooser.path.write_bytes(b"what was there")
 
-    karate.files.save_as()
+    with full_disk():
+        karate.files.save_as()
 
     assert "The project is not saved" in told(karate)
     assert chooser.path.read_bytes() == b"what was there"
