@@ -7,6 +7,8 @@ import os
 import signal
 import socket
 import sys
+import threading
+import time
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import ExitStack, suppress
 from pathlib import Path
@@ -165,6 +167,28 @@ def leaves_no_child_processes() -> Iterator[None]:
     for child in left:
         child.kill()
     assert not names, f"still running: {names}"
+
+
+SPINNING_PART, LOOK_S, LOOKS = 0.5, 0.05, 60
+
+
+def keeps_busy() -> bool:
+    """Whether this process goes on working, for three seconds, while its main thread waits."""
+    for _ in range(LOOKS):
+        worked_s = time.process_time()
+        time.sleep(LOOK_S)
+        if time.process_time() - worked_s < SPINNING_PART * LOOK_S:
+            return False
+    return True
+
+
+@pytest.fixture(scope="module", autouse=True)
+def leaves_no_busy_threads() -> Iterator[None]:
+    """A thread that never waits would take half of the processor from all tests after its own."""
+    before = set(threading.enumerate())
+    yield
+    left = [thread.name for thread in threading.enumerate() if thread not in before]
+    assert not left or not keeps_busy(), f"a thread still works, one of {left}"
 
 
 def own_variables() -> dict[str, str]:

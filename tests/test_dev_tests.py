@@ -1,11 +1,13 @@
-"""dev_tests.py: all tests, and once more those that failed beside others."""
+"""dev_tests.py: all tests, and once more those that failed beside others; and what none may leave."""
 
 import sys
+import threading
 from pathlib import Path
 
 import pytest
 
 import dev_tests
+from tests import conftest
 
 
 def test_what_fails_beside_others_is_tried_again_alone_and_named(
@@ -26,3 +28,21 @@ def test_what_fails_beside_others_is_tried_again_alone_and_named(
     assert told.count("test_it.py::test_once") == 2
     assert "please mend them" in told
     assert dev_tests.run_all(sys.executable, tmp_path, ["-p", "no:xdist"]) == 1
+
+
+def test_a_thread_that_a_test_leaves_working_is_found(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(conftest, "LOOKS", 2)
+    is_over = threading.Event()
+
+    def work() -> None:
+        while not is_over.is_set():
+            pass
+
+    assert not conftest.keeps_busy()
+    busy = threading.Thread(target=work)
+    busy.start()
+    try:
+        assert any(conftest.keeps_busy() for _ in range(20))  # others may have the processor
+    finally:
+        is_over.set()
+        busy.join()

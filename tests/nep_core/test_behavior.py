@@ -363,6 +363,7 @@ def test_a_rule_that_never_waits_is_started_again(
 ) -> None:
     behavior = Behavior()
     begun, running_now = threading.Semaphore(0), [0]
+    is_over = threading.Event()  # what stops a program ends its process, and here its thread not
 
     @behavior.when("gesture_karate", again="restart")
     def rule() -> None:
@@ -370,7 +371,7 @@ def test_a_rule_that_never_waits_is_started_again(
         running_now[0] += 1
         try:
             number = 0
-            while True:
+            while not is_over.is_set():
                 number += 1
         finally:
             running_now[0] -= 1
@@ -381,6 +382,7 @@ def test_a_rule_that_never_waits_is_started_again(
         assert begun.acquire(timeout=WAIT_S)
 
     assert running_now[0] == 1
+    is_over.set()
     running.stop()
 
 
