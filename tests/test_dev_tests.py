@@ -1,4 +1,4 @@
-"""dev_tests.py: all tests, and once more those that failed beside others; and what none may leave."""
+"""dev_tests.py: all tests, once more those that failed beside others; what none may leave."""
 
 import sys
 import threading
