@@ -100,6 +100,8 @@ class RecordingNao:
         ]
 
     def close(self) -> None:
+        with contextlib.suppress(OSError):  # a thread waits there: closing alone would not end it
+            self._server.shutdown(socket.SHUT_RDWR)
         self._server.close()
         self.session.close()
         for one in self._open:
@@ -107,11 +109,12 @@ class RecordingNao:
         self.served.close()
 
     def _accept(self) -> None:
-        with contextlib.suppress(OSError):
+        with contextlib.suppress(OSError), self._server:
             while True:
                 driver, _ = self._server.accept()
+                self._open.append(driver)
                 robot = socket.create_connection(("127.0.0.1", self.served.port))
-                self._open += [driver, robot]
+                self._open.append(robot)
                 waiting: dict[int, tuple[Call, Signature]] = {}
                 for one, other, read in (
                     (driver, robot, self._on_call),

@@ -37,13 +37,15 @@ class Line:
         self._ends[-1][0].sendall(words)
 
     def close(self) -> None:
+        with contextlib.suppress(OSError):  # a thread waits there: closing alone would not end it
+            self._server.shutdown(socket.SHUT_RDWR)
         self._server.close()
         for ends in self._ends:
             for end in ends:
                 end.close()
 
     def _accept(self) -> None:
-        with contextlib.suppress(OSError):
+        with contextlib.suppress(OSError), self._server:
             while True:
                 driver, _ = self._server.accept()
                 robot = socket.create_connection(("127.0.0.1", self.robot.port))

@@ -25,6 +25,7 @@ from robots.naoqi.driver import calls, stepping
 from robots.naoqi.driver.calls import Calls
 from robots.naoqi.driver.moving import walk_freely
 from robots.naoqi.driver.real import RealRobot
+from robots.naoqi.services import motion
 from robots.naoqi.services.all import Services
 from robots.naoqi.serving import ServedRobot
 from robots.naoqi.wire.promise import Pending
@@ -89,7 +90,7 @@ class ClockedWalk:
         self, monkeypatch: pytest.MonkeyPatch, latency_s: float = 0.0, seed: int = 0
     ) -> None:
         self.now_s, self.chance = 0.0, random.Random(seed)
-        for module in (calls, stepping):
+        for module in (calls, stepping, motion):
             monkeypatch.setattr(module, "time", self)
         self.robot = VirtualRobot("NAO", BODY, ANIMATIONS, "StandInit")
         self._driver = VirtualDriver(self.robot)
