@@ -28,6 +28,7 @@ from nep_studio.ui.canvas.layout.pieces import HINT_SIZE
 from nep_studio.ui.theme.colours import load_theme, themes
 from nep_studio.ui.theme.look import text_font
 from nep_studio.ui.words import PSEUDO, use_language
+from tests.conftest import a_part_of
 
 BLOCK_FONT_POINTS = 10.5
 LARGE = 1.6
@@ -130,7 +131,7 @@ def language(request: pytest.FixtureRequest) -> Language:
     return language_of(request.param)
 
 
-@pytest.fixture(params=EXAMPLES, ids=lambda path: path.stem)
+@pytest.fixture(params=a_part_of(EXAMPLES), ids=lambda path: path.stem)
 def example(request: pytest.FixtureRequest, language: Language) -> Project:
     return load(request.param, language)
 
