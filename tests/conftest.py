@@ -9,6 +9,7 @@ import socket
 import sys
 import threading
 import time
+from collections import Counter
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import ExitStack, suppress
 from pathlib import Path
@@ -60,6 +61,22 @@ def pytest_configure() -> None:
         os.environ[MASTER_VARIABLE] = f"tcp://127.0.0.1:{port}"
     os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
     sys.dont_write_bytecode = False
+
+
+def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
+    """In CI, play one in three of the long tests of each file, always the same ones."""
+    if not os.environ.get("CI") or config.getoption("lf"):
+        return
+    numbers: Counter[Path] = Counter()
+    left_out = []
+    for item in items:
+        if item.get_closest_marker("long"):
+            numbers[item.path] += 1
+            if numbers[item.path] % PART_IN_CI != 1:
+                left_out.append(item)
+    gone = set(left_out)
+    items[:] = [item for item in items if item not in gone]
+    config.hook.pytest_deselected(items=left_out)
 
 
 def pytest_collection_finish() -> None:

@@ -18,6 +18,8 @@ from nep_studio.commands import run as run_command
 from nep_studio.run.controller import Subject
 from nep_studio.run.installation import studio_language
 
+pytestmark = pytest.mark.long
+
 KARATE = paths.examples() / "karate_greeting.nep"
 EXAMPLES = sorted(paths.examples().glob("*.nep"))
 

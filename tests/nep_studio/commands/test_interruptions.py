@@ -18,6 +18,8 @@ from nep_studio import __main__ as program
 from nep_studio import paths
 from tests.stories.playing import node_is, playing
 
+pytestmark = pytest.mark.long
+
 KARATE = paths.examples() / "karate_greeting.nep"
 DANCE = paths.examples() / "dance.nep"
 NOWHERE = Path("/dev/full")

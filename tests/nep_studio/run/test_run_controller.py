@@ -35,6 +35,8 @@ from nep_studio.run.local_network import LocalNetwork
 from nep_studio.run.plan import PlannedNode
 from tests.blocks.block_building import B, build
 
+pytestmark = pytest.mark.long
+
 WAIT_S = 30.0
 LONG_WAIT = B("control.wait", {"seconds": 600})
 

@@ -4,8 +4,12 @@ from __future__ import annotations
 
 import signal
 
+import pytest
+
 from nep_core.wire import messages as m
 from tests.ui.faults.conftest import Scene
+
+pytestmark = pytest.mark.long
 
 FIRST, ANSWER = "Show me a karate chop!", "Impressive!"
 AGAIN = "The program ended unexpectedly and begins again"

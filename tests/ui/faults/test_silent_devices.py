@@ -18,6 +18,8 @@ from nep_studio.run.plan import PlannedNode
 from tests.robots.naoqi.driver_stage import DriverStage, ServedNao
 from tests.ui.faults.conftest import Scene
 
+pytestmark = pytest.mark.long
+
 FIRST = "Show me a karate chop!"
 LATE = "“NAO” does not answer"
 SAMPLES_HZ = 100

@@ -17,6 +17,8 @@ from nep_studio.ui.shell.main_window import MainWindow
 from tests.blocks.block_building import B
 from tests.ui.running.window_use import block_of, has_run, press
 
+pytestmark = pytest.mark.long
+
 
 def place_of(motion: MotionWindow, link: str) -> QPointF:
     """Where the middle of a link's part is in the view."""

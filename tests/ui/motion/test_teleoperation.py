@@ -20,6 +20,8 @@ from nep_studio.ui.plugins.motion.teleoperation import TeleoperationWindow
 from nep_studio.ui.shell.main_window import MainWindow
 from tests.blocks.block_building import B
 
+pytestmark = pytest.mark.long
+
 EARTH = 9.81
 WAIT_MS = 30_000
 

@@ -19,6 +19,8 @@ from tests.blocks.block_building import B, build
 from tests.ui.theme.colour_seeing import contrast
 from tests.ui.window.conftest import answer, chooser, home, karate, studio, window
 
+pytestmark = pytest.mark.long
+
 __all__ = ["answer", "chooser", "home", "karate", "studio", "window"]
 
 WAIT_MS = 30_000

@@ -6,6 +6,7 @@ import threading
 import time
 from collections.abc import Callable
 
+import pytest
 from PySide6.QtCore import Qt
 from PySide6.QtGui import QGuiApplication
 from pytestqt.qtbot import QtBot
@@ -19,6 +20,8 @@ from nep_studio.ui.plugins.network.graph import Key
 from nep_studio.ui.plugins.network.topics import SHOW_MS
 from nep_studio.ui.running.runner import BATCHES_HZ
 from tests.ui.panels.conftest import KARATE, WAIT_MS, WATCH, Bench
+
+pytestmark = pytest.mark.long
 
 Start = Callable[[PlannedNode], None]
 

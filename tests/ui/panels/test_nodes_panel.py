@@ -19,6 +19,8 @@ from nep_studio.run.plan import PlannedNode
 from nep_studio.ui.plugins.nodes.card import NodeCard
 from tests.ui.panels.conftest import KARATE, WAIT_MS, Bench
 
+pytestmark = pytest.mark.long
+
 Start = Callable[[PlannedNode], None]
 
 

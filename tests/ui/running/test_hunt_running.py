@@ -17,6 +17,8 @@ from nep_studio.ui.words import tr
 from tests.blocks.block_building import B, build
 from tests.ui.running.window_use import LONG_WAIT, WAIT_MS, Seen, block_of, press, state_is
 
+pytestmark = pytest.mark.long
+
 WAITING = [B("event.started"), LONG_WAIT]
 OTHER = paths.examples() / "dance.nep"
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import psutil
+import pytest
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QDialog, QPushButton
 from pytestqt.qtbot import QtBot
@@ -20,6 +21,8 @@ from tests.ui.running.window_use import (
     press,
     state_is,
 )
+
+pytestmark = pytest.mark.long
 
 
 def test_run_plays_the_program_and_the_running_block_glows(

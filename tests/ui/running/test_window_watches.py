@@ -5,6 +5,7 @@ from __future__ import annotations
 import time
 
 import psutil
+import pytest
 from pytestqt.qtbot import QtBot
 
 from nep_core.wire import messages as m
@@ -20,6 +21,8 @@ from tests.ui.running.window_use import (
     press,
     state_is,
 )
+
+pytestmark = pytest.mark.long
 
 
 def test_a_breakpoint_pauses_there_and_a_step_goes_to_the_next_block(

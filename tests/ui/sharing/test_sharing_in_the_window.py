@@ -29,6 +29,8 @@ from tests.ui.sharing.sharing_stage import (
 )
 from tests.ui.window.conftest import chooser, home, studio, window
 
+pytestmark = pytest.mark.long
+
 __all__ = ["chooser", "here_only", "home", "kit", "open_program", "studio", "window"]
 
 

@@ -19,6 +19,8 @@ from nep_studio.ui.plugins.show.window import ShowWindow
 from nep_studio.ui.shell.main_window import MainWindow
 from tests.blocks.block_building import B
 
+pytestmark = pytest.mark.long
+
 Begin = Callable[..., ShowWindow]
 WAIT_MS = 30_000
 SAY = [B("event.started"), B("robot.say", {"text": "Good evening"})]

@@ -21,6 +21,8 @@ from tests.ui.watches.watch_stage import (
 )
 from tests.ui.window.conftest import answer, chooser, home, karate, studio, window
 
+pytestmark = pytest.mark.long
+
 __all__ = ["answer", "chooser", "home", "karate", "settles_at_once", "studio", "window"]
 
 

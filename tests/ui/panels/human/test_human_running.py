@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
+import pytest
 from PySide6.QtCore import Qt
 from pytestqt.qtbot import QtBot
 
@@ -14,6 +15,8 @@ from nep_studio.ui.plugins.person.panel import HumanPanel
 from nep_studio.ui.shell.main_window import MainWindow
 from tests.blocks.block_building import B
 from tests.ui.panels.human.conftest import RUN_MS, said
+
+pytestmark = pytest.mark.long
 
 LANGUAGE = studio_language()
 Human = Callable[..., HumanPanel]

@@ -15,6 +15,8 @@ from nep_studio.ui.theme.look import Look
 from robots.body.limbs import TOUCH_SENSORS
 from tests.ui.panels.robots.conftest import NAO, hear, state
 
+pytestmark = pytest.mark.long
+
 NODE_START_MS = 30_000
 
 

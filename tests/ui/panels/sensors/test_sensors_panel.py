@@ -20,6 +20,8 @@ from nep_studio.ui.plugins.sensors.workspace import Workspace
 from nep_studio.ui.running.runner import Runner
 from nep_studio.ui.theme.look import Look
 
+pytestmark = pytest.mark.long
+
 NODE_START_MS = 20_000
 
 
