@@ -28,6 +28,8 @@ RESTING_PERIOD_S = 0.15
 SLOW_PERIOD_S = 1.0
 FROZEN_S = 2.0
 """Who has not told its joints for so long does not answer any more."""
+STALL_S = 0.2
+"""Who looks again only after so long stood still itself: what came meanwhile is still unread."""
 
 FRAME_WORLD = 1
 """NAOqi's number for where the robot has started."""
@@ -53,6 +55,7 @@ class Watching:
         self._quick, self._slow = real.quick_keys(body), real.slow_keys(body)
         self._asked: list[tuple[Pending, float, TakeIn]] = []
         self._next_quick_s = self._next_slow_s = 0.0
+        self._looked_s = time.monotonic()
         self.has_met = False
         """Whether it has told once where its joints are and how it is set."""
         self._has_told_joints = False
@@ -65,10 +68,13 @@ class Watching:
 
     def step(self, *, is_moving: bool) -> None:
         """Take in what was answered, and ask what is due."""
+        stood_s = time.monotonic() - self._looked_s
+        self._looked_s += stood_s
+        own_s = stood_s if stood_s > STALL_S else 0.0
         waiting = []
         for pending, asked_s, take_in in self._asked:
             if not pending.done:
-                waiting.append((pending, asked_s, take_in))
+                waiting.append((pending, asked_s + own_s, take_in))
                 continue
             try:
                 take_in(pending.result(0.0))

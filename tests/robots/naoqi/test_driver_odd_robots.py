@@ -10,10 +10,14 @@ from typing import Any
 import numpy as np
 import pytest
 from driver_held_nao import SERVICES, HeldNao
-from driver_stage import DriverStage
+from driver_stage import ANIMATIONS, BODY, DriverStage
 
+from robots.body.pose import VirtualRobot
+from robots.naoqi.driver import watching
+from robots.naoqi.driver.calls import Calls
+from robots.naoqi.driver.real import RealRobot
 from robots.naoqi.server.server import Server
-from robots.naoqi.wire.promise import Promise
+from robots.naoqi.wire.promise import Pending, Promise
 from robots.naoqi.wire.service import method
 
 NAN = float("nan")
@@ -164,3 +168,40 @@ def test_a_robot_that_does_not_tell_of_its_steps_walks_on_without_standing(
     pauses_s = np.diff(nao.asked_s)
     assert min(pauses_s[1:]) > 0.15 and np.median(pauses_s[1:]) < LEG_S
     assert "walk cancelled" in stage.told and "stopMove" in nao.stopped
+
+
+class Mute:
+    """A service that takes every question, and answers none."""
+
+    methods = ("getListData",)
+
+    def begin(self, _method: str, *_args: Any) -> Pending:
+        return Pending()
+
+
+class Clock:
+    now_s = 0.0
+
+    def monotonic(self) -> float:
+        return self.now_s
+
+
+def test_who_stood_still_itself_does_not_call_the_robot_frozen(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    clock = Clock()
+    monkeypatch.setattr(watching, "time", clock)
+    known = VirtualRobot("NAO", BODY, ANIMATIONS, "StandInit")
+    calls = Calls("NAO", {"ALMemory": Mute()}, BODY.names)  # type: ignore[dict-item]
+    watch = watching.Watching(RealRobot(known, calls))
+    watch.step(is_moving=False)
+
+    clock.now_s += 30.0
+    watch.step(is_moving=False)
+    after_standing_still = watch.is_frozen
+    while clock.now_s < 30.0 + watching.FROZEN_S + 0.1:
+        clock.now_s += 0.01
+        watch.step(is_moving=False)
+
+    assert not after_standing_still
+    assert watch.is_frozen
