@@ -15,7 +15,7 @@ DONE, FOUND_SOME, WRONG_USE = 0, 1, 2
 
 
 def main(arguments: Sequence[str]) -> int:
-    """Do what the command line asks; 1 when something was found."""
+    """Do what the command line asks; 1 when something was found or a target not tried to its end."""
     given = _parser().parse_args(arguments)
     names = given.targets or list(NAMES)
     if unknown := [name for name in names if name not in NAMES]:
@@ -58,12 +58,7 @@ def _all(runs: list[Run], count: int, seconds: float, at_once: int) -> list[Tall
 
     def work() -> None:
         while waiting and not ended.is_set():
-            run = waiting.pop(0)
-            try:
-                _say(run.random(count=count, seconds=seconds).words)
-            except (ChildProcessError, ValueError, OSError) as error:
-                if not ended.is_set():
-                    _say(str(error))
+            _say(waiting.pop(0).random(count=count, seconds=seconds).words)
 
     threads = [threading.Thread(target=work, daemon=True) for _ in range(max(1, at_once))]
     for thread in threads:

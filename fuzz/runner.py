@@ -30,7 +30,7 @@ HELD_TIMES = 6.0
 BEFORE = 300
 """An input that hangs not by itself is tried again behind so many of those before it."""
 START_S = 90.0
-"""A child may load libraries and open its door for so long, on a busy machine."""
+"""A child may load libraries and open its door for so long. Others' turns do not count."""
 MOST_FINDINGS = 30
 """Of one target and one run: then something is wrong that is mended first."""
 MOST_GROWN = 50_000_000
@@ -45,7 +45,10 @@ Say = Callable[[str], None]
 
 @dataclass(frozen=True)
 class Finding:
-    """An input that breaks something: raises, slow, large, hangs or ends; the words tell how."""
+    """What breaks something: raises, slow, large, hangs or ends; the words tell how.
+
+    ``stops`` is of no input: the target could not be tried any further.
+    """
 
     target: str
     kind: str
@@ -141,12 +144,12 @@ class Child:
             except queue.Empty:
                 number, began_s, _ = self.board.read()
                 passed_s, others_s = time.monotonic() - began_s, self._others_s(began_s)
-                is_held = passed_s - others_s > hangs_s or passed_s > hangs_s * HELD_TIMES
-                if number >= 0 and is_held:
+                most_s = hangs_s if number >= 0 else START_S
+                if passed_s - others_s > most_s or passed_s > most_s * HELD_TIMES:
+                    if number < 0:
+                        raise ChildProcessError(f"it does not start: {self.last_words}") from None
                     self.held_up_at = number
                     raise TimeoutError(self._stacks(passed_s, others_s)) from None
-                if number < 0 and passed_s > START_S:
-                    raise ChildProcessError(f"it does not start: {self.last_words}") from None
                 yield {}
                 continue
             if not line:
@@ -245,16 +248,26 @@ class Run:
         self._child: Child | None = None
         self._said_s = 0.0
         self._first = 0
+        self._is_stopped = False
 
     def random(self, *, count: int = 0, seconds: float = 0.0) -> Tally:
-        """Feed so many inputs, or as many as there is time for; the kept ones are the first."""
+        """Feed so many inputs, or as many as there is time for; the kept ones are the first.
+
+        What ends it before that is a finding, so that nobody takes it for tried.
+        """
         until_s = time.monotonic() + seconds if seconds else 0.0
         first = 0
         while (not count or first < count) and len(self.tally.findings) < MOST_FINDINGS:
             left = ["--count", str(count - first)] if count else []
             left += ["--until", str(until_s)] if until_s else []
             self._first = first
-            following = self._turn("--seed", str(self._seed), "--first", str(first), *left)
+            try:
+                following = self._turn("--seed", str(self._seed), "--first", str(first), *left)
+            except (ChildProcessError, OSError, ValueError) as error:
+                if not self._is_stopped:
+                    stops = Finding(self._target.name, "stops", "stops", str(error), b"")
+                    self.tally.findings.append(stops)
+                break
             if following is None or (until_s and time.monotonic() >= until_s):
                 break
             first = following
@@ -274,7 +287,8 @@ class Run:
         return self.tally
 
     def stop(self) -> None:
-        """End the child, if there is one."""
+        """End the child, if there is one, and try no more."""
+        self._is_stopped = True
         if self._child is not None:
             self._child.close()
 

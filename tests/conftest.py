@@ -65,7 +65,7 @@ def pytest_configure() -> None:
 
 def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
     """In CI, play one in three of the long tests of each file, always the same ones."""
-    if not os.environ.get("CI") or config.getoption("lf"):
+    if not os.environ.get("CI") or config.getoption("lf", False):
         return
     numbers: Counter[Path] = Counter()
     left_out = []

@@ -17,6 +17,8 @@ from fuzz.target import Feed, Target
 BAD = b"bad"
 ONCE = "FUZZ_PLANTED_ONCE"
 """Names a file; as long as it is there, the target "once" hangs, and takes it away."""
+SHUT = "shut"
+"""A target that cannot be tried at all."""
 _fed = 0
 
 
@@ -82,6 +84,9 @@ def target(name: str) -> Target:
 
     @contextmanager
     def door(folder: Path) -> Iterator[Feed]:
+        if name == SHUT:
+            raise OSError("the door does not open")
+
         def feed(data: bytes) -> None:
             global _fed
             _fed += 1

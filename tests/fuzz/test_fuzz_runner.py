@@ -17,7 +17,7 @@ from fuzz.runner import Run
 from fuzz.targets import NAMES
 from fuzz.targets import target as real
 from fuzz.watched import BOARD_BYTES, ROOT, Board, smaller, waited_by_all_s
-from tests.fuzz.planted import BAD, ONCE, target
+from tests.fuzz.planted import BAD, ONCE, SHUT, target
 
 MODULE = "tests.fuzz.planted"
 
@@ -170,3 +170,17 @@ def test_the_command_tries_a_target(capsys: pytest.CaptureFixture[str]) -> None:
     said = capsys.readouterr().out
     assert code == command.DONE, said
     assert "The seed is 1." in said and "lines: 30 inputs" in said
+
+
+def test_a_target_that_cannot_be_tried_is_not_said_to_be_sound(
+    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(
+        command, "Run", lambda _, **how: Run(target(SHUT), **how | {"module": MODULE})
+    )
+
+    code = command.main(["lines", "--count", "3"])
+
+    said = capsys.readouterr().out
+    assert code == command.FOUND_SOME
+    assert "the door does not open" in said and "1 found" in said
