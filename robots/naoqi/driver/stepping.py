@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import math
 import time
+from collections import deque
 from collections.abc import Sequence
 
 from robots.body.gait import STEP_S
@@ -22,6 +23,9 @@ from .real import RealRobot
 INTO_STEP_S = 0.2
 """So late in a step the next one is asked for: 0.22 + 0.42 + 0.3 s later both feet stand for good.
 Later would be shorter still, but who misses the end of the step (0.42 s) lets the robot stand."""
+SPARE_S = 0.04
+"""So long before the end of a step is the last moment to ask: what comes later, while the robot
+brings its feet together, begins a walk anew. If nobody drives it by then, that is a second more."""
 RENEWED_S = 0.4
 """So often is asked a robot that does not tell of its steps."""
 AGAIN_S = 0.05
@@ -75,10 +79,11 @@ class _Beat:
     def __init__(self, calls: Calls) -> None:
         self._calls = calls
         self._is_told = calls.has("ALMotion", "getNextRobotPosition")
-        self._asked: Pending | None = None
-        self._asked_s = -math.inf
+        self._asked: deque[tuple[float, Pending]] = deque()
+        self._asked_s = self._heard_s = -math.inf
         self._place: Sequence[float] | None = None
-        self._step_s: float | None = None
+        self._step_s: tuple[float, float] | None = None
+        """When the step under way began, at the earliest and at the latest."""
         self._steps = self._in_vain = 0
 
     def next(self) -> None:
@@ -98,20 +103,21 @@ class _Beat:
             return now_s >= asked_s + RENEWED_S
         if self._step_s is None:
             return False
+        earliest_s, latest_s = self._step_s
         # Later than that it comes to rest: it is asked when it has
-        return INTO_STEP_S <= now_s - self._step_s < STEP_S
+        return now_s >= latest_s + INTO_STEP_S and now_s < earliest_s + STEP_S - SPARE_S
 
     def look(self) -> None:
         """Ask where the robot will be, and hear of it, until a step has begun."""
-        if self._asked is not None and self._asked.done:
-            self._hear(self._asked)
-            self._asked = None
-        is_wanted = self._is_told and self._step_s is None and self._asked is None
+        while self._asked and self._asked[0][1].done:
+            self._hear(*self._asked.popleft())
+        is_wanted = self._is_told and self._step_s is None and len(self._asked) < MOST_BEGUN
         if is_wanted and time.monotonic() >= self._asked_s + LOOKING_S:
             self._asked_s = time.monotonic()
-            self._asked = self._calls.begin("ALMotion", "getNextRobotPosition")
+            place = self._calls.begin("ALMotion", "getNextRobotPosition")
+            self._asked.append((self._asked_s, place))
 
-    def _hear(self, asked: Pending) -> None:
+    def _hear(self, asked_s: float, asked: Pending) -> None:
         try:
             place = [float(number) for number in asked.result(0.0)]
         except (NaoqiError, TypeError, ValueError):
@@ -119,9 +125,10 @@ class _Beat:
             return
         before, self._place = self._place, place
         if before is not None and _is_elsewhere(before, place):
-            # It had begun when that was asked: how long the answer was on its way is of no matter
-            self._step_s = self._asked_s
+            # Since it was asked before: how long the answer was on its way is of no matter
+            self._step_s = self._heard_s, asked_s
             self._steps += 1
+        self._heard_s = asked_s
 
 
 def _is_elsewhere(one: Sequence[float], other: Sequence[float]) -> bool:

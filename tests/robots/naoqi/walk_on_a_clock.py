@@ -119,6 +119,10 @@ class ClockedWalk:
         self._task.close()
         self._task = None
 
+    def hold_up_driver(self, until_s: float) -> None:
+        """Let the driver stand still, as on a busy computer."""
+        self._driver_s = until_s
+
     def until(self, is_so: Callable[[], bool], at_most_s: float = 60.0) -> float:
         """Let time pass until something is so; how long that took."""
         begun_s = self.now_s
