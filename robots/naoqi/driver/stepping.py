@@ -108,10 +108,10 @@ class _Beat:
         return now_s >= latest_s + INTO_STEP_S and now_s < earliest_s + STEP_S - SPARE_S
 
     def look(self) -> None:
-        """Ask where the robot will be, and hear of it, until a step has begun."""
+        """Ask where the robot will be, and hear of it."""
         while self._asked and self._asked[0][1].done:
             self._hear(*self._asked.popleft())
-        is_wanted = self._is_told and self._step_s is None and len(self._asked) < MOST_BEGUN
+        is_wanted = self._is_told and len(self._asked) < MOST_BEGUN
         if is_wanted and time.monotonic() >= self._asked_s + LOOKING_S:
             self._asked_s = time.monotonic()
             place = self._calls.begin("ALMotion", "getNextRobotPosition")
@@ -124,7 +124,7 @@ class _Beat:
             self._is_told = False
             return
         before, self._place = self._place, place
-        if before is not None and _is_elsewhere(before, place):
+        if self._step_s is None and before is not None and _is_elsewhere(before, place):
             # Since it was asked before: how long the answer was on its way is of no matter
             self._step_s = self._heard_s, asked_s
             self._steps += 1
