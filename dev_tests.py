@@ -8,7 +8,7 @@ from pathlib import Path
 
 from dev_system import call, say
 
-EVERY_TEST = ["--numprocesses", str(min((os.cpu_count() or 1) + 1, 4)), "--dist", "worksteal"]
+EVERY_TEST = ["--numprocesses", str(min((os.cpu_count() or 1) + 2, 4)), "--dist", "worksteal"]
 """All tests side by side: most of the stories' time is waiting for what robots and people do."""
 
 TESTS_FAILED = 1

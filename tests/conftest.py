@@ -36,6 +36,10 @@ Case = TypeVar("Case")
 
 PART_IN_CI = 3
 """Of cases without number that are alike, CI tries one in so many."""
+LONG_IN_CI = 4
+"""Of long tests, CI plays one in so many."""
+WHOLE_WINDOW = "studio"
+"""Who uses this fixture opens the whole window, which makes a test a long one."""
 
 
 def pytest_configure() -> None:
@@ -64,15 +68,16 @@ def pytest_configure() -> None:
 
 
 def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
-    """In CI, play one in three of the long tests of each file, always the same ones."""
+    """In CI, play of each folder one in four of the long tests, always the same ones."""
     if not os.environ.get("CI") or config.getoption("lf", False):
         return
     numbers: Counter[Path] = Counter()
     left_out = []
     for item in items:
-        if item.get_closest_marker("long"):
-            numbers[item.path] += 1
-            if numbers[item.path] % PART_IN_CI != 1:
+        uses = getattr(item, "fixturenames", ())
+        if item.get_closest_marker("long") or WHOLE_WINDOW in uses:
+            numbers[item.path.parent] += 1
+            if numbers[item.path.parent] % LONG_IN_CI != 1:
                 left_out.append(item)
     gone = set(left_out)
     items[:] = [item for item in items if item not in gone]

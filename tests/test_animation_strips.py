@@ -11,6 +11,8 @@ from PySide6.QtGui import QColor, QImage
 
 import dev
 
+pytestmark = pytest.mark.long
+
 SCRIPT = Path(dev.__file__).parent / "tools" / "animation_strips.py"
 
 

@@ -15,6 +15,8 @@ import pytest
 
 from benchmarks import __main__ as runner
 
+pytestmark = pytest.mark.long
+
 GOOD = 'def run():\n    print("chatter")\n    return [{"name": "a", "value": 2.0, "unit": "s"}]\n'
 
 WAITING = """

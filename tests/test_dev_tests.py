@@ -9,6 +9,8 @@ import pytest
 import dev_tests
 from tests import conftest
 
+pytestmark = pytest.mark.long
+
 
 def test_what_fails_beside_others_is_tried_again_alone_and_named(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capfd: pytest.CaptureFixture[str]

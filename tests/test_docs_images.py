@@ -11,6 +11,8 @@ from PySide6.QtGui import QColor, QImage
 
 import dev
 
+pytestmark = pytest.mark.long
+
 DOCS = Path(dev.__file__).parent / "docs"
 IMAGES = DOCS / "images"
 LARGEST_MB = 3.0

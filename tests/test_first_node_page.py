@@ -19,7 +19,10 @@ from nep_core.networks.master_messages import ask_master
 from nep_core.places import NODES_VARIABLE
 from tests.conftest import PROJECT
 
-pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="its commands are for a shell")
+pytestmark = [
+    pytest.mark.skipif(sys.platform == "win32", reason="its commands are for a shell"),
+    pytest.mark.long,
+]
 
 PAGE = (PROJECT / "docs" / "first_node.md").read_text(encoding="utf-8")
 EXAMPLES = PROJECT / "examples" / "python"

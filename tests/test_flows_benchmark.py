@@ -4,8 +4,12 @@ from __future__ import annotations
 
 import sys
 
+import pytest
+
 from benchmarks import flows
 from faults import Text, text_of
+
+pytestmark = pytest.mark.long
 
 
 def test_functions_of_ours_are_counted_by_file_and_those_of_others_are_not() -> None:

@@ -18,6 +18,8 @@ from nodes.perceptual.recognition.validation import Totals
 from nodes.recordings import write_recording
 from nodes.sensory.arm.people import simulate_everyday, simulate_session
 
+pytestmark = pytest.mark.long
+
 RATE_HZ = 33.0
 
 

@@ -10,6 +10,8 @@ import pytest
 
 import dev
 
+pytestmark = pytest.mark.long
+
 DOCS = Path(dev.__file__).parent / "docs"
 
 

@@ -10,6 +10,8 @@ import pytest
 from benchmarks._soak_account import TAIL_S, account
 from benchmarks.soak import soak
 
+pytestmark = pytest.mark.long
+
 
 @pytest.mark.skipif(not hasattr(signal, "SIGKILL"), reason="programs are killed by signals")
 def test_nothing_is_lost_between_programs_that_live_while_others_are_killed(

@@ -22,6 +22,8 @@ from nep_studio.blocks.places import InBody, InInput, InStack, NewStack
 from nep_studio.blocks.program import Block, Parent, Project
 from nep_studio.blocks.text import sentence
 
+pytestmark = pytest.mark.long
+
 
 @given(st.data())
 def test_random_edits_undone_and_redone_give_identical_bytes(language, data):

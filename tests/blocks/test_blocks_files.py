@@ -17,6 +17,8 @@ from nep_studio.blocks.generate.program import generate_program
 from nep_studio.blocks.program import Project
 from nep_studio.blocks.text import sentence
 
+pytestmark = pytest.mark.long
+
 
 def test_a_project_is_loaded_as_it_was_saved(language, tmp_path):
     project = karate(language).project

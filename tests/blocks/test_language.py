@@ -26,6 +26,8 @@ from nep_studio.blocks.language import Language
 from nep_studio.blocks.program import Project
 from nodes.cognitive.failures import failure_of
 
+pytestmark = pytest.mark.long
+
 PROGRAMS = int(os.environ.get("NEP_RANDOM_PROGRAMS", "300"))
 """How many programs are tried; 3,000 by hand, before the language is changed."""
 PARTS = 10

@@ -20,6 +20,8 @@ from nep_studio.run.installation import studio_language
 from tests.conftest import PROJECT
 from tests.docs.conftest import LANGUAGES, MadeSite
 
+pytestmark = pytest.mark.long
+
 ADDRESSES = {"a": "href", "link": "href", "img": "src", "script": "src", "source": "srcset"}
 LARGEST_MB = 16.0
 DOCS = PROJECT / "docs"

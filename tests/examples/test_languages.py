@@ -25,6 +25,8 @@ from nep_core.wire.messages import HUMAN_BEHAVIOR, IMU, NODE_STATE, HumanBehavio
 from nep_core.wire.pubsub import Publisher, Subscriber
 from tests.node_running import until
 
+pytestmark = pytest.mark.long
+
 WAIT_S = 20.0
 PROGRAM = Path(__file__).parent / "shaken.nep"
 RUN_LAUNCHER = """

@@ -4,12 +4,16 @@ from __future__ import annotations
 
 import re
 
+import pytest
+
 from nep_core.networks.zmq_networks import PeerNetwork
 from nep_core.processes.launcher import Launcher
 from nep_core.wire.messages import HUMAN_BEHAVIOR, NODE_STATE, HumanBehavior, NodeState
 from nep_core.wire.pubsub import Subscriber
 from tests.examples.raw_publisher import RawPublisher
 from tests.node_running import until
+
+pytestmark = pytest.mark.long
 
 
 def shaken(source: str, t: float) -> dict[str, object]:

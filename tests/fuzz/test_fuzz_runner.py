@@ -19,6 +19,8 @@ from fuzz.targets import target as real
 from fuzz.watched import BOARD_BYTES, ROOT, Board, smaller, waited_by_all_s
 from tests.fuzz.planted import BAD, ONCE, SHUT, target
 
+pytestmark = pytest.mark.long
+
 MODULE = "tests.fuzz.planted"
 
 

@@ -9,6 +9,8 @@ import pytest
 from fuzz.runner import Run
 from fuzz.targets import NAMES, target
 
+pytestmark = pytest.mark.long
+
 SEED = 15
 BY_CHANCE = 120
 """Some tenths of a second of each; `dev.py fuzz` tries as many as there is time for."""

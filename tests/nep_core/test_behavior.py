@@ -23,6 +23,8 @@ from nep_core.program.tasks import (
 from nep_core.wire.messages import HUMAN_BEHAVIOR, PROGRAM_STATE, HumanBehavior, ProgramState
 from nep_core.wire.pubsub import Publisher, Subscriber
 
+pytestmark = pytest.mark.long
+
 Join = Callable[[str], PeerNetwork]
 WAIT_S = 20.0
 

@@ -19,6 +19,8 @@ from nep_core.networks.network import Network
 from nep_core.networks.zmq_networks import Broker, BrokerNetwork, DirectNetwork, PeerNetwork
 from nep_core.wire.pubsub import Publisher, Subscriber
 
+pytestmark = pytest.mark.long
+
 Join = Callable[[str], PeerNetwork]
 Numbered = dict[str, int]
 

@@ -13,6 +13,8 @@ from nep_core.networks.zmq_networks import PeerNetwork
 from nep_core.wire.pubsub import Publisher, Subscriber
 from tests.nep_core.relay import Line, Relay
 
+pytestmark = pytest.mark.long
+
 Join = Callable[[str], PeerNetwork]
 BAD = Line(delay_s=0.2, loss=0.02)
 TOPICS = tuple(f"/far/{number}" for number in range(6))

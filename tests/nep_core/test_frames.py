@@ -25,6 +25,8 @@ from nep_core.wire.frames import (
 from nep_core.wire.messages import HumanBehavior
 from nep_core.wire.pubsub import Subscriber
 
+pytestmark = pytest.mark.long
+
 json_values = st.recursive(
     st.none()
     | st.booleans()

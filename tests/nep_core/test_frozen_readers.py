@@ -15,6 +15,8 @@ from nep_core.wire.outbox import HIGH_WATER_MARK, UNIT_BYTES
 from nep_core.wire.pubsub import Publisher
 from tests.nep_core.test_delivery import HEARER
 
+pytestmark = pytest.mark.long
+
 MOST_BYTES = HIGH_WATER_MARK * UNIT_BYTES
 ALLOWANCE_BYTES = 40_000_000
 

@@ -14,7 +14,10 @@ import pytest
 from nep_core.processes import lifeline
 from nep_core.processes.process import program_command
 
-pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="signals are those of Unix")
+pytestmark = [
+    pytest.mark.skipif(sys.platform == "win32", reason="signals are those of Unix"),
+    pytest.mark.long,
+]
 
 GONE_S = 20
 STUBBORN = """

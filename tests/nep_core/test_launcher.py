@@ -19,6 +19,8 @@ from nep_core.wire.pubsub import Subscriber
 from tests.nep_core.launching import WAIT, Ends, first_line
 from tests.nep_core.node_making import write_node
 
+pytestmark = pytest.mark.long
+
 
 def test_a_node_becomes_ready_and_stops_when_asked(launcher: Launcher, ends: Ends) -> None:
     launched = launcher.start("sensory/waiter", "watch")

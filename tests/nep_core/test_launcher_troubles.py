@@ -19,6 +19,8 @@ from nep_core.processes.process import ChildProcess
 from tests.nep_core.launching import WAIT, Ends, first_line
 from tests.nep_core.node_making import write_node
 
+pytestmark = pytest.mark.long
+
 SCRIPT = """
 import sys
 from nep_core import Node

@@ -20,6 +20,8 @@ from nep_core.networks.zmq_networks import PeerNetwork
 from nep_core.wire.pubsub import Publisher, Subscriber
 from tests.nep_core.master_process import TIMEOUT_S, MasterProcess, nodes_of, until
 
+pytestmark = pytest.mark.long
+
 Join = Callable[[str], PeerNetwork]
 
 TALKER = """

@@ -23,7 +23,10 @@ from tests.nep_core.launching import WAIT
 from tests.nep_core.node_making import write_node
 
 LINUX = pytest.mark.skipif(sys.platform != "linux", reason="other systems have no such signal")
-pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="kills with SIGKILL")
+pytestmark = [
+    pytest.mark.skipif(sys.platform == "win32", reason="kills with SIGKILL"),
+    pytest.mark.long,
+]
 
 GONE_S = 10
 CHILD = "child = subprocess.Popen([sys.executable, '-c', 'import time; time.sleep(60)'])\n"

@@ -17,6 +17,8 @@ from nep_core.wire.pubsub import Publisher, Subscriber
 from tests.nep_core.master_process import until
 from tests.nep_core.robot_playing import PlayedRobot
 
+pytestmark = pytest.mark.long
+
 Join = Callable[[str], PeerNetwork]
 
 IMPORT = "from nep_core.paper import *\n"

@@ -16,6 +16,8 @@ from nep_core.program.human import state_of_word
 from nep_core.program.tasks import current_task, wait, wait_until
 from tests.nep_core.outside import Outside, seen
 
+pytestmark = pytest.mark.long
+
 
 class Running:
     """A behaviour that runs in a thread until the end of the test."""

@@ -27,6 +27,8 @@ from nodes.sensory.phone_page.server import own_certificate
 from robots.body.camera import write_picture
 from robots.naoqi.discovery import SavedLogin, logins_file, save_login
 
+pytestmark = pytest.mark.long
+
 SECRET = "open-sesame-4711"
 NODE = """
 import os

@@ -22,6 +22,8 @@ from nep_studio.run.local_network import STUDIO, LocalNetwork, door_at
 from nep_studio.run.plan import PlannedNode
 from nep_studio.sharing import Sharing, refusals_in
 
+pytestmark = pytest.mark.long
+
 HOST = "127.0.0.1"
 WAIT_MS = 20_000
 WATCH = PlannedNode("sensory/virtual_watch", "watch", {})

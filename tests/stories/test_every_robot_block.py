@@ -13,6 +13,8 @@ from nep_studio.blocks.language import Language
 from nep_studio.run.installation import studio_language
 from tests.stories.robot_theatre import B, RobotTheatre
 
+pytestmark = pytest.mark.long
+
 LANGUAGE = studio_language()
 CATEGORIES = ("robot", "robot_moves", "robot_speech", "robot_lights")
 STARTED = B("event.started")

@@ -11,6 +11,8 @@ import pytest
 from nep_studio.run.local_network import LocalNetwork
 from tests.stories.example_stage import EXAMPLES, Stage, staged
 
+pytestmark = pytest.mark.long
+
 SLOWER = 8.0
 FINISHED = "the program ends by itself"
 

@@ -9,6 +9,8 @@ import pytest
 from nep_studio import paths
 from tests.stories.playing import SPEED, playing, result_of, says
 
+pytestmark = pytest.mark.long
+
 REACTIONS = {
     "karate": "Impressive!",
     "hand_up": "Yes, please? You have a question.",

@@ -11,6 +11,8 @@ import pytest
 from nep_studio import paths
 from tests.stories.playing import SPEED, Event, Play, kill, node_is, playing, result_of, says
 
+pytestmark = pytest.mark.long
+
 KARATE = paths.examples() / "karate_greeting.nep"
 KILLED = ("karate", "watch")
 """In this order: a watch that is started again makes the gesture again, for who is back by then."""

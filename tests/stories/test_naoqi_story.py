@@ -29,6 +29,8 @@ from robots.naoqi.wire.errors import LoginRefused, NoConnection
 from robots.naoqi.wire.line import Login
 from tests.node_running import until
 
+pytestmark = pytest.mark.long
+
 GREETER = Path(__file__).parent.parent / "robots" / "naoqi" / "greeter.py"
 WAIT_S = 30.0
 

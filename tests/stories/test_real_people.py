@@ -20,7 +20,7 @@ from nep_studio.__main__ import main
 from nodes.recordings import Recording, read_recording, write_recording
 from tests.stories.playing import Play, playing
 
-pytestmark = pytest.mark.real_data
+pytestmark = [pytest.mark.real_data, pytest.mark.long]
 
 GESTURES = [
     "left",

@@ -14,6 +14,8 @@ from tests.stories.robot_block_looks import LOOKS
 from tests.stories.robot_block_stage import DRIVERS, BlockStage, block_stage, robot_blocks
 from tests.stories.robot_block_table import table
 
+pytestmark = pytest.mark.long
+
 TRIED = [one for one in DRIVERS if one != "virtual" or not os.environ.get("CI")]
 """Where a change is judged, test_every_robot_block.py tries the virtual robot, which is quicker."""
 CATEGORIES = sorted({definition.category.id for definition in robot_blocks()})

@@ -11,6 +11,8 @@ import pytest
 import dev
 from benchmarks.virtual_display import missing_programs
 
+pytestmark = pytest.mark.long
+
 STORY_IMAGES = Path(dev.__file__).parent / "tools" / "story_images.py"
 STEPS = ["welcome", "example", "impressive", "stopped", "own-rule", "what-is-missing", "fixed"]
 

@@ -11,6 +11,8 @@ import pytest
 import dev
 from tools.house import House, Known, measured
 
+pytestmark = pytest.mark.long
+
 ROOT = Path(dev.__file__).parent
 
 

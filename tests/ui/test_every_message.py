@@ -21,6 +21,8 @@ from nep_studio.run.node_board import NodeStatus
 from nep_studio.ui.plugins.nodes.notices import Circumstances, notice_of
 from nodes.cognitive.failures import OTHER, SENTENCES
 
+pytestmark = pytest.mark.long
+
 NO_HAND = "an edit checks itself; no gesture of the window asks for what is refused here"
 PASSED_ON = "the reason of another message; that one tells what to try"
 OF_A_ROBOT = "told as “NAO could not ...” by nep_core/program/actions.py, which adds what to try"

@@ -22,6 +22,8 @@ from nep_studio.blocks.from_python.updating import update_from_python
 from nep_studio.blocks.generate.program import generate_program
 from tests.blocks.from_python.test_python_of_people import said
 
+pytestmark = pytest.mark.long
+
 EXAMPLES = sorted((Path(__file__).parents[3] / "resources/examples").glob("*.nep"))
 SHARE = int(os.environ.get("NEP_EDITS_SHARE", "7"))
 """One of so many pairs of an edit and an example is tried."""

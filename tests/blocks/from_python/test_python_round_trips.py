@@ -16,6 +16,8 @@ from nep_studio.blocks.generate.program import generate_program
 from nep_studio.blocks.program import Parameter, Procedure, Project
 from tests.blocks.block_building import read_program
 
+pytestmark = pytest.mark.long
+
 NUMBERS = st.integers(-9, 99) | st.sampled_from([0.5, -2.25, 1e-7])
 TIMES = st.integers(0, 99) | st.just(0.5)
 TEXTS = st.sampled_from(

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import pytest
 from block_building import B, build
 from hypothesis import given
 from hypothesis import strategies as st
@@ -23,6 +24,8 @@ from nep_studio.blocks.operations.wrapping import (
     wrap,
 )
 from nep_studio.blocks.places import InBody, InInput, InStack
+
+pytestmark = pytest.mark.long
 
 
 def program(language):

@@ -14,6 +14,8 @@ from nep_core.places import NODES_VARIABLE
 from tests.nep_core.cli.conftest import Call
 from tests.nep_core.node_making import write_node
 
+pytestmark = pytest.mark.long
+
 SIGNAL_IN_SIGNAL = """
 import signal, sys
 from nep_core.cli import main

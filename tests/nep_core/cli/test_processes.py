@@ -20,7 +20,7 @@ from nep_core.recordings.recorder import Player, Recorder
 from nep_core.wire.pubsub import Publisher
 from tests.nep_core.cli.conftest import nep, until
 
-pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="sends signals")
+pytestmark = [pytest.mark.skipif(sys.platform == "win32", reason="sends signals"), pytest.mark.long]
 
 
 def test_a_reader_that_has_seen_enough_ends_the_command_quietly(busy: PeerNetwork) -> None:

@@ -16,6 +16,8 @@ from nep_core.networks.gateway.gateway import Ports
 from tests.nep_core.gateway.own_network import own_network
 from tests.nep_core.gateway.raw_programs import RawPrograms, is_free
 
+pytestmark = pytest.mark.long
+
 NEP = "import sys; from nep_core.cli import main; sys.exit(main(sys.argv[1:]))"
 STUDIO = "import sys; from nep_core.cli.services import run_master as m; sys.exit(m(sys.argv[1:]))"
 

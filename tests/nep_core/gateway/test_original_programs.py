@@ -23,6 +23,8 @@ from tests.nep_core.gateway.originals import (
 )
 from tests.nep_core.gateway.own_network import own_network
 
+pytestmark = pytest.mark.long
+
 Parts = list[dict[str, Any]]
 
 MANY, FROM_ONE, TO_ONE = "many2many", "one2many", "many2one"

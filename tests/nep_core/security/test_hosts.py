@@ -11,6 +11,8 @@ from nep_core.networks.security.keys import KeyFile, Keys
 from tests.nep_core.security.conftest import keys_of_a_guest, written
 from tests.nep_core.security.hosts import Host, are_apart, three_hosts
 
+pytestmark = pytest.mark.long
+
 PROGRAMS = "tests.nep_core.security.host_programs"
 ALONE = {"NEP_MASTER": "", "NEP_KEYS": "", "NEP_HOST": "", "NEP_ORIGINAL": "0"}
 

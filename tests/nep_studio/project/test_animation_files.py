@@ -24,6 +24,8 @@ from robots.body.animations import load_animation, load_animations, with_own
 from robots.body.body import Body, load_body
 from tests.blocks.block_building import B, build
 
+pytestmark = pytest.mark.long
+
 NAO = resource_folder() / "robots" / "nao"
 HOP = OwnAnimation(
     'A "big" hop',

@@ -22,6 +22,8 @@ from nep_studio.run.local_network import LocalNetwork, free_endpoint
 from nep_studio.run.plan import REPLAY, PlannedNode
 from nep_studio.run.session import PROGRAM, Session
 
+pytestmark = pytest.mark.long
+
 WAIT_S = 20.0
 FOR_EVER = "from nep_core import wait\nwait(600)"
 

@@ -12,6 +12,8 @@ from nep_core.networks.master_messages import ask_master
 from nep_core.networks.zmq_networks import PeerNetwork
 from nep_studio.run.local_network import STUDIO, LocalNetwork
 
+pytestmark = pytest.mark.long
+
 
 @pytest.fixture
 def usual_place(free_port: int, monkeypatch: pytest.MonkeyPatch) -> str:

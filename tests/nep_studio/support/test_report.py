@@ -23,6 +23,8 @@ from nep_studio.support.report import (
     setting_lines,
 )
 
+pytestmark = pytest.mark.long
+
 SETTINGS = """[look]
 theme=dark
 [files]

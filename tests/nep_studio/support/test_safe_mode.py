@@ -17,6 +17,8 @@ from nep_studio.support import safe_mode
 from nep_studio.support.report import crash_part
 from nep_studio.support.safe_mode import NOTE, StartNote
 
+pytestmark = pytest.mark.long
+
 CRASH = """
 import ctypes, sys
 from nep_studio.ui.shell import app

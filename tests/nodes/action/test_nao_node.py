@@ -28,6 +28,8 @@ from nep_core.wire.messages import (
 from nep_core.wire.pubsub import Publisher, Subscriber
 from tests.node_running import NODES, NodeRunner, until
 
+pytestmark = pytest.mark.long
+
 MANIFEST = NODES / "action" / "nao.toml"
 
 

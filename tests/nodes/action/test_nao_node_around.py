@@ -22,6 +22,8 @@ from nep_core.wire.messages import (
 from nep_core.wire.pubsub import Publisher, Subscriber
 from tests.node_running import NodeRunner, until
 
+pytestmark = pytest.mark.long
+
 ANNA = Thing(
     id="a",
     kind="person",

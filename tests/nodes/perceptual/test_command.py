@@ -9,6 +9,8 @@ from nodes.perceptual.recognition.model import read_model
 from nodes.recordings import write_recording
 from nodes.sensory.arm.people import simulate_everyday, simulate_session
 
+pytestmark = pytest.mark.long
+
 
 @pytest.fixture(scope="module")
 def folders(tmp_path_factory):

@@ -16,6 +16,8 @@ from nodes.perceptual.recognition.training import train
 from nodes.perceptual.recognition.validation import match
 from nodes.recordings import read_recordings
 
+pytestmark = pytest.mark.long
+
 TURNED = np.array([-1.0, -1.0, 1.0])
 
 

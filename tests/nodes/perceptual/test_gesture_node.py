@@ -9,6 +9,8 @@ from nodes.perceptual.recognition.model import write_model
 from nodes.perceptual.recognition.streams import takes_of
 from tests.node_running import WAIT_S, NodeRunner, until
 
+pytestmark = pytest.mark.long
+
 
 class Program(NodeRunner):
     """Starts gesture nodes, sends them samples and hears what they tell."""

@@ -16,6 +16,8 @@ from nodes.perceptual.recognition.spotting import Spotter
 from nodes.perceptual.recognition.training import train
 from tests.nodes.perceptual.changed_models import rewritten
 
+pytestmark = pytest.mark.long
+
 SENSOR = {"device": "watch", "rate_hz": 50.0, "gravity": True, "gyroscope": True}
 
 

@@ -12,6 +12,8 @@ from nodes.recordings import read_recording
 from nodes.sensory.arm.people import perform
 from tests.nodes.perceptual.test_segments import found_by, marked, overlap, signal
 
+pytestmark = pytest.mark.long
+
 RATE_HZ = 50.0
 
 

@@ -12,6 +12,8 @@ from nodes.perceptual.recognition.training import train
 from nodes.perceptual.recognition.validation import Totals, match
 from nodes.recordings import read_recordings
 
+pytestmark = pytest.mark.long
+
 
 def between(recording, start_s, end_s):
     """The part of a recording from one time to another."""

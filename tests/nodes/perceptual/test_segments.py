@@ -19,6 +19,8 @@ from nodes.perceptual.recognition.segments import (
 )
 from nodes.recordings import Recording, read_recording
 
+pytestmark = pytest.mark.long
+
 RATE_HZ = 50.0
 
 

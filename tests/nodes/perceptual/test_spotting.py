@@ -12,6 +12,8 @@ from nodes.perceptual.recognition.streams import takes_of
 from nodes.perceptual.recognition.validation import match
 from nodes.sensory.arm.people import simulate_everyday, simulate_session
 
+pytestmark = pytest.mark.long
+
 
 def spotted(model, recording, *, gyroscope=True, **wishes):
     spotter = Spotter(model, **wishes)

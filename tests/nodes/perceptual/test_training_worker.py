@@ -16,6 +16,8 @@ from nodes.recordings import write_recording
 from nodes.sensory.arm.people import simulate_everyday, simulate_session
 from tests.node_running import WAIT_S
 
+pytestmark = pytest.mark.long
+
 
 class Worker:
     """The process as the studio has it."""

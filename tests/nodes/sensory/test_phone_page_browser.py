@@ -15,7 +15,10 @@ from tests.nodes.sensory.page_serving import folder, page, served, shared_page
 
 __all__ = ["folder", "page", "shared_page"]
 
-pytestmark = pytest.mark.skipif(chromium_path() is None, reason="there is no Chromium here")
+pytestmark = [
+    pytest.mark.skipif(chromium_path() is None, reason="there is no Chromium here"),
+    pytest.mark.long,
+]
 
 STATE = "document.body?.dataset.state"
 IPHONE = "Mozilla/5.0 (iPhone; CPU iPhone OS 17_5 like Mac OS X) AppleWebKit/605.1.15 Safari/604.1"

@@ -8,6 +8,8 @@ import pytest
 from nodes.recordings import read_recording, write_recording
 from nodes.sensory.arm.people import perform
 
+pytestmark = pytest.mark.long
+
 
 @pytest.fixture
 def karate(tmp_path):

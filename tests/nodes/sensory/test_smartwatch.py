@@ -13,6 +13,8 @@ from tests.node_running import until
 from tests.nodes.sensory.connector_hearing import free_port, turned
 from tests.nodes.sensory.senders import SensorLogger
 
+pytestmark = pytest.mark.long
+
 
 @pytest.fixture
 def port():

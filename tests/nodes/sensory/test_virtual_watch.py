@@ -4,10 +4,13 @@ import time
 from dataclasses import replace
 
 import numpy as np
+import pytest
 
 from nep_core.wire.messages import GESTURE_REQUEST, GestureRequest
 from nodes.recordings import write_recording
 from nodes.sensory.arm.people import simulate_session
+
+pytestmark = pytest.mark.long
 
 
 def test_it_sends_small_batches_in_real_time_and_says_that_it_is_simulated(listener):

@@ -14,6 +14,8 @@ from robots.body import actor
 from robots.body.actor import FINAL, REMEMBERED_REQUESTS
 from robots.body.driver import ActionRequest
 
+pytestmark = pytest.mark.long
+
 
 def test_a_request_is_accepted_started_and_done() -> None:
     stage = Stage()

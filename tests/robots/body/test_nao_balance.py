@@ -8,6 +8,8 @@ from nao_stage import BODY, Stage
 
 from robots.body.body import part_of
 
+pytestmark = pytest.mark.long
+
 
 @pytest.mark.parametrize(
     ("joint", "angle", "posture"),

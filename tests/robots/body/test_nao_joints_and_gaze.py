@@ -14,6 +14,8 @@ from nao_stage import BODY, Stage
 from robots.body.driver import SenseRequest
 from robots.body.inverse import arm_angles
 
+pytestmark = pytest.mark.long
+
 
 def angle_deg(stage: Stage, joint: str) -> float:
     return math.degrees(stage.robot.angles[BODY.index[joint]])

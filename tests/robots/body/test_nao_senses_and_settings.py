@@ -10,6 +10,8 @@ from nao_stage import Stage
 
 from robots.body.driver import RobotState, SenseRequest, Thing
 
+pytestmark = pytest.mark.long
+
 
 def sense(stage: Stage, what: str, value: float = 1.0, **more: object) -> list[str]:
     request = SenseRequest(robot="NAO", sense=what, value=value, **more)

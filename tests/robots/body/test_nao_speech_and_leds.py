@@ -10,6 +10,8 @@ from robots.body.speech import speaking_time_s
 from robots.errors import ActionFailed
 from tests.conftest import a_part_of
 
+pytestmark = pytest.mark.long
+
 
 def test_speaking_takes_about_a_second_for_14_characters() -> None:
     assert speaking_time_s("Impressive") == pytest.approx(10 / 14)

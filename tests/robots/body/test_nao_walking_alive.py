@@ -9,6 +9,8 @@ from nao_stage import BODY, TICK_S, Stage
 from robots.body.actor import Actor
 from robots.body.driver import ActionRequest
 
+pytestmark = pytest.mark.long
+
 
 def test_a_driven_walk_goes_on_while_it_is_asked_for_and_stops_soon_after() -> None:
     stage = Stage()

@@ -13,6 +13,8 @@ from robots.body.driver import RobotState
 from robots.body.stance import Stance
 from tests.conftest import a_part_of
 
+pytestmark = pytest.mark.long
+
 NAMES = [name for name in BODY.postures if name != "Rest"]
 
 

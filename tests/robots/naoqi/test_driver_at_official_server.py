@@ -14,7 +14,7 @@ import pytest
 from driver_stage import DriverStage
 from naoqi_lamp import needs_oracle
 
-pytestmark = needs_oracle
+pytestmark = [needs_oracle, pytest.mark.long]
 
 
 class OfficialNao:

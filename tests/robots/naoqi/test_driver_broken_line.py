@@ -13,6 +13,8 @@ from driver_stage import DriverStage, ServedNao
 
 from robots.naoqi.discovery import FOLDER_VARIABLE
 
+pytestmark = pytest.mark.long
+
 TOLD_S = 3.0
 MAGIC = 0x42ADDE42
 RUBBISH = b"\x00\xffnothing that NAOqi says" * 20

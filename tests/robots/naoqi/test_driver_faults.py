@@ -19,6 +19,8 @@ from robots.naoqi.discovery import FOLDER_VARIABLE, PASSWORD_VARIABLE, SavedLogi
 from robots.naoqi.server.server import Server
 from robots.naoqi.wire.service import method
 
+pytestmark = pytest.mark.long
+
 TOLD_S = 6.0
 """Half of that on a quiet computer."""
 MAGIC = 0x42ADDE42

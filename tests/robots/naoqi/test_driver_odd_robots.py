@@ -20,6 +20,8 @@ from robots.naoqi.server.server import Server
 from robots.naoqi.wire.promise import Pending, Promise
 from robots.naoqi.wire.service import method
 
+pytestmark = pytest.mark.long
+
 NAN = float("nan")
 LEG_S = 0.6
 ASKED: dict[str, dict[str, Any]] = {

@@ -15,6 +15,8 @@ from robots.body.pose import VirtualRobot
 from robots.naoqi.discovery import FOLDER_VARIABLE
 from robots.naoqi.driver.driver import NaoqiDriver
 
+pytestmark = pytest.mark.long
+
 LOOK_ASIDE = """title = "Look aside"
 description = ""
 kind = "animation"

@@ -10,6 +10,8 @@ from driver_stage import DriverStage, ServedNao
 
 from robots.naoqi.discovery import FOLDER_VARIABLE
 
+pytestmark = pytest.mark.long
+
 
 @pytest.fixture(autouse=True)
 def no_saved_login(tmp_path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -23,6 +23,8 @@ from nep_core.wire.pubsub import Publisher, Subscriber
 from robots.naoqi.discovery import FOLDER_VARIABLE
 from tests.node_running import NodeRunner, until
 
+pytestmark = pytest.mark.long
+
 KILLS = ("ALMotion.killAll", "ALMotion.killTasksUsingResources", "ALMotion.killTask")
 AT_ONCE = (
     "ALTextToSpeech.stopAll",

@@ -15,6 +15,8 @@ from robots.naoqi.probe import probe
 from robots.naoqi.server.server import Server
 from robots.naoqi.wire.line import Login, TlsFiles
 
+pytestmark = pytest.mark.long
+
 
 @pytest.fixture(autouse=True)
 def no_saved_login(tmp_path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -6,6 +6,8 @@ import numpy as np
 import pytest
 from walk_on_a_clock import ClockedWalk
 
+pytestmark = pytest.mark.long
+
 
 @pytest.mark.parametrize(
     ("latency_s", "speeds"),

@@ -13,6 +13,8 @@ from scripted_nao import LEGS, ScriptedNao
 from robots.naoqi.discovery import FOLDER_VARIABLE
 from robots.naoqi.driver import lease
 
+pytestmark = pytest.mark.long
+
 Stages = Callable[..., DriverStage]
 
 

@@ -13,6 +13,8 @@ from robots.naoqi.wire.errors import CallFailed, NaoqiError
 from robots.naoqi.wire.metaobject import Signature
 from robots.naoqi.wire.service import FIRST_UID, description_of
 
+pytestmark = pytest.mark.long
+
 TEXTS = [
     "HeadYaw",
     "Body",

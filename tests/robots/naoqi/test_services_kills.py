@@ -7,6 +7,8 @@ from naoqi_theatre import NaoqiTheatre
 
 from robots.naoqi.client.session import Session
 
+pytestmark = pytest.mark.long
+
 KILLS = {
     "killAll": (),
     "killMove": (),

@@ -18,6 +18,8 @@ from robots.naoqi.wire.codec import Reader, encode, read_value, reader_of
 from robots.naoqi.wire.errors import CallFailed, NoRoom
 from robots.naoqi.wire.line import AUTHENTICATE, Frame, FrameReader, Kind
 
+pytestmark = pytest.mark.long
+
 
 def test_moves_that_wait_are_counted_and_end_at_once(real_time: NaoqiTheatre) -> None:
     motion = real_time.service("ALMotion")

@@ -13,6 +13,8 @@ from pathlib import Path
 import pytest
 from naoqi_theatre import NaoqiTheatre
 
+pytestmark = pytest.mark.long
+
 HERE = Path(__file__).parent
 needs_qi = pytest.mark.skipif(
     importlib.util.find_spec("qi") is None, reason="the official qi package is not there"

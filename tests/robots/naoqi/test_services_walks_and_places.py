@@ -10,6 +10,8 @@ from naoqi_theatre import NaoqiTheatre
 
 from robots.naoqi.wire.errors import CallFailed
 
+pytestmark = pytest.mark.long
+
 
 def test_walking_ends_where_it_was_told_to(theatre: NaoqiTheatre) -> None:
     arrived = theatre.call("ALMotion", "moveTo", 0.1, 0.05, 0.3)

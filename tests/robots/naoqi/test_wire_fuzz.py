@@ -18,6 +18,8 @@ from robots.naoqi.wire.errors import NaoqiError
 from robots.naoqi.wire.line import Frame, Kind
 from robots.naoqi.wire.remote import RemoteObject
 
+pytestmark = pytest.mark.long
+
 BOUNDED = settings(
     max_examples=20,  # each of some seconds of waiting for answers that do not come
     suppress_health_check=[HealthCheck.function_scoped_fixture],

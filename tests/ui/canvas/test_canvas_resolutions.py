@@ -11,6 +11,8 @@ import pytest
 
 from tests.conftest import a_part_of
 
+pytestmark = pytest.mark.long
+
 ROOT = Path(__file__).resolve().parents[3]
 
 

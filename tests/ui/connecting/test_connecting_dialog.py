@@ -23,6 +23,8 @@ from tests.ui.window.conftest import answer, chooser, home, karate, studio, wind
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "robots" / "naoqi"))
 from driver_stage import ServedNao
 
+pytestmark = pytest.mark.long
+
 __all__ = ["answer", "chooser", "home", "karate", "studio", "window"]
 
 LOOPBACK = "127.0.0.1"

@@ -12,6 +12,8 @@ from nep_studio.ui.plugins.motion.motion_controller import MotionController
 from nodes.resources import resource_folder
 from robots.body.body import load_body
 
+pytestmark = pytest.mark.long
+
 BODY = load_body(resource_folder() / "robots" / "nao")
 RIGHT_ARM = {"RShoulderPitch", "RShoulderRoll", "RElbowYaw", "RElbowRoll", "RWristYaw", "RHand"}
 

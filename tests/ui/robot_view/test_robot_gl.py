@@ -17,6 +17,8 @@ from nep_studio.ui.robot_view.gl_bodies import mesh_of
 from nep_studio.ui.robot_view.gl_context import GlContext
 from nep_studio.ui.robot_view.parts import Blob, Solids
 
+pytestmark = pytest.mark.long
+
 ROOT = Path(__file__).resolve().parents[3]
 NO_CONTEXT = 77
 CHILD = """

@@ -57,7 +57,7 @@ from tests.ui.window.conftest import answer, chooser, home, studio, window
 
 __all__ = ["answer", "chooser", "home", "studio", "window"]
 
-pytestmark = pytest.mark.strangers
+pytestmark = [pytest.mark.strangers, pytest.mark.long]
 ASKED = tuple(trap for trap in TRAPS if "program" not in trap.__name__)
 A_WHILE_MS = 300
 LONG_MS = 60_000

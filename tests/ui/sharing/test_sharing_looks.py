@@ -21,6 +21,8 @@ from nep_studio.ui.theme.colours import themes
 from nep_studio.ui.theme.look import Look
 from nep_studio.ui.words import use_language
 
+pytestmark = pytest.mark.long
+
 HOST = "127.0.0.1"
 
 

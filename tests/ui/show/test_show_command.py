@@ -17,6 +17,8 @@ from nep_studio.settings import ShowOptions
 from nep_studio.ui.shell.show_command import parser, show_options
 from tests.blocks.block_building import B, build
 
+pytestmark = pytest.mark.long
+
 WAIT_S = 40.0
 SHOW = "import sys; from nep_studio.ui.shell.show_command import main; sys.exit(main(sys.argv[1:]))"
 

@@ -23,6 +23,8 @@ from nodes.recordings import read_recordings
 from tests.ui.trainer.results_controller import desk, look
 from tests.ui.trainer.results_material import put_session, report, session, spans_of
 
+pytestmark = pytest.mark.long
+
 __all__ = ["desk", "look"]
 
 SPEAKS = """

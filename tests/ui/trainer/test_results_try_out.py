@@ -24,6 +24,8 @@ from tests.ui.trainer.results_controller import desk, look
 from tests.ui.trainer.results_material import samples_of, spans_of
 from tests.ui.trainer.results_model import GESTURES, small_model, small_recogniser
 
+pytestmark = pytest.mark.long
+
 __all__ = ["desk", "look"]
 
 Play = Callable[..., None]

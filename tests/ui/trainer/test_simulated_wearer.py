@@ -17,6 +17,8 @@ from nep_studio.ui.running.runner import Heard, Runner
 from nodes.perceptual.recognition.segments import Movement
 from nodes.sensory.arm.gestures import MAKES_GESTURE
 
+pytestmark = pytest.mark.long
+
 
 class AskedRunner(Runner):
     """Plans a virtual watch, and notes which gestures it is asked for."""

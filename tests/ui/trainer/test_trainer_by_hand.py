@@ -15,6 +15,8 @@ from nep_studio.ui.plugins.gestures.samples import TAKES_MIME
 from tests.ui.trainer.test_gesture_controller import samples
 from tests.ui.trainer.trainer_data import rest
 
+pytestmark = pytest.mark.long
+
 
 def with_takes(page: TrainerPage, title: str, count: int = 3) -> str:
     name = page.keeping.new_gesture(title)

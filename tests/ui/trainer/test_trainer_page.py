@@ -16,6 +16,8 @@ from tests.ui.trainer.test_gesture_controller import samples
 from tests.ui.trainer.test_trainer_by_hand import choose, with_takes
 from tests.ui.trainer.trainer_data import rest, takes
 
+pytestmark = pytest.mark.long
+
 
 def test_from_the_name_to_five_takes_with_keys_alone(
     page: TrainerPage, desk: GestureController, push, qtbot: QtBot

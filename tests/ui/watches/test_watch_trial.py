@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import pytest
 from pytestqt.qtbot import QtBot
 
 from nep_core.errors import NodeStartError
@@ -18,6 +19,8 @@ from tests.ui.watches.watch_stage import (
     runner,
     settles_at_once,
 )
+
+pytestmark = pytest.mark.long
 
 __all__ = ["open_dialog", "runner", "settles_at_once"]
 

@@ -15,6 +15,8 @@ from nep_studio.ui.shell.main_window import MainWindow
 from nep_studio.ui.shell.settings_dialog import SettingsDialog
 from nep_studio.ui.words import tr
 
+pytestmark = pytest.mark.long
+
 
 @pytest.fixture
 def dialog(window: MainWindow) -> Iterator[SettingsDialog]:

@@ -23,6 +23,8 @@ from nep_studio.ui.shell.main_window import MainWindow
 from nep_studio.ui.shell.settings_dialog import SettingsDialog
 from nep_studio.ui.shell.support import AfterACrash, SupportDialog, tell_how_it_runs
 
+pytestmark = pytest.mark.long
+
 
 @pytest.fixture
 def site() -> Iterator[tuple[str, list[str]]]:

@@ -19,6 +19,8 @@ from nep_studio.settings import FOLDER_VARIABLE, Settings
 from nep_studio.ui.services import Studio
 from nep_studio.ui.shell.main_window import MainWindow
 
+pytestmark = pytest.mark.long
+
 resource = pytest.importorskip("resource")
 
 

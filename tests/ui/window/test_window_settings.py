@@ -17,6 +17,8 @@ from nep_studio.ui.shell.main_window import MainWindow
 from nep_studio.ui.shell.settings_dialog import SettingsDialog
 from nep_studio.ui.words import PSEUDO
 
+pytestmark = pytest.mark.long
+
 KARATE = paths.examples() / "karate_greeting.nep"
 
 

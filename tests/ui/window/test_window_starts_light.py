@@ -7,6 +7,10 @@ import subprocess
 import sys
 from pathlib import Path
 
+import pytest
+
+pytestmark = pytest.mark.long
+
 HEAVY = {"numpy", "pyqtgraph", "sklearn", "scipy", "unittest", "pydoc", "multiprocessing"}
 LATER = {"zmq", "psutil", "nep_studio.blocks.program", "nep_studio.ui.canvas.canvas"}
 """What the first page does not need: it is loaded after that has been painted."""

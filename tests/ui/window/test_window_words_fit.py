@@ -22,6 +22,8 @@ from nep_studio.ui.services import Studio
 from nep_studio.ui.shell.main_window import MainWindow
 from nep_studio.ui.words import PSEUDO, use_language
 
+pytestmark = pytest.mark.long
+
 SIZE = (1280, 800)
 TABLES = sorted(path.stem for path in (paths.resources() / "translations").glob("*.toml"))
 LANGUAGES = ["en", *TABLES, PSEUDO]

@@ -1,9 +1,12 @@
 """A simulated person in real time."""
 
 import numpy as np
+import pytest
 
 from nodes.sensory.arm.gestures import gesture_named
 from nodes.sensory.arm.people import MOST_WAITING, LivePerson
+
+pytestmark = pytest.mark.long
 
 KARATE, KATANA = gesture_named("karate"), gesture_named("katana")
 

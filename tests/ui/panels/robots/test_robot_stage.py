@@ -21,6 +21,8 @@ from nep_studio.ui.plugins.robots.stage import RobotStage
 from nep_studio.ui.running.runner import Runner
 from tests.ui.panels.robots.conftest import NAO, Document, Files, hear, state
 
+pytestmark = pytest.mark.long
+
 NODE_START_MS = 30_000
 
 

@@ -14,6 +14,8 @@ from nep_studio.ui.running.runner import Heard
 from nodes.recordings import read_recording
 from tests.ui.panels.sensors.conftest import hear
 
+pytestmark = pytest.mark.long
+
 
 def test_what_is_shown_is_exported_as_a_recording(plots: Plots, tmp_path: Path) -> None:
     hear(plots.feed, 2.0, source="phone")

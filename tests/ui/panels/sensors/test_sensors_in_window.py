@@ -13,6 +13,8 @@ from nep_studio.ui.shell.main_window import MainWindow
 from nep_studio.ui.words import tr
 from tests.ui.window.conftest import chooser, home, karate, studio, window
 
+pytestmark = pytest.mark.long
+
 __all__ = ["chooser", "home", "karate", "studio", "window"]
 
 NODE_START_MS = 20_000

@@ -16,6 +16,8 @@ from nep_studio.ui.theme.colours import Theme
 from nep_studio.ui.theme.look import Look
 from tests.ui.panels.sensors.conftest import hear
 
+pytestmark = pytest.mark.long
+
 
 def colours_in(plots: Plots, row: int = 0) -> set[str]:
     image = plots.rows[row].view.grab().toImage()

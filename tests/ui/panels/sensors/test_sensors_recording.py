@@ -14,6 +14,8 @@ from nep_studio.ui.plugins.sensors.recorder import Recording
 from nodes.recordings import read_recording
 from tests.conftest import PROJECT
 
+pytestmark = pytest.mark.long
+
 
 def imu(start_s: float, count: int = 30, source: str = "watch", **more: object) -> Imu:
     t = start_s + np.arange(count) / 50
