@@ -15,7 +15,7 @@ DONE, FOUND_SOME, WRONG_USE = 0, 1, 2
 
 
 def main(arguments: Sequence[str]) -> int:
-    """Do what the command line asks; 1 when something was found, or one was not tried to its end."""
+    """Do what the command line asks; 1 when something was found or one was not tried to its end."""
     given = _parser().parse_args(arguments)
     names = given.targets or list(NAMES)
     if unknown := [name for name in names if name not in NAMES]:
