@@ -138,7 +138,8 @@ def test_a_free_walk_goes_on_in_its_steps_and_ends_by_itself_when_the_link_freez
 
     assert needed_s < 0.2 / 0.04 * 1.74  # five legs with a stand after each
     assert place[0] - here[0] < FEW_STEPS_M
-    assert min(into_steps_s(nao), default=0.0) > 0.19
+    into_s = min(into_steps_s(nao), default=0.0)
+    assert into_s > 0.14  # 0.2 where the line is held up for nothing
     assert not nao.named("ALMotion.moveToward", "ALMotion.move")
     assert nao.served.state().base == place and not nao.served.state().fallen
     nao.is_frozen = False
