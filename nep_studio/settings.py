@@ -99,6 +99,8 @@ class SettingsFile:
         file = folder / "settings.ini"
         with contextlib.suppress(OSError):  # Qt keeps the mode of a file that is there
             private_folder(folder)
+            if file.exists() and not file.is_file():  # a pipe would be waited for, without end
+                file.replace(folder / "settings.ini.old")
             os.close(os.open(file, os.O_WRONLY | os.O_CREAT, 0o600))
             _leave_out_streams(file)
         self.values = QSettings(str(file), QSettings.Format.IniFormat)

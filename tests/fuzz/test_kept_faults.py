@@ -224,6 +224,19 @@ def test_a_setting_that_says_it_is_endless_counts_as_not_set(tmp_path: Path, kep
     assert (settings.theme, settings.language, settings.has_sound) == ("system", "de", False)
 
 
+@pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="pipes in folders are those of Unix")
+@pytest.mark.parametrize("make", ["mkfifo", "mkdir"])
+def test_what_is_no_file_in_place_of_the_settings_is_put_aside(tmp_path: Path, make: str) -> None:
+    getattr(os, make)(tmp_path / "settings.ini")
+
+    settings = Settings(tmp_path)
+    settings.theme = "dark"
+    settings.write()
+
+    assert Settings(tmp_path).theme == "dark"
+    assert (tmp_path / "settings.ini.old").exists()
+
+
 def test_what_is_kept_of_ours_is_found_again_whatever_it_says(tmp_path: Path) -> None:
     settings = Settings(tmp_path)
     settings.recent_commands = ["@Variant(x)", "a, b(", "@"]
