@@ -12,6 +12,7 @@ from collections import defaultdict
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field
+from functools import lru_cache
 
 from faults import Words, text_of
 from nep_studio.blocks.definitions import Definition, Slot
@@ -246,6 +247,12 @@ class Pattern:
     fractions: frozenset[str] = frozenset()
     """Slots of which one at least may hold a number that is not whole: else it is written so."""
 
+    @property
+    def word(self) -> re.Pattern[str] | None:
+        """What the text is like that a call begins with; None where it begins with another."""
+        word = _first_word(self.nodes[0])
+        return None if word is None else _like(word)
+
 
 @dataclass(slots=True)
 class Learned:
@@ -254,6 +261,14 @@ class Learned:
     values: dict[object, list[Pattern]] = field(default_factory=lambda: defaultdict(list))
     statements: dict[object, list[Pattern]] = field(default_factory=lambda: defaultdict(list))
     hats: list[Pattern] = field(default_factory=list)
+
+    def hats_for(self, node: ast.AST) -> Iterator[Pattern]:
+        """The patterns of hats that may fit the line above a function."""
+        word = _first_word(node)
+        for pattern in self.hats:
+            said = pattern.word
+            if said is None or (word is not None and said.match(word)):
+                yield pattern
 
 
 _KNOWN: dict[tuple[int, ...], tuple[object, Learned]] = {}
@@ -284,6 +299,21 @@ def beginning(node: ast.AST) -> object:
         case ast.Compare(ops=[sign]):
             return ("compare", type(sign))
     return type(node)
+
+
+def _first_word(node: ast.AST) -> str | None:
+    """The text that a call begins with, or None."""
+    match node:
+        case ast.Call(args=[ast.Constant(value=str(word)), *_]):
+            return word
+    return None
+
+
+@lru_cache(maxsize=1024)
+def _like(word: str) -> re.Pattern[str]:
+    """What texts look like that fit one with markers in it, or without."""
+    found = word_pattern(word)
+    return found[0] if found else re.compile(re.escape(word) + r"\Z")
 
 
 def _learn(definitions: Sequence[Definition], language: Language) -> Learned:

@@ -61,7 +61,8 @@ class Turns:
 
     def go_on(self, lines: Collection[int]) -> bool:
         """Take the next way of the statements in these lines; False when none has another."""
-        others = [line for line in lines if self.ways.get(line, 2) > 1]
+        # One that was to be read in another way, and was in none, is no statement with ways
+        others = [one for one in lines if self.ways.get(one, 1 if one in self.taken else 2) > 1]
         for line in others if self.left else ():
             self.taken[line] = self.taken.get(line, 0) + 1
         self.left -= 1

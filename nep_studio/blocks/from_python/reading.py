@@ -124,7 +124,7 @@ class StatementReader:
         self.values.names.parameters = {}
         if len(node.decorator_list) == 1:
             _require_no_values(node)
-            for pattern in self._learned.hats:
+            for pattern in self._learned.hats_for(node.decorator_list[0]):
                 found = match(pattern, node.decorator_list)
                 made = self.values.made_from(pattern, found) if found is not None else None
                 if made is not None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Collection, Iterator, Sequence
 from dataclasses import dataclass, field
-from functools import partial
+from functools import lru_cache, partial
 
 from nep_studio.blocks.code_text import CodeTextRefused, read_value
 from nep_studio.blocks.definitions import Definition, Slot
@@ -171,7 +171,9 @@ def _is_elif(node: object) -> bool:
 
 # Read expressions: what goes into the field of a slot, and which block is plugged into it.
 
-_DEEPEST = 150
+_DEEPEST, _DEEPEST_CODE = 150, 40
+"""Values so deep in others are not looked into, and no Python is kept in them by itself: to write
+it down takes as long as there is more in it, at each depth."""
 
 
 class ValueReader:
@@ -400,8 +402,9 @@ class ValueReader:
         if (converted := self._converted(node)) is not None:
             yield converted
         code = self.type_of("code_value")
-        if code and not isinstance(node, ast.Constant) and _is_code(node):
-            yield Made(code, {"code": ast.unparse(node)}, written=1), definitions[code].result
+        may_keep = bool(code) and self._depth <= _DEEPEST_CODE
+        if may_keep and not isinstance(node, ast.Constant) and (text := _code(node)):
+            yield Made(code, {"code": text}, written=1), definitions[code].result
 
     def _typed(self, node: ast.expr) -> tuple[Made, str] | None:
         """The block in which a number or a text is typed that stands in Python, and its result."""
@@ -467,9 +470,12 @@ def _constant(node: ast.AST) -> str | int | float | bool | None:
     return None
 
 
-def _is_code(node: ast.expr) -> bool:
+@lru_cache(maxsize=4096)  # a text is read several times, and each value stands in others
+def _code(node: ast.expr) -> str:
+    """An expression as the text of a block, or an empty text where no block may hold it."""
     try:
-        read_value(ast.unparse(node))
+        text = ast.unparse(node)
+        read_value(text)
     except (CodeTextRefused, ValueError, RecursionError):
-        return False
-    return True
+        return ""
+    return text
