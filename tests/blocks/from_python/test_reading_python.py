@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import ast
 from pathlib import Path
 
 import pytest
@@ -9,6 +10,7 @@ from block_building import B, build, karate
 
 from nep_studio.blocks.editor import Editor
 from nep_studio.blocks.files import load, to_bytes
+from nep_studio.blocks.from_python import updating
 from nep_studio.blocks.from_python.learning import CodeUnread
 from nep_studio.blocks.from_python.pasting import read_snippet
 from nep_studio.blocks.from_python.updating import update_from_python
@@ -216,3 +218,30 @@ def test_code_blocks_survive_the_way_through_python(language):
     read = read_program(text, language)
 
     assert code_of(read, language) == text
+
+
+def test_what_no_block_says_is_not_read_again_and_again(language, monkeypatch) -> None:
+    readings = []
+    read = updating.read_rules
+    monkeypatch.setattr(updating, "read_rules", lambda *a: readings.append(1) or read(*a))
+    text = 'from nep_core import Behavior, Robot\n\nnao = Robot("NAO")\n'
+    text += 'behavior = Behavior("Karate")\n\n\n@behavior.when_started\n'
+    text += "def when_started():\n    global times\n\n\nbehavior.run()\n"
+
+    with pytest.raises(CodeUnread):
+        update_from_python(Editor(Project("Karate"), language), text)
+
+    assert len(readings) <= 4  # with what was learned of its values, and in another way
+
+
+def test_a_long_row_of_signs_is_written_down_at_few_of_its_depths(language, monkeypatch) -> None:
+    written = []
+    write = ast.unparse
+    monkeypatch.setattr(ast, "unparse", lambda node: written.append(1) or write(node))
+    text = 'from nep_core import Behavior, Robot\n\nnao = Robot("NAO")\n'
+    text += 'behavior = Behavior("Karate")\n\n\n@behavior.when_started\n'
+    text += f"def when_started():\n    nao.say(str({'-' * 140}points))\n\n\nbehavior.run()\n"
+
+    update_from_python(Editor(Project("Karate"), language), text)
+
+    assert len(written) < 140
