@@ -172,8 +172,8 @@ def _is_elif(node: object) -> bool:
 # Read expressions: what goes into the field of a slot, and which block is plugged into it.
 
 _DEEPEST, _DEEPEST_CODE = 150, 40
-"""Values so deep in others are not looked into, and no Python is kept in them by itself: to write
-it down takes as long as there is more in it, at each depth."""
+"""Values with others so deep in them stay Python; so deep in others, none stays so by itself: to
+write it down takes as long as there is more in it, at each depth."""
 
 
 class ValueReader:
@@ -269,8 +269,6 @@ class ValueReader:
             node = within(node, ("bool",))
         known = self._known.get(id(node))
         if known is None:
-            if self._depth > _DEEPEST:
-                return []
             self._depth += 1
             found = sorted(self._blocks(node), key=lambda made: made[0].written)
             known = self._known[id(node)] = node, found  # kept, so that its id stays its own
@@ -385,6 +383,15 @@ class ValueReader:
         return True
 
     def _blocks(self, node: ast.expr) -> Iterator[tuple[Made, str]]:
+        if self._depth > 1 or not _is_deep(node):
+            yield from self._plain_blocks(node)
+        code = self.type_of("code_value")
+        may_keep = bool(code) and self._depth <= _DEEPEST_CODE
+        if may_keep and not isinstance(node, ast.Constant) and (text := _code(node)):
+            made = Made(code, {"code": text}, written=1)
+            yield made, self.language.definitions[code].result
+
+    def _plain_blocks(self, node: ast.expr) -> Iterator[tuple[Made, str]]:
         definitions = self.language.definitions
         if isinstance(node, ast.Name):
             yield from self._named(node.id)
@@ -401,10 +408,6 @@ class ValueReader:
                 yield made_from, pattern.definition.result
         if (converted := self._converted(node)) is not None:
             yield converted
-        code = self.type_of("code_value")
-        may_keep = bool(code) and self._depth <= _DEEPEST_CODE
-        if may_keep and not isinstance(node, ast.Constant) and (text := _code(node)):
-            yield Made(code, {"code": text}, written=1), definitions[code].result
 
     def _typed(self, node: ast.expr) -> tuple[Made, str] | None:
         """The block in which a number or a text is typed that stands in Python, and its result."""
@@ -468,6 +471,22 @@ def _constant(node: ast.AST) -> str | int | float | bool | None:
     if isinstance(node, ast.Constant) and isinstance(node.value, str | int | float):
         return node.value
     return None
+
+
+def _is_deep(node: ast.expr) -> bool:
+    """Whether more values stand in each other than are read."""
+    match node:
+        case ast.expr(lineno=line, end_lineno=int(last), col_offset=begin, end_col_offset=int(end)):
+            if line == last and end - begin < _DEEPEST:
+                return False  # it has not as many letters
+        case _:
+            return False  # it is not of the text
+    level: list[ast.AST] = [node]
+    for _ in range(_DEEPEST):
+        if not level:
+            return False
+        level = [child for one in level for child in ast.iter_child_nodes(one)]
+    return bool(level)
 
 
 @lru_cache(maxsize=4096)  # a text is read several times, and each value stands in others

@@ -234,14 +234,19 @@ def test_what_no_block_says_is_not_read_again_and_again(language, monkeypatch) -
     assert len(readings) <= 4  # with what was learned of its values, and in another way
 
 
-def test_a_long_row_of_signs_is_written_down_at_few_of_its_depths(language, monkeypatch) -> None:
+@pytest.mark.parametrize("signs", [140, 400])
+def test_a_long_row_of_signs_is_written_down_at_few_of_its_depths(
+    language, monkeypatch, signs: int
+) -> None:
     written = []
     write = ast.unparse
     monkeypatch.setattr(ast, "unparse", lambda node: written.append(1) or write(node))
     text = 'from nep_core import Behavior, Robot\n\nnao = Robot("NAO")\n'
     text += 'behavior = Behavior("Karate")\n\n\n@behavior.when_started\n'
-    text += f"def when_started():\n    nao.say(str({'-' * 140}points))\n\n\nbehavior.run()\n"
+    text += f"def when_started():\n    nao.say(str({'-' * signs}points))\n\n\nbehavior.run()\n"
+    editor = Editor(Project("Karate"), language)
 
-    update_from_python(Editor(Project("Karate"), language), text)
+    update_from_python(editor, text)
 
     assert len(written) < 140
+    assert f"{'-' * signs}points" in code_of(editor.project, language)
