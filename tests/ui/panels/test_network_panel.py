@@ -55,6 +55,7 @@ def test_real_nodes_and_their_rates_are_seen(bench: Bench, start: Start, qtbot: 
     wait_for(bench, ("topic", "/imu"), qtbot)
 
     feed = bench.network._feed
+    qtbot.waitUntil(lambda: "/imu" in feed.seen.topics, timeout=WAIT_MS)
     qtbot.waitUntil(lambda: feed.seen.topics["/imu"].rate_hz > 20, timeout=WAIT_MS)
     graph = bench.network.graph.shapes.rects
     assert graph["node", "virtual_watch"].left() < graph["topic", "/imu"].left()

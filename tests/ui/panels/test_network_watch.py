@@ -31,10 +31,15 @@ def wait_for(watch: NetworkWatch, condition: Callable[[Seen], object], qtbot: Qt
     return watch.latest
 
 
+def counted(topic: str, least: int) -> Callable[[Seen], bool]:
+    """Whether so many messages of a topic were counted; it may not be seen at all yet."""
+    return lambda seen: topic in seen.topics and seen.topics[topic].count >= least
+
+
 def test_nodes_topics_and_ends_are_seen(watch: NetworkWatch, join: Join, qtbot: QtBot) -> None:
     Publisher("/imu", network=join("sensor"))
 
-    seen = wait_for(watch, lambda seen: "/imu" in seen.topics, qtbot)
+    seen = wait_for(watch, lambda seen: "/imu" in seen.topics and "sensor" in seen.nodes, qtbot)
 
     assert seen.topics["/imu"].publishers == ("sensor",)
     assert seen.nodes["sensor"].publishes == ("/imu",)
@@ -49,7 +54,8 @@ def test_messages_are_counted_and_the_last_one_kept(
     for number in range(100):
         publisher.send({"number": number})
 
-    seen = wait_for(watch, lambda seen: seen.topics["/imu"].count == 100, qtbot)
+    seen = wait_for(watch, counted("/imu", 100), qtbot)
+    assert seen.topics["/imu"].count == 100
     assert seen.topics["/imu"].last == {"number": 99}
     assert seen.topics["/imu"].lost == 0
     assert seen.flows["sensor", "/imu"].count == 100
@@ -62,9 +68,7 @@ def test_texts_are_counted_too(watch: NetworkWatch, join: Join, qtbot: QtBot) ->
 
     publisher.send("hello")
 
-    seen = wait_for(
-        watch, lambda seen: "/words" in seen.topics and seen.topics["/words"].count == 1, qtbot
-    )
+    seen = wait_for(watch, counted("/words", 1), qtbot)
     assert seen.topics["/words"].last == "hello"
 
 
@@ -84,11 +88,7 @@ def test_5000_messages_a_second_are_all_counted(
     thread = threading.Thread(target=flood)
     thread.start()
     try:
-        seen = wait_for(
-            watch,
-            lambda seen: "/fast" in seen.topics and seen.topics["/fast"].count >= 5_000,
-            qtbot,
-        )
+        seen = wait_for(watch, counted("/fast", 5_000), qtbot)
     finally:
         thread.join()
 
