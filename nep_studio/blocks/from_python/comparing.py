@@ -343,18 +343,39 @@ def _without_global(body: Sequence[ast.stmt]) -> list[ast.stmt]:
 
 
 def _same(one: object, other: object) -> bool:
-    return _plain(one) == _plain(other)
+    """Whether two trees are the same without their “global” lines; ends at the first difference."""
+    left = [(one, other)]
+    while left:
+        ours, theirs = map(_as_compared, left.pop())
+        if type(ours) is not type(theirs):
+            return False
+        if isinstance(ours, ast.AST):
+            left += [(getattr(ours, n, None), getattr(theirs, n, None)) for n in ours._fields]
+        elif isinstance(ours, list) and isinstance(theirs, list):
+            lines = _without_global(ours), _without_global(theirs)
+            if len(lines[0]) != len(lines[1]):
+                return False
+            left += zip(*lines, strict=True)
+        elif ours != theirs:
+            return False
+    return True
 
 
 def _plain(node: object) -> object:
-    """A tree as something to compare, without “global” lines."""
+    """A tree as something to look for among others, without “global” lines."""
     if isinstance(node, list):
-        return [_plain(one) for one in node if not isinstance(one, ast.Global)]
+        return [_plain(one) for one in _without_global(node)]
+    node = _as_compared(node)
+    if not isinstance(node, ast.AST):
+        return type(node), node
+    return (type(node), *[_plain(getattr(node, name, None)) for name in node._fields])
+
+
+def _as_compared(node: object) -> object:
+    """Other ways to write a block count as the block."""
     if isinstance(node, ast.With) or (isinstance(node, ast.For) and not _names_its_list(node)):
-        node = as_block(node)
-    if isinstance(node, ast.AST):
-        return (type(node), *[_plain(getattr(node, name, None)) for name in node._fields])
-    return type(node), node
+        return as_block(node)
+    return node
 
 
 def _names_its_list(loop: ast.For) -> bool:

@@ -41,6 +41,7 @@ def mark(sort: str, key: str) -> str:
     return sort + key.replace(".", "_N")
 
 
+@lru_cache(maxsize=4096)
 def marked(sort: str, name: str) -> str:
     """The slot, body or function of this sort that a name stands for, or an empty text."""
     return name.removeprefix(sort).replace("_N", ".") if name.startswith(sort) else ""

@@ -34,6 +34,12 @@ from .naming import SourceNames, is_junction, may_be, within
 # Match Python with a learned pattern: what stands where the markers are.
 
 _UNSAID = frozenset({"ctx", "type_comment", "kind", "type_ignores", "type_params"})
+_SAID = {
+    kind: sorted(set(kind._fields) - _UNSAID, key=lambda field: field not in ("op", "ops"))
+    for kind in vars(ast).values()
+    if isinstance(kind, type) and issubclass(kind, ast.AST)
+}
+"""The fields of each kind of nodes that say what it does; operators first, seen at a glance."""
 
 
 def match(pattern: Pattern, nodes: Sequence[ast.AST]) -> Found | None:
@@ -85,11 +91,10 @@ class Found:
             )
         if isinstance(wanted, ast.If) and _is_elif(wanted) != _is_elif(there):
             return False
-        return all(
-            self.one(getattr(wanted, name, None), getattr(there, name, None))
-            for name in wanted._fields
-            if name not in _UNSAID
-        )
+        for name in _SAID[type(wanted)]:
+            if not self.one(getattr(wanted, name, None), getattr(there, name, None)):
+                return False
+        return True
 
     def _name(self, wanted: str, there: object) -> bool:
         if key := marked(SLOT, wanted):
