@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import OrderedDict
 from collections.abc import Collection
 
 from faults import Fault, Words, fault_of
@@ -43,7 +44,9 @@ class Actor:
         self.driver = driver
         self._pace = pace
         self.schedule = Schedule()
-        self._last_result: dict[str, ActionResult] = {}
+        self._open: dict[str, ActionResult] = {}
+        self._over: OrderedDict[str, ActionResult] = OrderedDict()
+        """The last results of those that have ended, the one that ended first before all others."""
         self._now_s = 0.0
         self._asked_s: dict[str, float] = {}
         """When each walk was asked for last that stops unless it is asked for again."""
@@ -54,7 +57,7 @@ class Actor:
 
     def request(self, request: ActionRequest) -> list[ActionResult]:
         """Take a request; one that is known already is not played again, only answered."""
-        if known := self._last_result.get(request.id):
+        if known := self._open.get(request.id) or self._over.get(request.id):
             if request.id in self._asked_s:
                 self._asked_s[request.id] = self._now_s
             return [self._result(request.id, known.state, known.fault)]
@@ -174,10 +177,11 @@ class Actor:
 
     def _result(self, request_id: str, state: ActionState, fault: Fault = NOTHING) -> ActionResult:
         result = ActionResult(id=request_id, robot=self.robot, state=state, fault=fault)
-        self._last_result[request_id] = result
-        if len(self._last_result) > REMEMBERED_REQUESTS:  # forget the oldest that has ended
-            known = self._last_result.items()
-            oldest = next((id for id, result in known if result.state in FINAL), None)
-            if oldest is not None:  # an id may be empty
-                del self._last_result[oldest]
+        if state in FINAL:
+            self._open.pop(request_id, None)
+            self._over[request_id] = result
+            if len(self._over) > REMEMBERED_REQUESTS:
+                self._over.popitem(last=False)
+        else:
+            self._open[request_id] = result
         return result

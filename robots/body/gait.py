@@ -52,7 +52,9 @@ FASTEST_PART = 0.93
 """Steps for which a joint would have to be faster than this part of its top speed take longer."""
 ROUNDED_STEPS = 1e-6
 """By so much numbers of NAOqi, which have 24 bits, make a way longer than whole steps."""
-TRIES = 6
+MORE_STEPS = 1.25
+"""So many times as many are taken where slower ones do not help."""
+TRIES = 15
 CORRECTIONS = 3
 FILTER_S = 1.5
 SETTLING_S = 0.3
@@ -112,15 +114,20 @@ def plan_walk(
     ``body`` is whose legs they are, ``forward_m`` and ``left_m`` how far, ``at_least_steps``
     the fewest steps.
     """
-    stops = _even_stops(np.array([forward_m, left_m, turn]), at_least_steps)
-    step_s = STEP_S
+    way = np.array([forward_m, left_m, turn])
+    stops, step_s, last_part = _even_stops(way, at_least_steps), STEP_S, math.inf
     for _ in range(TRIES):
         angles, walk = _walk(body, standing, stops, step_s)
         part = _fastest_part(body, standing, angles)
         if part <= FASTEST_PART:
             break
-        # whole ticks, so that a walk can be followed by another one in the middle
-        step_s = math.ceil(step_s * part / FASTEST_PART / TICK_S - 1e-9) * TICK_S
+        if part < last_part:
+            # whole ticks, so that a walk can be followed by another one in the middle
+            step_s = math.ceil(step_s * part / FASTEST_PART / TICK_S - 1e-9) * TICK_S
+            last_part = part
+        else:  # in slower steps it sways farther: a leg is stretched, and its knee has to hurry
+            steps = math.ceil(MORE_STEPS * (len(stops) - 1))
+            stops, step_s, last_part = _even_stops(way, steps), STEP_S, math.inf
     return walk
 
 

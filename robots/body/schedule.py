@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from bisect import insort
 from collections.abc import Generator, Iterator
 from dataclasses import dataclass
 from typing import NamedTuple
@@ -43,8 +44,7 @@ class Schedule:
 
     def add(self, command: Command) -> None:
         """Let a command wait: behind those of its own priority, before those of a lower one."""
-        self._waiting.append(command)
-        self._waiting.sort(key=lambda waiting: -waiting.priority)
+        insort(self._waiting, command, key=lambda waiting: -waiting.priority)
 
     def start_ready(self) -> list[Command]:
         """Move the commands whose limbs are free from waiting to running, and return them."""

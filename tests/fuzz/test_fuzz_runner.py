@@ -16,7 +16,7 @@ from fuzz import __main__ as command
 from fuzz.runner import Run
 from fuzz.targets import NAMES
 from fuzz.targets import target as real
-from fuzz.watched import BOARD_BYTES, ROOT, Board, smaller, waited_by_all_s
+from fuzz.watched import BOARD_BYTES, ROOT, Board, kept_bytes, smaller, waited_by_all_s
 from tests.fuzz.planted import BAD, ONCE, SHUT, target
 
 pytestmark = pytest.mark.long
@@ -132,6 +132,19 @@ def test_what_others_take_of_the_processor_is_told() -> None:
     os.sched_setaffinity(0, allowed)
 
     assert waited_by_all_s(os.getpid()) >= before_s + 0.05
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="others keep less at hand")
+def test_only_memory_that_is_kept_is_growth() -> None:
+    before = kept_bytes()
+    many = [bytes(1000) for _ in range(60_000)]
+    last = many[-1]  # the memory below it cannot be given back by itself
+    while_kept = kept_bytes()
+    del many
+
+    assert while_kept - before > 40_000_000
+    assert kept_bytes() - before < 20_000_000
+    assert len(last) == 1000
 
 
 def test_what_is_refused_in_a_sentence_is_no_finding(tmp_path: Path) -> None:

@@ -170,7 +170,7 @@ def test_it_remembers_some_hundred_requests_and_never_forgets_one_that_runs() ->
     stage.ask(str(2 * REMEMBERED_REQUESTS - 1), "fly")
 
     assert stage.told[-2:] == ["long started", "999 failed"]
-    assert len(stage.actor._last_result) == REMEMBERED_REQUESTS
+    assert len(stage.actor._over) == REMEMBERED_REQUESTS
 
 
 def test_only_so_many_requests_wait_and_who_asks_for_more_is_told(
