@@ -439,6 +439,8 @@ class Goals:
         self._goals: list[Goal] = []
         self._hooks: list[tuple[str, GoalEvent, Action]] = []
         self._waiting: list[Goal] = []
+        self._given_up: list[Goal] = []
+        """Those that had begun, and were stopped while another one ran."""
         self._running: Goal | None = None
         self._task: Task | None = None
         self._cut: End = "finished"
@@ -457,7 +459,7 @@ class Goals:
     @property
     def is_busy(self) -> bool:
         """Whether a goal runs or waits."""
-        return self._running is not None or bool(self._waiting)
+        return self._running is not None or bool(self._waiting or self._given_up)
 
     def add(self, goal: Goal) -> None:
         """Add a goal; its name is its own."""
@@ -483,7 +485,9 @@ class Goals:
     def hear(self, state: str) -> None:
         """Take in what the person does: goals begin, stop and interrupt each other."""
         with self._news:
-            self._waiting = [goal for goal in self._waiting if goal.stop != state]
+            stopped = [goal for goal in self._waiting if goal.stop == state]
+            self._given_up += (goal for goal in stopped if goal.returns)
+            self._waiting = [goal for goal in self._waiting if goal not in stopped]
             if self._running and self._running.stop == state:
                 self._cut_running("stopped")
             for goal in self._goals:
@@ -512,14 +516,21 @@ class Goals:
             self._note_error(unknown, name)
         task = current_task()
         while True:
-            self._pursue(self._next(task), task)
+            if (goal := self._next(task)) is not None:
+                self._pursue(goal, task)
+                continue
+            self._tell_end(self._given_up[0], "stopped", task)
+            with self._news:
+                del self._given_up[0]
 
-    def _next(self, task: Task) -> Goal:
-        """Wait for a goal, and make it the running one."""
+    def _next(self, task: Task) -> Goal | None:
+        """Wait for a goal, and make it the running one; None when some were given up instead."""
         with self._news:
-            while not self._waiting:
+            while not self._waiting and not self._given_up:
                 task.check()
                 self._news.wait(POLL_S)
+            if self._given_up:
+                return None
             goal = max(self._waiting, key=lambda waiting: ORDER[waiting.priority])
             self._waiting.remove(goal)
             self._running, self._cut, self._task = goal, "finished", None
@@ -528,21 +539,19 @@ class Goals:
 
     def _pursue(self, goal: Goal, task: Task) -> None:
         """Run a goal to its end, or until it is stopped or interrupted; then what follows that."""
-        part = Part(lambda: self._play(goal), f"nep-goal-{goal.name}", task)
-        with self._news:
-            self._task = part.task
-            if self._cut != "finished":  # cut before it could begin
-                part.task.cancel()
         self._tell("goal_started", goal.name)
+        if goal.returns:
+            for action in goal.hooks.get("returns", ()):
+                part = Part(action, f"nep-goal-{goal.name}-returns", task)
+                self._wait_for(self._cuttable(part).start(), task, goal)
+        part = self._cuttable(Part(lambda: self._play(goal), f"nep-goal-{goal.name}", task))
         self._wait_for(part.start(), task, goal)
         with self._news:
             end: End = "finished" if self._has_ended else self._cut
             if part.error is not None:
                 end = "stopped"
             self._task = None
-        self._tell(TOLD[end], goal.name)
-        for action in goal.hooks.get(end, ()):
-            self._wait_for(Part(action, f"nep-goal-{goal.name}-{end}", task).start(), task, goal)
+        self._tell_end(goal, end, task)
         # Let go of a goal that has ended; one that returns waits before those of its priority
         with self._news:
             self._running = None
@@ -551,10 +560,21 @@ class Goals:
                 goal.returns = True
                 self._waiting.insert(0, goal)
 
+    def _tell_end(self, goal: Goal, end: End, task: Task) -> None:
+        """Tell how a goal has ended, and do what follows that."""
+        self._tell(TOLD[end], goal.name)
+        for action in goal.hooks.get(end, ()):
+            self._wait_for(Part(action, f"nep-goal-{goal.name}-{end}", task).start(), task, goal)
+
+    def _cuttable(self, part: Part) -> Part:
+        """Let a part end when the running goal is cut, which may have been before it begins."""
+        with self._news:
+            self._task = part.task
+            if self._cut != "finished":
+                part.task.cancel()
+        return part
+
     def _play(self, goal: Goal) -> None:
-        if goal.returns:
-            for returning in goal.hooks.get("returns", ()):
-                returning()
         with contextlib.suppress(RuleStopped):
             goal.action()
         with self._news:

@@ -35,9 +35,19 @@ def state_of_thing(thing: str, name: object = "") -> str:
     return "_".join(filter(None, (verb, thing, plain(str(name)))))
 
 
+_SIGN = r"(?<!\w)[-−–]\s*(?=[.,]?\d)"
+_MARK = r"(?:(?<=\d)|(?<!\w))[.,](?=\d)"
+_BETWEEN_WORDS = re.compile(f"(?P<sign>{_SIGN})|(?P<mark>{_MARK})|(?:(?!{_SIGN}|{_MARK})[\\W_])+")
+"""What is not part of a word, but for the minus of a number and its decimal mark."""
+
+
 def plain(words: str) -> str:
-    """Words as part of a human state: "Good morning!" is good_morning."""
-    return re.sub(r"[\W_]+", "_", words.casefold()).strip("_")
+    """Words as part of a human state: "Good morning!" is good_morning, "-2,5" is -2.5."""
+
+    def put(found: re.Match[str]) -> str:
+        return {"sign": "-", "mark": "."}.get(found.lastgroup or "", "_")
+
+    return _BETWEEN_WORDS.sub(put, words.casefold()).strip("_")
 
 
 def word_of_state(state: str) -> str:

@@ -104,17 +104,29 @@ _SPOKEN = {
 }
 
 
-def number_in_words(heard: str) -> float | None:
-    """The number that an answer is, None when it is something else, or more than a number.
+_MINUS = ("minus", "menos", "moins", "meno", "マイナス")
+_DIGITS = re.compile(r"(\d{1,15})(?:\.(\d{1,15}))?|\.\d{1,15}", re.ASCII)
 
-    What is heard has no signs: “3.5” comes as “3 5”.
+
+def number_in_words(heard: str) -> float | None:
+    """The number that an answer is, None when it is something else, or may mean two numbers.
+
+    “1,000” is a thousand to some and one to others.
     """
     words = heard.strip().casefold()
-    if words in _SPOKEN:
-        return _SPOKEN[words]
-    if re.fullmatch(r"\d{1,15}", words):
-        return int(words)
-    return float(words.replace(" ", ".")) if re.fullmatch(r"\d{1,15}[ .]\d{1,15}", words) else None
+    sign, amount = (-1, words[1:]) if words.startswith("-") else (1, words)
+    for minus in _MINUS:
+        if words.startswith(minus):
+            sign, amount = -1, words.removeprefix(minus).strip()
+    if amount in _SPOKEN:
+        return sign * _SPOKEN[amount]
+    found = _DIGITS.fullmatch(amount)
+    if found is None:
+        return None
+    whole, part = found[1] or "0", found[2]
+    if part is not None and len(part) == 3 and len(whole) <= 3 and not whole.startswith("0"):
+        return None
+    return sign * (int(whole) if amount == whole else float(amount))
 
 
 class Robot:

@@ -10,7 +10,7 @@ import pytest
 from nep_core.networks.zmq_networks import PeerNetwork
 from nep_core.program import tasks
 from nep_core.program.robot import Robot
-from nep_core.program.tasks import wait, wait_until
+from nep_core.program.tasks import RuleStopped, wait, wait_until
 from tests.nep_core.goal_playing import Join, Scene
 from tests.nep_core.robot_playing import PlayedRobot
 
@@ -123,6 +123,43 @@ def test_a_waiting_goal_is_given_up_too(scene: Scene) -> None:
 
     assert [scene.diary.next(), scene.diary.next()] == ["danger begins", "danger done"]
     assert scene.diary.is_quiet()
+
+
+def test_an_interrupted_goal_that_is_given_up_meanwhile_is_told_so(scene: Scene) -> None:
+    scene.goal("chat", priority="low", stop="bye")
+    scene.goal("danger", 0.3, priority="high")
+    scene.hook("chat", "stopped")
+    scene.begin()
+
+    scene.does("chat")
+    scene.diary.next()
+    scene.does("danger")
+    scene.diary.next()
+    scene.does("bye")
+
+    assert [scene.diary.next(), scene.diary.next()] == ["danger done", "chat stopped"]
+    assert scene.diary.is_quiet()
+
+
+@pytest.mark.parametrize("problem", [RuleStopped(), ValueError("wrong")])
+def test_what_ends_the_rule_of_a_return_does_not_end_the_goal(
+    scene: Scene, problem: BaseException
+) -> None:
+    def returning() -> None:
+        raise problem
+
+    scene.goal("chat", priority="low")
+    scene.goal("danger", 0.05, priority="high")
+    scene.behavior.when_goal("chat", "returns")(returning)
+    scene.begin()
+
+    scene.does("chat")
+    first = scene.diary.next()
+    scene.does("danger")
+
+    assert first == "chat begins"
+    entries = [scene.diary.next() for _ in range(3)]
+    assert entries == ["danger begins", "danger done", "chat begins"]
 
 
 def test_a_goal_that_runs_does_not_begin_twice_but_can_be_pursued_anew(scene: Scene) -> None:

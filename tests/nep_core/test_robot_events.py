@@ -126,6 +126,11 @@ def test_a_walk_without_an_end_ends_with_the_program(
         (["Seven"], 7, 1),
         (["seven apples", "", "zwölf"], 12, 3),
         (["2.5"], 2.5, 1),
+        (["-5"], -5, 1),
+        (["− 0,5"], -0.5, 1),
+        (["minus five"], -5, 1),
+        (["1/2", "5-3", "10:30"], None, 3),
+        (["1,000", "20 30", "1000"], 1000, 3),
         (["apples", "pears", "plums"], None, 3),
     ],
 )
