@@ -35,7 +35,7 @@ def state_of_thing(thing: str, name: object = "") -> str:
     return "_".join(filter(None, (verb, thing, plain(str(name)))))
 
 
-_SIGN = r"(?<!\w)[-−–]\s*(?=[.,]?\d)"
+_SIGN = r"(?<!\w)[-\u2212\u2013]\s*(?=[.,]?\d)"
 _MARK = r"(?:(?<=\d)|(?<!\w))[.,](?=\d)"
 _BETWEEN_WORDS = re.compile(f"(?P<sign>{_SIGN})|(?P<mark>{_MARK})|(?:(?!{_SIGN}|{_MARK})[\\W_])+")
 """What is not part of a word, but for the minus of a number and its decimal mark."""

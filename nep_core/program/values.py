@@ -13,7 +13,7 @@ import random
 import re
 import statistics
 from collections.abc import Iterable, Sequence
-from decimal import Decimal
+from decimal import Decimal, InvalidOperation
 from typing import Any, NoReturn
 
 from faults import Text
@@ -361,7 +361,13 @@ def number_in(text: str) -> Number:
             "Ask with an “if” what the text is, before it is turned into a number.",
             text=shown(text)[1:-1],
         )
-    number = Decimal(found[1].replace(",", "."))
+    try:
+        number = Decimal(found[1].replace(",", "."))
+    except InvalidOperation:  # an exponent of some twenty digits
+        digits, _, exponent = found[1].lower().partition("e")
+        if not exponent.startswith("-") and digits.strip("+-.,0"):
+            refuse(TOO_LARGE, STOP_GROWING, SHOW_VALUES)
+        return 0
     if number == 0:
         return 0
     is_short = "e" in found[1].lower()
@@ -394,12 +400,12 @@ def mean_of(items: Any) -> Number:
 
 def median_of(items: Any) -> Number:
     """The median of a list of numbers."""
-    return statistics.median(_numbers(items, least=1))
+    return as_number(statistics.median(_numbers(items, least=1)))
 
 
 def deviation_of(items: Any) -> Number:
     """The standard deviation of the numbers of a list, which are a sample."""
-    return statistics.stdev(_numbers(items, least=2))
+    return as_number(statistics.stdev(_numbers(items, least=2)))
 
 
 def _numbers(items: Any, least: int = 0) -> list[Number]:

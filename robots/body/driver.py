@@ -142,7 +142,7 @@ def states_of_touch(sensor: str) -> list[str]:
     return [f"touched_{sensor}", f"touched_{sensor.partition('_')[0]}"]
 
 
-_SIGN = r"(?<!\w)[-−–]\s*(?=[.,]?\d)"
+_SIGN = r"(?<!\w)[-\u2212\u2013]\s*(?=[.,]?\d)"
 _MARK = r"(?:(?<=\d)|(?<!\w))[.,](?=\d)"
 _BETWEEN_WORDS = re.compile(f"(?P<sign>{_SIGN})|(?P<mark>{_MARK})|(?:(?!{_SIGN}|{_MARK})[\\W_])+")
 """What is not part of a word, but for the minus of a number and its decimal mark."""

@@ -440,6 +440,54 @@ def test_an_own_block_gives_0_where_it_gives_nothing_back(language):
     assert generate_program(read_program(text, language), language).text == text
 
 
+def with_python(language, code, *more, kind="number"):
+    """What an own block with Python in it gives for 2, times 2."""
+    editor = Editor(Project("A"), language)
+    given_ = editor.new_parameter("n", kind)
+    out = editor.add_variable("out")
+    own = editor.add_procedure(["own", given_], gives_value=True)
+    n = B(f"my.parameter.{own}.{given_.id}")
+    sum_ = with_slots("math.arithmetic", {"operation": "add"}, a=n, b=n)
+    last = [with_slots("my.return", None, value=sum_)] if not more else list(more)
+    call = B(f"my.call.{own}", {given_.id: 2})
+    twice = with_slots("math.arithmetic", {"operation": "multiply"}, a=call, b=2)
+    define = [B(f"my.define.{own}"), B("code.lines", {"code": code}), *last]
+    build(language, define, [B("event.started"), put(out, twice)], editor=editor)
+    text = generate_program(editor.project, language).text
+    assert generate_program(read_program(text, language), language).text == text
+    return ran(text)["out"]
+
+
+@pytest.mark.parametrize(
+    "code",
+    [
+        "n = str(n)",
+        "for n in 'ab':\n    pass",
+        "match str(n):\n    case n:\n        pass",
+        "return '5'",
+        "if n > 1:\n    return n > 0",
+    ],
+)
+def test_python_may_make_anything_of_what_an_own_block_is_given_and_gives(language, code):
+    with pytest.raises(ValueRefused, match="A number belongs here"):
+        with_python(language, code)
+
+
+@pytest.mark.parametrize(
+    ("code", "result"),
+    [
+        ("if n > 2:\n    return 5", 0),
+        ("if n > 1:\n    return 5\nelse:\n    return 6", 10),
+        ("def f():\n    return 5\nx = f()", 0),
+        ("while n:\n    break", 0),
+        ("while True:\n    return n", 4),
+        ("try:\n    return int('x')\nexcept ValueError:\n    n = 3", 0),
+    ],
+)
+def test_an_own_block_with_python_gives_0_where_it_gives_nothing_back(language, code, result):
+    assert with_python(language, code, B("control.wait", {"seconds": 0})) == result
+
+
 def test_locals_of_a_persons_function_stay_its_own(language):
     text = (
         'from nep_core import Behavior\n\nbehavior = Behavior("T")\n\n\n'
@@ -568,6 +616,25 @@ def test_a_list_without_end_is_told_at_once(language, chain, value, words):
 
     with pytest.raises(ValueRefused, match=words):
         given(language, value, *chain, *other)
+
+
+@pytest.mark.parametrize("text", ["0e99999999999999999999", "1e-99999999999999999999"])
+def test_a_number_in_a_text_may_be_as_small_as_it_likes(text):
+    assert values.number_in(text) == 0
+
+
+def test_a_number_that_is_larger_than_any_is_refused():
+    with pytest.raises(ValueRefused, match="too large"):
+        values.number_in("1e99999999999999999999")
+    with pytest.raises(ValueRefused, match="too large"):
+        values.median_of([1e308, 1e308])
+
+
+def test_python_that_gives_a_variable_another_value_by_a_pattern_is_seen(language):
+    code = B("code.lines", {"code": 'match "5":\n    case n:\n        pass'})
+    twice = with_slots("math.arithmetic", {"operation": "multiply"}, a=get(NUMBER), b=2)
+    with pytest.raises(ValueRefused, match="A number belongs here"):
+        run(language, put(NUMBER, 1), code, put(OUT, twice))
 
 
 def test_a_number_of_a_million_digits_in_a_text_is_refused_at_once(language):

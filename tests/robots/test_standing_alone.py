@@ -79,7 +79,7 @@ def test_what_a_robot_takes_and_tells_has_the_keys_of_the_network_s_messages(nam
     }
 
 
-@pytest.mark.parametrize("words", ["Good morning!", "größe_2", "  ", "ÉTÉ", "−2,5 °C", "5-3"])
+@pytest.mark.parametrize("words", ["Good morning!", "größe_2", "  ", "ÉTÉ", "\u22122,5 °C", "5-3"])
 def test_a_robot_tells_human_states_in_the_network_s_words(words: str) -> None:
     assert messages.plain(words) == human.plain(words)
     assert messages.state_of_word(words) == human.state_of_word(words)

@@ -14,6 +14,7 @@ from functools import lru_cache
 from typing import NamedTuple
 
 from nep_studio.blocks.arithmetic import ArithmeticRefused, calculate
+from nep_studio.blocks.code_text import made_by, outside_functions
 from nep_studio.blocks.definitions import Definition
 from nep_studio.blocks.language import Language
 from nep_studio.blocks.procedures import DEFINE, parameter_of, parameters, procedure_of
@@ -249,6 +250,8 @@ class Facts:
     is_open: bool = True
     """Whether it may come to its end without giving something back."""
     begun: frozenset[tuple[str, int, int]] = frozenset()
+    inside: frozenset[tuple[str, str, bool]] = frozenset()
+    """Own blocks with what Python in them names, and whether it may give it another value."""
 
 
 _WHOLE_RESULTS = frozenset(
@@ -298,6 +301,7 @@ class FactReader:
         self._apart: set[str] = set()
         self._written: set[str] = set()
         self._begun: set[tuple[str, int, int]] = set()
+        self._inside: set[tuple[str, str, bool]] = set()
         self._procedure = ""
 
     def read(self, chain: Sequence[str]) -> Facts:
@@ -326,6 +330,7 @@ class FactReader:
             bool(self._procedure),
             end is not None,
             frozenset(self._begun),
+            frozenset(self._inside),
         )
 
     def _block(self, block: Block, definition: Definition) -> None:
@@ -349,7 +354,12 @@ class FactReader:
             if begun is not None:
                 self._begun |= begun
             elif not text.startswith(_HARMLESS):
-                self._written |= names_in_code(text)
+                used, bound = names_in_code(text), names_bound_in(text)
+                self._written |= used
+                if self._procedure:
+                    self._inside |= {(self._procedure, name, name in bound) for name in used}
+            if generator == "code_lines" and self._procedure and gives_back(text):
+                self._put.add((result_key(self._procedure), Given(ANY)))
 
     def _inputs(self, block: Block, definition: Definition) -> None:
         for key in block.inputs:
@@ -504,7 +514,7 @@ class FactReader:
         ends = [self._walk(chain, inner, depth + 1) for chain in block.bodies.values()]
         if generator == "if":
             return self._after_if(block, ends, known)
-        if generator == "code_lines" and gives_back(str(definition.value(block, "code"))):
+        if generator == "code_lines" and always_ends(str(definition.value(block, "code"))):
             return None
         if definition.shape == "cap" or generator == "forever":
             return None if not self._is_left(block) else known
@@ -562,7 +572,15 @@ def _typed(value: object, *, is_number: bool) -> Given:
 def names_in_code(text: str) -> frozenset[str]:
     """The names in Python that a person wrote; none where it is refused when it is written."""
     tree = _tree(text)
-    return frozenset(n.id for n in ast.walk(tree) if isinstance(n, ast.Name)) if tree else NO_NAMES
+    used = (n.id for n in ast.walk(tree) if isinstance(n, ast.Name)) if tree else ()
+    return names_bound_in(text).union(used)
+
+
+@lru_cache(maxsize=1024)
+def names_bound_in(text: str) -> frozenset[str]:
+    """The names to which Python that a person wrote may give another value."""
+    tree = _tree(text)
+    return frozenset(name for n in ast.walk(tree) for name in made_by(n)) if tree else NO_NAMES
 
 
 @lru_cache(maxsize=1024)
@@ -598,9 +616,39 @@ def _is_plain(value: ast.expr) -> bool:
 
 @lru_cache(maxsize=1024)
 def gives_back(text: str) -> bool:
-    """Whether Python that a person wrote ends its function itself, at one place at least."""
+    """Whether Python that a person wrote may give something back for the function it is in."""
     tree = _tree(text)
-    return tree is not None and any(isinstance(node, ast.Return) for node in ast.walk(tree))
+    return tree is not None and any(isinstance(n, ast.Return) for n in outside_functions(tree))
+
+
+@lru_cache(maxsize=1024)
+def always_ends(text: str) -> bool:
+    """Whether what stands below Python that a person wrote is never reached."""
+    tree = _tree(text)
+    return tree is not None and _ends(tree.body)
+
+
+def _ends(body: Sequence[ast.stmt]) -> bool:
+    """Whether statements never come to their end, as far as their form tells."""
+    for node in body:
+        match node:
+            case ast.Return() | ast.Raise():
+                return True
+            case ast.If(body=then, orelse=other) if _ends(then) and _ends(other):
+                return True
+            case ast.Try(finalbody=last) if _ends(last):
+                return True
+            case ast.Try(body=first, orelse=more, handlers=handlers) if _ends(
+                [*first, *more]
+            ) and all(_ends(one.body) for one in handlers):
+                return True
+            case ast.While(test=ast.Constant(value=test)) if test and not _is_left(node):
+                return True
+    return False
+
+
+def _is_left(loop: ast.While) -> bool:
+    return any(isinstance(node, ast.Break) for node in outside_functions(loop))
 
 
 @lru_cache(maxsize=1024)
@@ -659,6 +707,13 @@ def together(facts: Mapping[str, Facts], project: Project, names: ProgramNames) 
     written = frozenset().union(*(one.written for one in facts.values()))
     if written:
         known.update(_written(written, project, names))
+    inside = frozenset().union(*(one.inside for one in facts.values()))
+    for key, name in names.parameters.items() if inside else ():
+        procedure, _, parameter = key.partition(".")
+        if (procedure, name, True) in inside:
+            known[parameter_key(procedure, parameter)] = ANY
+        if not {(procedure, name, True), (procedure, name, False)}.isdisjoint(inside):
+            known[ITEMS] = ANY
     for name, of_value, of_items in frozenset[tuple[str, int, int]]().union(
         *(one.begun for one in facts.values())
     ):
