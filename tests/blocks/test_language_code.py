@@ -75,6 +75,13 @@ def test_a_loop_is_left_only_from_inside(language, block):
     editor = build(language, [B("event.started"), B("control.repeat", bodies={"do": [inside]})])
 
     assert "outside_loop" in kinds(editor, language)
+    with pytest.raises(CodeRefused, match="cannot leave the loop"):
+        generate_program(editor.project, language)
+
+
+def test_a_block_that_leaves_a_loop_needs_one(language):
+    editor = build(language, [B("event.started"), B("control.leave_loop")])
+
     with pytest.raises(CodeRefused, match="is in none"):
         generate_program(editor.project, language)
 

@@ -357,6 +357,12 @@ class RuleWriter:
             return
         if isinstance(piece, Assignment):
             frame.scope.assigned.add(piece.variable)
+        elif isinstance(piece, Leave) and not frame.loops and frame.scope.indent > 1:
+            raise CodeRefused(
+                "A part of a block that has several cannot leave the loop around them.",
+                block=frame.block,
+                checklist=("Put it below that block, into an “if”.",),
+            )
         elif isinstance(piece, Leave) and not frame.loops:
             raise CodeRefused(
                 "This block leaves a loop, but it is in none.",
