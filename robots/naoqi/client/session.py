@@ -43,6 +43,7 @@ from robots.naoqi.wire.line import (
     FULL,
     GOES_ON,
     NEW_TOKEN,
+    REASON,
     STATE,
     TOKEN,
     USER,
@@ -201,12 +202,12 @@ def enter(peer: Peer, login: Login | None, until_s: float) -> None:
     except CallFailed as problem:
         if is_about_login(str(problem)):
             raise _refused(login, str(problem)) from problem
-        if str(problem).startswith(FULL):
-            sentence = text_of("The robot serves as many programs as it can.")
-            raise NoRoom(sentence, checklist=MAKE_ROOM, details=str(problem)) from problem
         # NAOqi up to 2.1 does not know the call
         peer.send(Frame(Kind.CAPABILITY, 0, 0, 0, 0, encode("{sm}", CAPABILITIES)))
         return
+    if (reason := str(answer.get(REASON, ""))).startswith(FULL):
+        sentence = text_of("The robot serves as many programs as it can.")
+        raise NoRoom(sentence, checklist=MAKE_ROOM, details=reason)
     if answer.get(STATE) != DONE:
         raise _refused(login, str(answer.get(STATE)))
     peer.capabilities = answer

@@ -27,6 +27,7 @@ from robots.naoqi.wire.line import (
     AUTHENTICATE,
     CAPABILITIES,
     DONE,
+    REASON,
     STATE,
     TOKEN,
     USER,
@@ -400,9 +401,16 @@ class Doorkeeper:
             self._peer.answer(Frame(Kind.CAPABILITY, 0, 0, 0, 0, payload))
 
 
-def _refuse(peer: Peer, why: Text, frame: Frame) -> bool:
-    """Answer a call by why it is not done, and end the connection; let nothing pass."""
-    if frame.kind == Kind.CALL:
+def _turn_back(peer: Peer, why: Text, frame: Frame) -> bool:
+    """Answer a call by why it is not done, and end the connection; let nothing pass.
+
+    To let somebody in is one call, to ask for something is the next: of the error of the first the
+    official client tells “disconnected”, of that of the second its words.
+    """
+    if frame.kind == Kind.CALL and (frame.service, frame.action) == (0, AUTHENTICATE):
+        said = CAPABILITIES | {STATE: DONE, REASON: str(why)}
+        peer.answer(frame.answer(Kind.REPLY, encode("{sm}", said)))
+    elif frame.kind == Kind.CALL:
         peer.answer_error(frame, why)
         peer.close()
     return False
@@ -607,7 +615,7 @@ class Server:
             if line is None:
                 return
             peer = Peer(line, name=f"naoqi-server-{number}", is_server=True)
-            peer.gate = functools.partial(_refuse, peer, text_of(NO_ROOM, most=MOST_CLIENTS))
+            peer.gate = functools.partial(_turn_back, peer, text_of(NO_ROOM, most=MOST_CLIENTS))
             silent = threading.Timer(HANDSHAKE_S, peer.close)
             silent.daemon = True
             silent.start()

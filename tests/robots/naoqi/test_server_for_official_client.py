@@ -8,6 +8,7 @@ from typing import Any
 import pytest
 from naoqi_lamp import CERTIFICATE, HERE, KEY, CallingLamp, lamp_server, needs_oracle
 
+from robots.naoqi.server import server as serving
 from robots.naoqi.wire.line import Login, TlsFiles
 
 pytestmark = needs_oracle
@@ -103,3 +104,15 @@ def test_the_official_client_is_refused(scheme: str, login: tuple[str, ...]) -> 
 
     assert list(found) == ["refused"]
     assert lamp.said == []
+
+
+@pytest.mark.parametrize("scheme", ["tcp", "tcps"])
+def test_an_official_client_too_many_is_told_why(
+    monkeypatch: pytest.MonkeyPatch, scheme: str
+) -> None:
+    monkeypatch.setattr(serving, "MOST_CLIENTS", 0)
+
+    with lamp_server(tls_files=FILES if scheme == "tcps" else None) as (_, server):
+        found = use(scheme, server.port)
+
+    assert found["refused"].startswith("There is no room for another program: 0 are connected")

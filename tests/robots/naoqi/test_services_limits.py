@@ -124,23 +124,23 @@ def test_a_program_too_many_is_told_why(few: tuple[str, int]) -> None:
         session.close()
 
 
-@pytest.mark.parametrize("first", ["authenticate", "a call of 2013"])
-def test_the_answer_to_its_first_words_is_an_error_and_then_the_end(
-    few: tuple[str, int], first: str
+@pytest.mark.parametrize("is_let_in", [True, False])
+def test_the_answer_to_its_first_wish_is_an_error_and_then_the_end(
+    few: tuple[str, int], is_let_in: bool
 ) -> None:
     held = [socket.create_connection(few) for _ in range(2)]
     time.sleep(0.3)
-    words = Frame(Kind.CALL, 7, 0, 0, AUTHENTICATE, encode("{sm}", {}))
-    if first != "authenticate":
-        words = Frame(Kind.CALL, 7, 1, 1, 100, encode("(s)", ("Lamp",)))
+    let_in = Frame(Kind.CALL, 6, 0, 0, AUTHENTICATE, encode("{sm}", {}))
+    wish = Frame(Kind.CALL, 7, 1, 1, 100, encode("(s)", ("Lamp",)))
 
     with socket.create_connection(few, timeout=10.0) as outside:
-        outside.sendall(words.encoded())
+        outside.sendall((let_in.encoded() if is_let_in else b"") + wish.encoded())
         data = b""
         while part := outside.recv(4096):
             data += part
 
-    (answer,) = FrameReader().take(data)
+    *first, answer = FrameReader().take(data)
+    assert [one.kind for one in first] == [Kind.REPLY] * is_let_in
     assert (answer.kind, answer.number) == (Kind.ERROR, 7)
     said = read_value(reader_of("m"), Reader(answer.payload))
     assert said.startswith("There is no room for another program")
