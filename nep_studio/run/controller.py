@@ -306,12 +306,18 @@ class RunController:
         """
         gate = self._network.gate
         # First what is to start, then what is approved: a file that is swapped between is noticed
-        wanted = [one.key for one in map(node_concern, request.nodes) if one is not None]
-        left = gate.unapproved(concerns_of(subject.project, subject.language, subject.folder))
+        concerns = [(node, node_concern(node)) for node in request.nodes]
+        brought = concerns_of(subject.project, subject.language, subject.folder)
+        left = gate.unapproved(brought)
         if left:
             self._tell(NeedsApproval(left, subject, request))
             return False
-        gate.vouch(wanted)
+        known, choices = {one.key for one in brought}, subject.choices
+        gate.vouch(
+            concern.key
+            for node, concern in concerns
+            if concern is not None and (concern.key in known or choices.have_made(node))
+        )
         gate.admit(request.code.text)
         self.start(request)
         return True

@@ -31,6 +31,7 @@ from nep_studio.blocks.language import Language
 from nep_studio.blocks.program import ROBOT_BLOCK, Block, Project, Stack
 from nep_studio.project.trust import (
     Approvals,
+    Brought,
     Concern,
     key_of,
     python_concerns,
@@ -78,7 +79,13 @@ def node_concern(planned: PlannedNode, page: str = "nodes") -> Concern | None:
     }
     if not reaching and not is_own:
         return None
-    content = [_content(planned, manifest, name, reaching[name]) for name in sorted(reaching)]
+    inside = {
+        name: _digest(Path(str(reaching[name]))) for name in _files(planned, manifest, reaching)
+    }
+    content = [
+        key_of(name, type(value).__name__, inside.get(name, str(value)))
+        for name, value in sorted(reaching.items())
+    ]
     own = _own_parts(manifest) if is_own else ()
     lines = [*own_lines(manifest)] if is_own else []
     lines += [plainly_in_a_line(f"{name} = {value}") for name, value in reaching.items()]
@@ -94,6 +101,8 @@ def node_concern(planned: PlannedNode, page: str = "nodes") -> Concern | None:
         planned.block_id,
         key_of("node", planned.node, *own, *content),
         tuple(_notes(reaching, manifest, is_own=is_own)),
+        frozenset({*reaching, *(["node"] if is_own else ())}),
+        (*inside.items(), *([("node", key_of(*own))] if is_own else ())),
     )
 
 
@@ -113,7 +122,7 @@ def _reaches(planned: PlannedNode, manifest: Manifest, name: str, value: Setting
     if parameter is None or value in ("", None) or value == parameter.default:
         return False
     if parameter.type == "file" or parameter.reach == "file":
-        return not _is_kept(planned, value) and (parameter.type == "file" or _is_path(str(value)))
+        return not _is_kept(planned, value) and value not in _shipped_robots()
     if parameter.reach != "network":
         return False
     if name == "address":
@@ -127,8 +136,11 @@ def _is_kept(planned: PlannedNode, value: Setting) -> bool:
     return planned.files is not None and Path(str(value)).is_relative_to(planned.files.folder)
 
 
-def _is_path(text: str) -> bool:
-    return any(mark in text for mark in "/\\:.~")
+@lru_cache(maxsize=1)
+def _shipped_robots() -> frozenset[str]:
+    """The names of the robots that we ship: any other name may be that of somebody's folder."""
+    folder = paths.resources() / "robots"
+    return frozenset(path.parent.name for path in folder.glob("*/body.json"))
 
 
 def is_here(address: str) -> bool:
@@ -195,12 +207,13 @@ def _names_imported(file: Path, _stamp: Stamp) -> frozenset[str]:
     return frozenset(name.partition(".")[0] for name in names)
 
 
-def _content(planned: PlannedNode, manifest: Manifest, name: str, value: Setting) -> str:
-    """A setting as it counts: a file beside the project by its bytes, wherever that is now."""
-    parameter = manifest.parameters.get(name)
-    is_file = parameter is not None and "file" in (parameter.type, parameter.reach)
-    inside = is_file and isinstance(value, str) and name in planned.inside
-    return key_of(name, type(value).__name__, _digest(Path(str(value))) if inside else str(value))
+def _files(planned: PlannedNode, manifest: Manifest, names: Iterable[str]) -> Iterator[str]:
+    """The settings that name a file beside the project: it counts by its bytes, wherever it is."""
+    for name in names:
+        parameter = manifest.parameters.get(name)
+        is_file = parameter is not None and "file" in (parameter.type, parameter.reach)
+        if is_file and isinstance(planned.parameters[name], str) and name in planned.inside:
+            yield name
 
 
 MOST_FILES = 2000
@@ -263,14 +276,15 @@ def concerns_of(project: Project, language: Language, folder: Path) -> list[Conc
     return found
 
 
-def keys_of(block: Block, project: Project, language: Language, folder: Path) -> list[str]:
-    """The keys of what is not blocks in one block."""
-    keys = [key for _, key in python_texts(block, language)]
+def brought_by(
+    block: Block, project: Project, language: Language, folder: Path
+) -> list[Concern | Brought]:
+    """What is not blocks in one block."""
+    texts = [Brought(key) for _, key in python_texts(block, language)]
     if block.type not in (NODE_BLOCK, ROBOT_BLOCK):
-        return keys
-    alone = _only(block)
-    found = concerns_of(alone, language, folder)
-    return [*keys, *(concern.key for concern in found if concern.kind != "python")]
+        return [*texts]
+    found = concerns_of(_only(block), language, folder)
+    return [*texts, *(concern for concern in found if concern.kind != "python")]
 
 
 def _only(block: Block) -> Project:

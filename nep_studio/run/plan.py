@@ -81,6 +81,11 @@ class Choices:
     addresses: Mapping[str, str] = field(default_factory=dict)
     virtual: frozenset[str] = frozenset()
 
+    def have_made(self, node: PlannedNode) -> bool:
+        """Whether a node is as it is because a person has chosen so now."""
+        recording = "" if self.recording is None else str(self.recording)
+        return node.name in self.addresses or recording in filter(None, node.parameters.values())
+
 
 NO_CHOICES = Choices()
 

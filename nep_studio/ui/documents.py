@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import logging
+from collections.abc import Sequence
 from functools import partial
 from pathlib import Path
 
@@ -18,8 +19,8 @@ from nep_studio.blocks.language import Language
 from nep_studio.blocks.program import LANGUAGE, LANGUAGES, Block, Project
 from nep_studio.project.journal import Journal
 from nep_studio.project.picture_files import project_bytes_from
-from nep_studio.project.trust import Authorship, shared_approvals
-from nep_studio.run.gate import keys_of
+from nep_studio.project.trust import Authorship, Brought, Concern, shared_approvals
+from nep_studio.run.gate import brought_by, shipped_keys
 
 from .background import Background
 from .document_files import PICTURES
@@ -64,7 +65,7 @@ class Document(QObject):
         self._journal = _journal(editor, path, is_unsaved)
         self._flush = QTimer(self, interval=FLUSH_MS)
         self._flush.timeout.connect(self.flush)
-        self.authorship = Authorship(editor, shared_approvals(), self._keys_of)
+        self.authorship = Authorship(editor, shared_approvals(), self._brought_by, shipped_keys)
         """What of it the person has written, which needs nobody's approval."""
         self._edits = edits_of(editor)
         self._edits.edited.connect(self._on_edited)
@@ -121,8 +122,8 @@ class Document(QObject):
             self._journal.close(keep=keep)
             self._journal, self.is_kept = None, False
 
-    def _keys_of(self, block: Block) -> list[str]:
-        return keys_of(block, self.project, self.editor.language, self.folder)
+    def _brought_by(self, block: Block) -> Sequence[Concern | Brought]:
+        return brought_by(block, self.project, self.editor.language, self.folder)
 
     def _on_edited(self) -> None:
         if not self._flush.isActive():
