@@ -122,7 +122,8 @@ def _reaches(planned: PlannedNode, manifest: Manifest, name: str, value: Setting
     if parameter is None or value in ("", None) or value == parameter.default:
         return False
     if parameter.type == "file" or parameter.reach == "file":
-        return not _is_kept(planned, value) and value not in _shipped_robots()
+        is_ours = parameter.type != "file" and str(value) in _shipped_robots()
+        return not _is_kept(planned, value) and not is_ours
     if parameter.reach != "network":
         return False
     if name == "address":

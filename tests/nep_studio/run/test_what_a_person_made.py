@@ -227,3 +227,11 @@ def test_a_robot_of_ours_is_no_file(make: Maker) -> None:
     node = {"node": "action/nao", "name": "P", "parameters": {"robot": "P", "model": "pepper"}}
 
     assert Opened(make, [B("nodes.launch", node)], page="nodes").asks() == []
+
+
+@pytest.mark.parametrize("value", ["nao", "a"])
+def test_a_file_counts_as_one_whatever_it_is_called(make: Maker, value: str) -> None:
+    settings = {"recording": value}
+    node = B("nodes.launch", {"node": "sensory/replay", "name": "r", "parameters": settings})
+
+    assert Opened(make, [node], page="nodes").asks() == ["node"]
