@@ -26,7 +26,7 @@ from ..program import (
     Parameter,
     Procedure,
 )
-from .learning import CodeUnread
+from .learning import CodeUnread, at_line
 from .outside import HEADERS
 
 
@@ -111,14 +111,16 @@ def names_in(
             case ast.Assign(
                 targets=[ast.Name(id=name)], value=ast.Call(func=ast.Name(id=made))
             ) if made in HEADERS:
-                _note(editor, names, name, made, node)
+                with at_line(node.lineno):
+                    _note(editor, names, name, made, node)
     of_functions = {node.name: node for node in functions if not node.decorator_list}
     others = {n.name for n in tree.body if isinstance(n, ast.FunctionDef | ast.ClassDef)}
     for name in others - of_functions.keys():
         names.procedures.pop(name, None)
     assigned: list[str] = []
     for node in of_functions.values():
-        _note_procedure(editor, names, node, tree, begun, hints)
+        with at_line(node.lineno):
+            _note_procedure(editor, names, node, tree, begun, hints)
         if node.name not in as_code:
             assigned += _kept(node, tree)
     for name in [*assigned, *_begun(tree), *_shared(tree, loose=loose)]:

@@ -82,9 +82,7 @@ class StatementReader:
         begin = self._keep_code(made, code, begin)
         said = self._source.comments_between(begin + 1, until, margin)
         note = self.values.type_of("note")
-        if said and note:
-            text = "\n".join(f"# {line}" for line in said)
-            made.append(Made(note, {"text": "\n".join(said)}, text=text))
+        made += [Made(note, {"text": line}, text=f"# {line}") for line in said if line and note]
         return made
 
     def rule(self, node: ast.FunctionDef, after: int) -> list[Made]:

@@ -10,6 +10,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 from nep_studio.blocks.code_text import lines_inside_texts
+from nep_studio.blocks.generate.expressions import visible_line
 
 from .learning import CodeUnread
 from .mistakes import checklist_of, too_deep
@@ -182,7 +183,7 @@ def _comments(text: str) -> tuple[dict[int, str], set[int]]:
     alone: set[int] = set()
     for token in tokenize.generate_tokens(io.StringIO(text).readline):
         if token.type == tokenize.COMMENT:
-            comments[token.start[0]] = token.string.lstrip("#").strip()
+            comments[token.start[0]] = visible_line(token.string.lstrip("#")).strip()
             if not token.line[: token.start[1]].strip():
                 alone.add(token.start[0])
     return comments, alone

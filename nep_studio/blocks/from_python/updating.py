@@ -29,7 +29,7 @@ from nep_studio.blocks.procedures import procedure_of
 from nep_studio.blocks.program import Block, Project, split_slot
 
 from .comparing import lost_lines
-from .learning import CodeUnread, Made, blocks_of
+from .learning import CodeUnread, Made, RefusedAtLine, at_line, blocks_of
 from .mistakes import too_deep
 from .naming import Hints, Turns
 from .outside import Part, parts_of
@@ -244,15 +244,20 @@ def _update_until_same(editor: Editor, source: Source) -> None:
                 raise CodeUnread(
                     differs.sentence,
                     min(differs.lines),
-                    checklist=("Write it in another way.", "Or undo the last change."),
+                    checklist=_OTHERWISE,
                 ) from differs
             kept |= differs.lines
         except EditRefused as refused:
             if anew:
-                raise CodeUnread(refused.sentence, 1, checklist=refused.checklist) from refused
+                line = refused.line if isinstance(refused, RefusedAtLine) else 1
+                checklist = refused.checklist or _OTHERWISE
+                raise CodeUnread(refused.sentence, line, checklist=checklist) from refused
             anew = True
         else:
             return
+
+
+_OTHERWISE = ("Write it in another way.", "Or undo the last change.")
 
 
 class _Differs(Exception):
@@ -294,7 +299,8 @@ def _update(
             known = _take(left, (w for w in left.values() if w.function == name))
             if known is None and len(rules) == len(written):  # it has got another name
                 known = left.pop(written[number].stack, None)
-            firsts.append(_change(editor, code, rule, known, anew, page))
+            with at_line(rule.function.lineno):
+                firsts.append(_change(editor, code, rule, known, anew, page))
         page = editor.project.page_of(firsts[-1])
     for gone in left.values():
         stack = editor.project.stacks[gone.stack]

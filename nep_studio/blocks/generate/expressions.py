@@ -579,8 +579,13 @@ StatementGenerator = Callable[[Expressions, Block], Sequence[Piece]]
 
 
 def comment_lines(text: str) -> Iterator[str]:
-    """A text as comments of Python; control characters could end a comment."""
+    """A text as comments of Python."""
     for line in text.splitlines():
-        visible = "".join(c if c.isprintable() else " " for c in line).strip()
+        visible = visible_line(line).strip()
         if visible:
             yield f"# {visible}"
+
+
+def visible_line(text: str) -> str:
+    """A text with spaces for control characters, which could end a comment."""
+    return "".join(c if c.isprintable() else " " for c in text)

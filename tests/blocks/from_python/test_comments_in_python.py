@@ -27,6 +27,15 @@ def body_of(editor) -> str:
     return textwrap.dedent(body)
 
 
+def assert_same_again(editor) -> None:
+    """The program that has been made becomes no other one by its own text."""
+    before = to_bytes(editor.project)
+
+    update_from_python(editor, generate_program(editor.project, editor.language).text)
+
+    assert to_bytes(editor.project) == before
+
+
 @pytest.mark.parametrize(
     ("written", "made"),
     [
@@ -36,12 +45,27 @@ def body_of(editor) -> str:
         ("# above\n\nwait(1)", "# above\nwait(1)"),
         ("if True:\n    # nothing\n    pass", "if True:\n    # nothing\n    pass"),
         ("if True:\n    wait(1)\n\n    # end", "if True:\n    wait(1)\n    # end"),
+        ("wait(1)\n# one\n# two", "wait(1)\n# one\n# two"),
+        ("wait(1)\n# one\n\n# two", "wait(1)\n# one\n# two"),
+        ("pass\n# one\n# two", "# one\n# two\npass"),
+        ("for _ in range(2):\n    wait(1)\n    # one\n    # two", None),
+        ("if True:\n    wait(1)\nelse:\n    wait(2)\n    # one\n    # two\n# three", None),
+        ("wait(1)\n# one\ttwo", "wait(1)\n# one two"),
     ],
 )
 def test_a_comment_stays_wherever_it_stands(language, written, made):
     editor = updated(language, written)
 
-    assert body_of(editor) == made
+    assert body_of(editor) == (made or written)
+    assert_same_again(editor)
+
+
+def test_what_the_program_cannot_hold_is_told_with_its_rule(language):
+    with pytest.raises(CodeUnread, match="too long") as raised:
+        updated(language, "wait(1)\n# " + "x" * 100_001)
+
+    assert raised.value.line == 8
+    assert raised.value.checklist
 
 
 def test_a_comment_at_the_top_of_the_text_is_in_no_body(language):
