@@ -10,7 +10,7 @@ from dataclasses import dataclass, field
 from nep_studio.blocks.code_text import made_by, outside_functions
 from nep_studio.blocks.edits.content import AddProcedure, SetExtra
 from nep_studio.blocks.edits.project import RenameProject
-from nep_studio.blocks.procedures import parameters, words
+from nep_studio.blocks.procedures import DEFINE, parameters, words
 
 from ..deployment import names_used, robot_entries
 from ..editor import Editor
@@ -244,7 +244,9 @@ def _known(editor: Editor) -> SourceNames:
     names.robots.setdefault("all_robots", ALL_ROBOTS)
     for variable in editor.project.variables:
         names.variables.setdefault(_safe(variable.name, "variable"), variable.id)
-    for procedure in editor.project.procedures.values():
+    defined = {editor.project.blocks[s.body[0]].type for s in editor.project.stacks.values()}
+    procedures = editor.project.procedures.values()
+    for procedure in sorted(procedures, key=lambda one: DEFINE + one.id not in defined):
         names.procedures.setdefault(_safe(words(procedure), "block"), procedure)
     return names
 
@@ -333,14 +335,17 @@ def _note_procedure(
     if hints is not None:
         kinds = hints.turns.kinds_at(node.lineno, kinds)
     own = [
-        Parameter(editor.project.new_id("a"), name.replace("_", " "), kind)
+        Parameter(editor.project.new_id("a"), words_of(name), kind)
         for name, kind in zip(wanted, kinds, strict=True)
     ]
-    procedure = Procedure(
-        editor.project.new_id("p"), (node.name.replace("_", " ").strip(), *own), gives_value
-    )
+    procedure = Procedure(editor.project.new_id("p"), (words_of(node.name), *own), gives_value)
     editor.apply(AddProcedure(procedure, len(editor.project.procedures)))
     names.procedures[node.name] = procedure
+
+
+def words_of(name: str) -> str:
+    """What an own block, or a value of it, is called by its name in Python."""
+    return name.replace("_", " ").strip() or name
 
 
 def _never_ends(body: Sequence[ast.stmt]) -> bool:
