@@ -18,7 +18,7 @@ from .learning import CodeUnread
 from .naming import functions_of, locals_of, names_made
 from .outside import HEADERS, Part, is_frame
 from .reading import as_block
-from .source import Source, begin_of, read_source
+from .source import Source, begin_of, end_of, read_source
 
 
 @dataclass(frozen=True, slots=True)
@@ -298,7 +298,7 @@ def _lost_comments(
     for line, said in source.comments.items():
         if not missing[_words(said)] or not _words(said):
             continue
-        around = [f for f in functions.values() if _holds(f, line)]
+        around = [f for f in functions.values() if _holds(source, f, line)]
         if not around:
             raise CodeUnread(
                 "This comment has no place among the blocks.",
@@ -311,7 +311,7 @@ def _lost_comments(
             parts |= {id(one) for one in _else_ifs(node)}
             if not isinstance(node, ast.stmt) or id(node) in parts:
                 continue
-            if _holds(node, line) and node.lineno >= inner.lineno:
+            if _holds(source, node, line) and node.lineno >= inner.lineno:
                 inner = node
         lost.add(inner.lineno)
         lost.add(around[0].lineno) if inner.lineno == line else None
@@ -334,8 +334,12 @@ def _words(comment: str) -> str:
     return " ".join("".join(c if c.isprintable() else " " for c in comment).split())
 
 
-def _holds(node: ast.stmt, line: int) -> bool:
-    return begin_of(node) <= line <= (node.end_lineno or node.lineno)
+def _holds(source: Source, node: ast.stmt, line: int) -> bool:
+    """Whether a line is one of a statement, or a comment at its end that is as far in."""
+    if begin_of(node) <= line <= end_of([node]):
+        return True
+    is_inside = begin_of(node) < line and source.margin(line) > node.col_offset
+    return is_inside and line <= source.end_inside(node)
 
 
 def _without_global(body: Sequence[ast.stmt]) -> list[ast.stmt]:

@@ -12,7 +12,7 @@ from nep_studio.blocks.generate.names import API, MODULES
 from nep_studio.blocks.generate.program import runs
 
 from .learning import CodeUnread
-from .source import Source, begin_of
+from .source import Source, begin_of, end_of
 
 HEADERS = ("Robot", "Behavior")
 """What the lines before the functions make."""
@@ -121,14 +121,14 @@ class _Splitter:
                 after = self.source.last_line(node.body)
                 continue
             self._wait_for(after, begin)
-            after = node.end_lineno or node.lineno
             place = END if number >= self.end_from else TOP if begin <= head else HERE
             if self._is_own(node, number):
                 can_be_top = isinstance(node, ast.Import | ast.ImportFrom) or _is_text(node)
                 place = HERE if place == TOP and not can_be_top else place
                 self._add_waiting(place)
-                self._add(node, number, place)
+                after = self._add(node, number, place)
                 continue
+            after = end_of([node])
             self._add_waiting(HERE if node is self.run else place)
             self.waiting += [n for n in range(begin, after + 1) if n in self.source.comments]
             self._add_waiting(place)
@@ -191,8 +191,11 @@ class _Splitter:
             self._put(line, [f"# {self.source.comments[line]}" if is_behind else comment], place)
         self.waiting.clear()
 
-    def _add(self, node: ast.stmt, number: int, place: str) -> None:
-        """Add a statement as it is written, with a comment behind it."""
+    def _add(self, node: ast.stmt, number: int, place: str) -> int:
+        """Add a statement as it is written, with comments behind it, and last in it.
+
+        Gives the last line that was added.
+        """
         begin, end = begin_of(node), node.end_lineno or node.lineno
         body = self.source.tree.body
         above = body[number - 1] if number else None
@@ -201,12 +204,14 @@ class _Splitter:
             below is not None and below.lineno <= end
         )
         if not is_shared:
+            end = self.source.end_inside(node)
             self._put(begin, list(self.source.lines[begin - 1 : end]), place)
-            return
+            return end
         text = ast.get_source_segment("\n".join(self.source.lines), node) or ast.unparse(node)
         self._put(begin, text.split("\n"), place)
         if (below is None or below.lineno > end) and end in self.source.comments:
             self._put(end, [f"# {self.source.comments[end]}"], place)
+        return end
 
     def _put(self, line: int, lines: list[str], place: str) -> None:
         if place != self.place:

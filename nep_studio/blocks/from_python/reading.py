@@ -204,15 +204,15 @@ class StatementReader:
         """Put statements that are no blocks into one code block; gives the line after which."""
         if not code:
             return begin
-        made.append(self.code(code, begin))
-        end = end_of(code)
+        end = self._source.end_inside(code[-1])
+        made.append(self.code(code, begin, end))
         code.clear()
         return end
 
     def _describe(self, made: Made, nodes: Sequence[ast.stmt], begin: int) -> None:
         made.comment = self._source.comment_of(nodes[0], begin)
         first = self._source.first_line(nodes[0], begin)
-        made.text = self._source.text(first, end_of(nodes))
+        made.text = self._source.text(first, self._source.end_inside(nodes[-1]))
 
 
 def as_block(node: ast.stmt) -> ast.stmt:

@@ -50,8 +50,14 @@ class Source:
 
     def last_line(self, body: Sequence[ast.stmt]) -> int:
         """The last line of comments that stand below statements as far in as those do."""
-        last = line = end_of(body)
-        margin = body[0].col_offset
+        return self._last_line(end_of(body), body[0].col_offset)
+
+    def end_inside(self, node: ast.stmt) -> int:
+        """The last line of a statement, with the comments below it that are further in than it."""
+        return self._last_line(end_of([node]), node.col_offset + 1)
+
+    def _last_line(self, line: int, margin: int) -> int:
+        last = line
         while line < len(self.lines) and (
             self._is_empty(line + 1) or self._is_alone(line + 1, margin)
         ):

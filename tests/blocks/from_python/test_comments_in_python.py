@@ -48,6 +48,13 @@ def assert_same_again(editor) -> None:
         ("wait(1)\n# one\n# two", "wait(1)\n# one\n# two"),
         ("wait(1)\n# one\n\n# two", "wait(1)\n# one\n# two"),
         ("pass\n# one\n# two", "# one\n# two\npass"),
+        ("try:\n    wait(1)\nexcept ValueError:\n    wait(2)\n    # end", None),
+        ("try:\n    wait(1)\nfinally:\n    wait(2)\n    # end\n# below\nwait(3)", None),
+        ("with open('a'):\n    if x:\n        wait(2)\n        # in\n    # end", None),
+        ("while x:\n    wait(1)\nelse:\n    wait(2)\n    # one\n    # two", None),
+        ("while x:\n    for i in range(2):\n        print(i)\n        # end", None),
+        ("def inner():\n    return 1\n    # end\n\ninner()", None),
+        ("wait(1)\n    # further in", None),
         ("for _ in range(2):\n    wait(1)\n    # one\n    # two", None),
         ("if True:\n    wait(1)\nelse:\n    wait(2)\n    # one\n    # two\n# three", None),
         ("wait(1)\n# one\ttwo", "wait(1)\n# one two"),
@@ -57,6 +64,37 @@ def test_a_comment_stays_wherever_it_stands(language, written, made):
     editor = updated(language, written)
 
     assert body_of(editor) == (made or written)
+    assert_same_again(editor)
+
+
+OUTSIDE = [
+    "def f(a=1):\n    return a\n    # one\n\n    # two",
+    "class A:\n    def f(self):\n        return 1\n\n    # def g(self):\n    #     return 2",
+    "if 1 > 0:\n    MODE = 1\n    # MODE = 2\nelse:\n    MODE = 3\n    # MODE = 4",
+    "for i in [1]:\n    if i:\n        print(i)\n        # in\n    # end\n\n# below\nprint(2)",
+]
+
+
+@pytest.mark.parametrize("outside", OUTSIDE)
+def test_a_comment_last_in_own_python_stays_in_it(language, outside):
+    editor = updated(language, "wait(1)")
+    text = generate_program(editor.project, language).text
+    text = text.replace("\n\n\n@", f"\n\n{outside}\n\n\n@")
+
+    update_from_python(editor, text)
+
+    assert f"\n\n{outside}\n\n\n" in generate_program(editor.project, language).text
+    assert_same_again(editor)
+
+
+def test_a_comment_last_below_the_end_stays_there(language):
+    editor = updated(language, "wait(1)")
+    text = generate_program(editor.project, language).text
+    end = 'if __name__ == "__main__":\n    behavior.run()\n    # print("end")\n'
+
+    update_from_python(editor, text.replace("behavior.run()\n", end))
+
+    assert generate_program(editor.project, language).text.endswith(end)
     assert_same_again(editor)
 
 
