@@ -87,6 +87,29 @@ def test_a_comment_last_in_own_python_stays_in_it(language, outside):
     assert_same_again(editor)
 
 
+@pytest.mark.parametrize(
+    ("written", "made"),
+    [
+        ("a = 1; b = 2  # two", "a = 1\nb = 2  # two"),
+        ("a = 1; b = 2; c = [  # three\n    3,\n]  # end", None),
+        ("a = [\n    1,  # one\n]; b = 2  # two", "a = [\n    1,  # one\n]\nb = 2  # two"),
+        ("import time; import random  # both", "import random  # both"),
+        ("a = 0; b = 0  # two", "b = 0  # two"),
+        ("a = f = 1; nao = 0  # two\nprint(a)", "a = f = 1\nnao = 0  # two\nprint(a)"),
+    ],
+)
+def test_a_comment_behind_several_statements_stays_behind_the_last(language, written, made):
+    editor = updated(language, "wait(1)")
+    text = generate_program(editor.project, language).text
+    text = text.replace("\n\n\n@", f"\n\n{written}\n\n\n@")
+
+    update_from_python(editor, text)
+
+    made = made or written.replace("; ", "\n")
+    assert f"\n{made}\n\n\n" in generate_program(editor.project, language).text
+    assert_same_again(editor)
+
+
 def test_a_comment_last_below_the_end_stays_there(language):
     editor = updated(language, "wait(1)")
     text = generate_program(editor.project, language).text
