@@ -7,7 +7,7 @@ import re
 import symtable
 import unicodedata
 import warnings
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 from types import CodeType
@@ -23,10 +23,14 @@ _GENERATOR_FLAGS = 0x20 | 0x80 | 0x200
 
 
 class CodeTextRefused(BlocksError):
-    """Python that cannot be where it is; ``line`` is the one that is wrong, from 1."""
+    """Python that cannot be where it is; ``line`` is the one that is wrong, from 1.
 
-    def __init__(self, sentence: Words, line: int = 1) -> None:
-        super().__init__(sentence)
+    ``reason`` is the sentence without the line.
+    """
+
+    def __init__(self, reason: Words, line: int = 1, *, checklist: Sequence[Words] = ()) -> None:
+        super().__init__(_in_line(reason, line), checklist=checklist)
+        self.reason = reason
         self.line = line
 
 
@@ -63,13 +67,17 @@ def read_lines(text: str, *, in_loop: bool = True) -> CodeText:
         code = compile_quietly("\n".join([*opening, *shifted, "  pass"]))
     except CodeTextRefused as refused:
         line = min(max(refused.line - 2, 1), len(lines))
-        raise CodeTextRefused(_in_line(refused.sentence, line), line) from refused
+        raise CodeTextRefused(refused.reason, line) from refused
     if any(getattr(c, "co_flags", 0) & _GENERATOR_FLAGS for c in code.co_consts):
-        raise CodeTextRefused("“yield” and “await” cannot be in a block of a program.")
+        waiting = (n for n in outside_functions(tree) if isinstance(n, ast.Yield | ast.YieldFrom))
+        line = min((node.lineno for node in waiting), default=1)
+        raise CodeTextRefused("“yield” and “await” cannot be in a block of a program.", line)
     for node in outside_functions(tree):
         if isinstance(node, ast.Global | ast.Nonlocal):
             raise CodeTextRefused(
-                _in_line(Text("The program writes “global” by itself."), node.lineno), node.lineno
+                "The program writes “global” by itself.",
+                node.lineno,
+                checklist=("Write the “global” line first in the function.",),
             )
     read, made = _names(tree)
     here = frozenset(name for node in outside_functions(tree) for name in made_by(node))
@@ -159,7 +167,7 @@ def _parse(text: str, mode: str) -> ast.Module | ast.Expression:
             return ast.parse(text, mode=mode)  # type: ignore[return-value]
     except SyntaxError as error:
         line = error.lineno or 1
-        raise CodeTextRefused(_in_line(_syntax_sentence(error), line), line) from error
+        raise CodeTextRefused(_syntax_sentence(error), line) from error
     except (ValueError, RecursionError, MemoryError, OverflowError) as error:
         raise CodeTextRefused("Python cannot read this.") from error
 
@@ -169,9 +177,7 @@ def _visible_lines(text: str) -> list[str]:
     lines = text.rstrip().split("\n")
     for number, line in enumerate(lines, start=1):
         if not line.replace("\t", " ").isprintable() or _FILLERS.search(line):
-            raise CodeTextRefused(
-                _in_line(Text("There is a character here that cannot be seen."), number), number
-            )
+            raise CodeTextRefused("There is a character here that cannot be seen.", number)
     return lines
 
 
@@ -226,7 +232,7 @@ def _syntax_sentence(error: SyntaxError) -> Text:
     return text_of("Python does not understand this: {msg}.", msg=error.msg)
 
 
-def _in_line(sentence: Text, line: int) -> Text:
+def _in_line(sentence: Words, line: int) -> Words:
     if line == 1:
         return sentence
     return text_of("Line {line}: {sentence}", line=line, sentence=sentence)

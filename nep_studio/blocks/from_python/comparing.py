@@ -343,7 +343,9 @@ def _holds(source: Source, node: ast.stmt, line: int) -> bool:
 
 
 def _without_global(body: Sequence[ast.stmt]) -> list[ast.stmt]:
-    return [node for node in body if not isinstance(node, ast.Global)]
+    """Statements without the “global” lines, which do nothing."""
+    kept = [node for node in body if not isinstance(node, ast.Global)]
+    return kept if kept or not body else [ast.Pass()]
 
 
 def _same(one: object, other: object) -> bool:

@@ -247,7 +247,7 @@ class _Splitter:
             except CodeTextRefused as refused:
                 line = min(self.first + refused.line - 1, len(self.source.lines))
                 checklist = ("Correct this line.",)
-                raise CodeUnread(refused.sentence, line, checklist=checklist) from refused
+                raise CodeUnread(refused.reason, line, checklist=checklist) from refused
             self.parts.append(Part(self.first, None, text, self.place))
             self.lines = []
 

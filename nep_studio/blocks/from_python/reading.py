@@ -106,7 +106,9 @@ class StatementReader:
             read_lines(text)
         except CodeTextRefused as refused:
             raise CodeUnread(
-                refused.sentence, first + refused.line - 1, checklist=("Correct this line.",)
+                refused.reason,
+                self._source.line_at(first, refused.line),
+                checklist=refused.checklist or ("Correct this line.",),
             ) from refused
         if not block_type:
             raise CodeUnread("There is no block for this.", first)

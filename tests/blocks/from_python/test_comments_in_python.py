@@ -67,6 +67,49 @@ def test_a_comment_stays_wherever_it_stands(language, written, made):
     assert_same_again(editor)
 
 
+@pytest.mark.parametrize(
+    "written",
+    [
+        "if True:\n    global x  # all\n    x = 1",
+        "if True:\n    global x  # all\n    x = 1\nelse:\n    print(x)",
+        "try:\n    global x\n    x = 1\nexcept ValueError:\n    wait(1)",
+        "try:\n    wait(1)\nexcept ValueError:\n    # all\n    global x\n    x = 1  # one",
+        "with open('a'):\n    global x  # all\n    global y\n    x = y = 2",
+        "while True:\n    wait(1)\nelse:\n    global x\n    x = 1",
+        "match 1:\n    case 1:\n        global x\n        x = 1",
+        "if True:\n    global x",
+        "try:\n    global x\nfinally:\n    wait(1)\nx = 1",
+        "global x",
+        "def inner():\n    global x\n    x = 1\ninner()",
+    ],
+)
+def test_a_global_line_may_stand_wherever_there_are_statements(language, written):
+    editor = updated(language, written)
+
+    kept = [line for line in written.splitlines() if "= " in line or "wait" in line]
+    assert all(line.strip().partition("  #")[0] in body_of(editor) for line in kept)
+    assert all(f"# {word}" in body_of(editor) for word in ("all", "one") if f"# {word}" in written)
+    assert "global x" in body_of(editor) or "x =" not in written
+    assert_same_again(editor)
+
+
+@pytest.mark.parametrize(
+    ("written", "line", "sentence", "step"),
+    [
+        ("with open('a'):\n    global x; x = 1", 2, "writes “global” by itself", "first in"),
+        ("global x\n\nfor i in [1]:\n    # all\n    print(x)\n    yield i", 6, "yield", "Correct"),
+        ("global x\nwith open('a'):\n    x = '\u202e'", 3, "cannot be seen", "Correct"),
+    ],
+)
+def test_what_no_block_may_hold_is_told_once_with_its_line(language, written, line, sentence, step):
+    with pytest.raises(CodeUnread, match=sentence) as raised:
+        updated(language, written)
+
+    assert raised.value.line == line + 8
+    assert str(raised.value.sentence).count("Line") == 1
+    assert step in str(raised.value.checklist[0])
+
+
 OUTSIDE = [
     "def f(a=1):\n    return a\n    # one\n\n    # two",
     "class A:\n    def f(self):\n        return 1\n\n    # def g(self):\n    #     return 2",

@@ -226,12 +226,11 @@ def test_what_no_block_says_is_not_read_again_and_again(language, monkeypatch) -
     monkeypatch.setattr(updating, "read_rules", lambda *a: readings.append(1) or read(*a))
     text = 'from nep_core import Behavior, Robot\n\nnao = Robot("NAO")\n'
     text += 'behavior = Behavior("Karate")\n\n\n@behavior.when_started\n'
-    text += "def when_started():\n    global times\n\n\nbehavior.run()\n"
+    text += "def when_started():\n    def f():\n        pass\n    return f\n\n\nbehavior.run()\n"
 
-    with pytest.raises(CodeUnread):
-        update_from_python(Editor(Project("Karate"), language), text)
+    update_from_python(Editor(Project("Karate"), language), text)
 
-    assert len(readings) <= 4  # with what was learned of its values, and in another way
+    assert 1 < len(readings) <= 4  # with what was learned of its values, and in another way
 
 
 @pytest.mark.parametrize("signs", [140, 400])
