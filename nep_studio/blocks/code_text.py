@@ -17,6 +17,7 @@ from faults import Text, Words, text_of
 from .definitions import PYTHON_KINDS, Definition
 from .errors import BlocksError
 from .program import Block, Project
+from .slots import JOINERS
 
 _GENERATOR_FLAGS = 0x20 | 0x80 | 0x200
 """Of a code object: it is a generator, a coroutine, or both."""
@@ -176,7 +177,7 @@ def _visible_lines(text: str) -> list[str]:
     """The lines of a text; what Python would take for something else is refused."""
     lines = text.rstrip().split("\n")
     for number, line in enumerate(lines, start=1):
-        if not line.replace("\t", " ").isprintable() or _FILLERS.search(line):
+        if not line.translate(_SEEN_AS_GAPS).isprintable() or _FILLERS.search(line):
             raise CodeTextRefused("There is a character here that cannot be seen.", number)
     return lines
 
@@ -277,6 +278,7 @@ _DEEP = re.compile(rf"(?m)^(?:[{_SPACES}]{{80,}}|\t{{{LONG_RUN},}})")
 _EMPTY_LINES = re.compile(rf"\n(?:[ \t]*\n){{{LONG_RUN},}}")
 _FILLERS = re.compile("[\u034f\u115f\u1160\u17b4\u17b5\u180b-\u180f\u3164\uffa0]")
 """Letters without a look, which names of Python may have: ``ㅤ = 1`` is a line of it."""
+_SEEN_AS_GAPS = str.maketrans(dict.fromkeys(f"\t{JOINERS}", " "))
 _CHOOSERS = "\ufe00-\ufe0f\U000e0100-\U000e01ef"
 _CARRIED = re.compile(
     rf"(?<=[{_CHOOSERS}])[{_CHOOSERS}]|(?<=[^\W0-9])(?<=[\x00-\x7f])[{_CHOOSERS}]"
@@ -285,8 +287,7 @@ _CARRIED = re.compile(
 """What chooses the look of a letter and carries a hidden text instead; a heap of accents."""
 _UNSEEN = frozenset(("Cc", "Cf", "Cs", "Co", "Cn", "Zl", "Zp"))
 _END = "\n"
-_PLAIN = frozenset("\n\t\u200c\u200d")
-"""Ends of lines, tabs, and what Persian words and many emoji need."""
+_PLAIN = frozenset(f"\n\t{JOINERS}")
 
 
 def plainly(text: str) -> str:

@@ -293,10 +293,10 @@ def _lost_comments(
     source: Source, made: Source, functions: Mapping[str, ast.FunctionDef]
 ) -> set[int]:
     """The innermost statements around comments that would be gone."""
-    missing = _said(source) - _said(made)
+    missing = Counter(source.comments.values()) - Counter(made.comments.values())
     lost = set()
     for line, said in source.comments.items():
-        if not missing[_words(said)] or not _words(said):
+        if not missing[said] or not said:
             continue
         around = [f for f in functions.values() if _holds(source, f, line)]
         if not around:
@@ -324,14 +324,6 @@ def _else_ifs(node: ast.AST) -> list[ast.stmt]:
     inner = node.orelse[0] if isinstance(node, ast.If) and is_one else None
     is_part = isinstance(inner, ast.If) and inner.col_offset == getattr(node, "col_offset", -1)
     return [inner] if inner is not None and is_part else []
-
-
-def _said(source: Source) -> Counter[str]:
-    return Counter(_words(comment) for comment in source.comments.values())
-
-
-def _words(comment: str) -> str:
-    return " ".join("".join(c if c.isprintable() else " " for c in comment).split())
 
 
 def _holds(source: Source, node: ast.stmt, line: int) -> bool:

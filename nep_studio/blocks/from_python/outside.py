@@ -9,6 +9,7 @@ from collections.abc import Collection, Iterator
 from dataclasses import dataclass, field
 
 from nep_studio.blocks.code_text import CodeTextRefused, read_outside
+from nep_studio.blocks.generate.expressions import comment_line
 from nep_studio.blocks.generate.names import API, MODULES
 from nep_studio.blocks.generate.program import runs
 
@@ -187,7 +188,8 @@ class _Splitter:
         for line in self.waiting:
             comment = self.source.lines[line - 1].strip()
             is_behind = line not in self.source.alone
-            self._put(line, [f"# {self.source.comments[line]}" if is_behind else comment], place)
+            said = comment_line(self.source.comments[line]) if is_behind else comment
+            self._put(line, [said], place)
         self.waiting.clear()
 
     def _add(self, node: ast.stmt, number: int, place: str) -> int:
@@ -203,7 +205,7 @@ class _Splitter:
             return end
         text = ast.get_source_segment("\n".join(self.source.lines), node) or ast.unparse(node)
         if end < below and end in self.source.comments:
-            text += f"  # {self.source.comments[end]}"
+            text += f"  {comment_line(self.source.comments[end])}"
         self._put(begin, text.split("\n"), place)
         return end
 

@@ -11,6 +11,7 @@ from nep_studio.blocks.code_text import CodeTextRefused, read_lines
 from nep_studio.blocks.editor import Editor
 from nep_studio.blocks.edits.placing import CreateBlocks
 from nep_studio.blocks.files import from_bytes, to_bytes
+from nep_studio.blocks.generate.expressions import comment_line, comment_text
 from nep_studio.blocks.language import Language
 from nep_studio.blocks.procedures import DEFINE, parameters
 from nep_studio.blocks.program import Project
@@ -82,7 +83,9 @@ class StatementReader:
         begin = self._keep_code(made, code, begin)
         said = self._source.comments_between(begin + 1, until, margin)
         note = self.values.type_of("note")
-        made += [Made(note, {"text": line}, text=f"# {line}") for line in said if line and note]
+        made += [
+            Made(note, {"text": line}, text=comment_line(line)) for line in said if line and note
+        ]
         return made
 
     def rule(self, node: ast.FunctionDef, after: int) -> list[Made]:
@@ -311,8 +314,8 @@ def read_rules(
         is_known = left[text] >= 0 and not any(node.lineno <= n <= last for n in kept)
         chain = [] if is_known else reader.rule(node, after)
         if chain and above:
-            said = [line.lstrip("#").strip() for line in above.split("\n")]
-            chain[0].comment = "\n".join([*said, *filter(None, [chain[0].comment])])
+            said = "\n".join(map(comment_text, above.split("\n"))).strip("\n")
+            chain[0].comment = "\n".join(filter(None, [said, chain[0].comment]))
             chain[0].text = f"{above}\n{chain[0].text}"
         rules.append(ReadRule(node, chain, text))
     return rules

@@ -11,7 +11,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 
 from nep_studio.blocks.code_text import lines_inside_texts, outside_functions
-from nep_studio.blocks.generate.expressions import visible_line
+from nep_studio.blocks.generate.expressions import comment_line, comment_text
 
 from .learning import CodeUnread
 from .mistakes import checklist_of, too_deep
@@ -78,12 +78,13 @@ class Source:
         said = [self.comments[line] for line in range(first, begin) if line in self.comments]
         if node.lineno in self.comments and node.lineno not in self.alone:
             said.append(self.comments[node.lineno])
-        return "\n".join(said)
+        return "\n".join(said).strip("\n")
 
     def comment_of_function(self, node: ast.FunctionDef, after: int) -> str:
         """The comments above a function and in the lines before its body."""
         numbers = range(self.first_line(node, after), self.line_before(node.body) + 1)
-        return "\n".join(self.comments[line] for line in numbers if line in self.comments)
+        said = [self.comments[line] for line in numbers if line in self.comments]
+        return "\n".join(said).strip("\n")
 
     def comments_between(self, first: int, last: int, margin: int) -> list[str]:
         """The comments on lines of their own from one line to another, so far in."""
@@ -108,7 +109,7 @@ class Source:
         text = self.lines[line - 1]
         if line not in self.set_aside:
             return text
-        said = f"# {self.comments[line]}" if line in self.comments else ""
+        said = comment_line(self.comments[line]) if line in self.comments else ""
         return text[: self.margin(line)] + "  ".join(filter(None, [self.set_aside[line], said]))
 
     def _is_aside(self, line: int) -> bool:
@@ -219,7 +220,7 @@ def _comments(text: str) -> tuple[dict[int, str], set[int]]:
     alone: set[int] = set()
     for token in tokenize.generate_tokens(io.StringIO(text).readline):
         if token.type == tokenize.COMMENT:
-            comments[token.start[0]] = visible_line(token.string.lstrip("#")).strip()
+            comments[token.start[0]] = comment_text(token.string)
             if not token.line[: token.start[1]].strip():
                 alone.add(token.start[0])
     return comments, alone

@@ -58,12 +58,50 @@ def assert_same_again(editor) -> None:
         ("for _ in range(2):\n    wait(1)\n    # one\n    # two", None),
         ("if True:\n    wait(1)\nelse:\n    wait(2)\n    # one\n    # two\n# three", None),
         ("wait(1)\n# one\ttwo", "wait(1)\n# one two"),
+        ("wait(1)\n# one\n#\n# two\nwait(2)", None),
+        ("#\n# one\n#\nwait(2)", "# one\nwait(2)"),
+        ("#\nwait(2)\n#", "wait(2)"),
+        ("#one\n#  two\nwait(2)", "# one\n#  two\nwait(2)"),
     ],
 )
 def test_a_comment_stays_wherever_it_stands(language, written, made):
     editor = updated(language, written)
 
     assert body_of(editor) == (made or written)
+    assert_same_again(editor)
+
+
+COMMENTS = [
+    "# for i in range(3):\n#     nao.say(i)\n#         deep",
+    "###########\n# a title #\n###########",
+    "## a heading",
+    "# # commented out twice",
+    "# -----",
+    "# 👩\u200d👩\u200d👧 and \u0645\u06cc\u200c\u062e",
+]
+
+
+@pytest.mark.parametrize("comment", COMMENTS)
+@pytest.mark.parametrize("above", ["wait(1)\n", "print('a')\n", "if x:\n    wait(1)\n    "])
+@pytest.mark.parametrize("below", ["", "\nwait(2)", "\nprint('b')"])
+def test_a_comment_is_kept_to_the_letter(language, above, comment, below):
+    margin = above.rpartition("\n")[2]
+    written = above + comment.replace("\n", f"\n{margin}") + below
+
+    editor = updated(language, written)
+
+    assert body_of(editor) == written
+    assert_same_again(editor)
+
+
+@pytest.mark.parametrize("comment", [*COMMENTS, "# one\n#\n# two"])
+def test_a_comment_above_a_rule_is_kept_to_the_letter(language, comment):
+    editor = updated(language, "wait(1)")
+    text = generate_program(editor.project, language).text.replace("\n@", f"\n{comment}\n@")
+
+    update_from_python(editor, text)
+
+    assert generate_program(editor.project, language).text == text
     assert_same_again(editor)
 
 
