@@ -103,6 +103,8 @@ def names_in(
     they put values into becomes variables too.
     """
     names = _known(editor)
+    for name in own_names(tree, functions) if not loose else ():
+        names.variables.pop(name, None)
     begun = _begun_otherwise(tree, hints)
     known = _kinds_given(tree, names) if hints is None else hints.kinds
     _note_kinds(tree, {name: ANY if name in begun else kinds for name, kinds in known.items()})
@@ -157,6 +159,25 @@ def locals_of(function: ast.FunctionDef | ast.AsyncFunctionDef) -> dict[str, int
     What it is given is not one of them.
     """
     return names_made(function.body)
+
+
+def own_names(tree: ast.Module, functions: Sequence[ast.FunctionDef]) -> set[str]:
+    """The names that rules have for themselves, and that nothing else in a text has.
+
+    ``functions`` are those that become blocks.
+    """
+    rules = {function.lineno for function in functions if function.decorator_list}
+    own, others = set[str](), set[str]()
+    for part in tree.body:
+        functions_inside = functions_of(part) if part.lineno in rules else ()
+        made = {name for function in functions_inside for name in locals_of(function)}
+        own |= made
+        for node in ast.walk(part):
+            if isinstance(node, ast.Global):
+                others.update(node.names)
+            elif isinstance(node, ast.Name) and node.id not in made:
+                others.add(node.id)
+    return own - others
 
 
 def names_made(body: Sequence[ast.stmt]) -> dict[str, int]:
@@ -243,12 +264,17 @@ def _known(editor: Editor) -> SourceNames:
         names.robots.setdefault(_safe(robot.lower(), "robot"), robot)
     names.robots.setdefault("all_robots", ALL_ROBOTS)
     for variable in editor.project.variables:
-        names.variables.setdefault(_safe(variable.name, "variable"), variable.id)
+        names.variables.setdefault(variable_name(variable.name), variable.id)
     defined = {editor.project.blocks[s.body[0]].type for s in editor.project.stacks.values()}
     procedures = editor.project.procedures.values()
     for procedure in sorted(procedures, key=lambda one: DEFINE + one.id not in defined):
         names.procedures.setdefault(_safe(words(procedure), "block"), procedure)
     return names
+
+
+def variable_name(text: str) -> str:
+    """What a variable is called in Python, if nothing else there is."""
+    return _safe(text, "variable")
 
 
 def _safe(text: str, fallback: str) -> str:

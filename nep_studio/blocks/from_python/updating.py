@@ -22,6 +22,7 @@ from nep_studio.blocks.edits.content import (
     SetField,
 )
 from nep_studio.blocks.edits.placing import CreateBlocks, DeleteBlocks, MoveBlocks
+from nep_studio.blocks.edits.project import RemoveVariable
 from nep_studio.blocks.errors import BlocksError, CodeRefused, EditRefused
 from nep_studio.blocks.generate.expressions import comment_lines
 from nep_studio.blocks.generate.program import generate_program
@@ -29,14 +30,14 @@ from nep_studio.blocks.generate.source_map import Code
 from nep_studio.blocks.operations.finding import why_not_robot_name
 from nep_studio.blocks.operations.fixes import rename_robot
 from nep_studio.blocks.operations.selection import chain_around
-from nep_studio.blocks.places import InBody, InInput, InStack, NewStack, Place
+from nep_studio.blocks.places import InBody, InInput, InStack, NewStack, Place, variable_uses
 from nep_studio.blocks.procedures import parameters, procedure_of
 from nep_studio.blocks.program import Block, Parameter, Procedure, Project, split_slot
 
 from .comparing import lost_lines
 from .learning import CodeUnread, Made, RefusedAtLine, at_line, blocks_of
 from .mistakes import too_deep
-from .naming import Hints, Turns, words_of
+from .naming import Hints, Turns, own_names, variable_name, words_of
 from .outside import Part, parts_of
 from .reading import ReadRule, create_chain, create_outside, read_rules
 from .source import Source, read_source
@@ -187,7 +188,8 @@ class ChainUpdater:
 class _Written:
     """A stack that makes a function now: its chain and its lines.
 
-    ``procedure`` is the own block that it defines, if any, ``given`` are the values of that one.
+    ``procedure`` is the own block that it defines, if any, ``given`` are the values of that one,
+    ``shared`` the names in its “global” line.
     """
 
     stack: str
@@ -195,6 +197,7 @@ class _Written:
     text: str
     procedure: str
     given: list[str]
+    shared: set[str]
 
 
 def update_from_python(editor: Editor, text: str) -> None:
@@ -295,7 +298,8 @@ def _update(
     if _rename_own_blocks(editor, parts, written):
         code = _code(editor)
         written = _written(editor.project, code)
-    known_texts = [] if anew else [w.text for w in written]
+    own = own_names(source.tree, [part.function for part in parts if part.function])
+    known_texts = [] if anew else [w.text for w in written if not own & w.shared]
     rules = read_rules(editor, source, parts, kept, known_texts, hints)
     left = {stack.stack: stack for stack in written}
     same = [
@@ -319,6 +323,7 @@ def _update(
         stack = editor.project.stacks[gone.stack]
         editor.apply(DeleteBlocks(stack.body[0], len(stack.body)))
     _remove_own_blocks(editor, written)
+    _remove_variables(editor, own)
     _put_in_order(editor, _update_outside(editor, parts, firsts))
     stacks = [editor.project.stack_of(first).id for first in firsts]
     return parts, dict(zip(stacks, (rule.function for rule in rules), strict=True))
@@ -394,6 +399,14 @@ def _remove_own_blocks(editor: Editor, written: Sequence[_Written]) -> None:
     for one in written:
         if one.procedure and one.procedure not in used:
             editor.apply(RemoveProcedure(one.procedure))
+
+
+def _remove_variables(editor: Editor, own: set[str]) -> None:
+    """Remove the variables whose names rules have for themselves now, where no block has them."""
+    variables = editor.project.variables if own else ()
+    for variable in [one for one in variables if variable_name(one.name) in own]:
+        if not variable_uses(editor.project, variable.id):
+            editor.apply(RemoveVariable(variable.id))
 
 
 def _update_outside(editor: Editor, parts: Sequence[Part], firsts: Sequence[str]) -> list[str]:
@@ -516,14 +529,17 @@ def _written(project: Project, code: Code) -> list[_Written]:
     found, every = [], code.text.splitlines()
     for stack, (first, last) in spans.items():
         hat, numbers = project.stacks[stack].body[0], range(first, last + 1)
-        lines = [
-            line
-            for line, number in zip(every[first - 1 : last], numbers, strict=True)
-            if not (line.startswith("    global ") and code.blocks[number - 1] == hat)
-        ]  # as a text is read: without what the program writes by itself
+        lines, shared = list[str](), set[str]()
+        for line, number in zip(every[first - 1 : last], numbers, strict=True):
+            if line.startswith("    global ") and code.blocks[number - 1] == hat:
+                # as a text is read: without what the program writes by itself
+                shared.update(line.removeprefix("    global ").split(", "))
+            else:
+                lines.append(line)
         header = next((line[4:] for line in lines if line.startswith("def ")), "")
-        name, _, given = header.removesuffix("):").partition("(")
+        name, _, said = header.removesuffix("):").partition("(")
+        given = said.split(", ") if said else []
         text = textwrap.dedent("\n".join(lines)).rstrip()
         procedure = procedure_of(project.blocks[hat].type)
-        found.append(_Written(stack, name, text, procedure, given.split(", ") if given else []))
+        found.append(_Written(stack, name, text, procedure, given, shared))
     return found
