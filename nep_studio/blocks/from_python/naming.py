@@ -304,12 +304,20 @@ def _note(editor: Editor, names: SourceNames, name: str, made: str, node: ast.As
             for robot in listed:
                 _add_robot(editor, _text_of(robot))
             return
-    raise CodeUnread(
-        "{made} needs a name in quotes here.",
-        node.lineno,
-        checklist=('Write the name in quotes, such as "NAO".',),
-        made=made,
-    )
+    raise _header_unread(call, made, node.lineno)
+
+
+def _header_unread(call: ast.Call, made: str, line: int) -> CodeUnread:
+    """That a robot or the behaviour is not made as the program makes it, with what to do."""
+    sentence = "{made} needs a name in quotes here."
+    step = 'Write it as the program does: nao = Robot("NAO"), behavior = Behavior("Test").'
+    if made == "Robot":
+        step = 'Write the name in quotes, such as "NAO".'
+    if call.args and _text_of(call.args[0]):
+        sentence = "{made} is given a name here, and nothing else."
+        if made == "Robot":
+            step = "Give the robot the address of a real one, on the page Robots."
+    return CodeUnread(sentence, line, checklist=(step,), made=made)
 
 
 def _is_known(call: ast.Call, made: str) -> bool:

@@ -249,3 +249,23 @@ def test_a_long_row_of_signs_is_written_down_at_few_of_its_depths(
 
     assert len(written) < 140
     assert f"{'-' * signs}points" in code_of(editor.project, language)
+
+
+@pytest.mark.parametrize(
+    ("made", "sentence", "step"),
+    [
+        ('Robot("NAO", ip="1.2.3.4")', "Robot is given a name here, and nothing else", "address"),
+        ('Robot("NAO", "1.2.3.4")', "Robot is given a name here, and nothing else", "address"),
+        ("Robot()", "Robot needs a name in quotes", "NAO"),
+        ("Behavior(title)", "Behavior needs a name in quotes", "Behavior"),
+        ('Behavior("T", speed=2)', "Behavior is given a name here", "Behavior"),
+    ],
+)
+def test_a_header_that_is_made_otherwise_is_told_in_words_that_fit(language, made, sentence, step):
+    text = f"from nep_core import Behavior, Robot\n\nit = {made}\n"
+
+    with pytest.raises(CodeUnread, match=sentence) as raised:
+        update_from_python(Editor(Project("T"), language), text)
+
+    assert raised.value.line == 3
+    assert step in str(raised.value.checklist[0])
