@@ -120,9 +120,11 @@ def names_in(
     for name in others - of_functions.keys():
         names.procedures.pop(name, None)
     assigned: list[str] = []
+    position = 0
     for node in of_functions.values():
         with at_line(node.lineno):
-            _note_procedure(editor, names, node, tree, begun, hints)
+            _note_procedure(editor, names, node, tree, begun, hints, position)
+        position = list(editor.project.procedures).index(names.procedures[node.name].id) + 1
         if node.name not in as_code:
             assigned += _kept(node, tree)
     for name in [*assigned, *_begun(tree), *_shared(tree, loose=loose)]:
@@ -358,7 +360,9 @@ def _note_procedure(
     tree: ast.Module,
     begun: Mapping[str, str],
     hints: Hints | None,
+    position: int,
 ) -> None:
+    """Find the own block that a function makes, or make it at a position of the list of them."""
     wanted = [argument.arg for argument in node.args.args]
     gives_value = any(isinstance(n, ast.Return) and n.value is not None for n in ast.walk(node))
     gives_value = gives_value or (_never_ends(node.body) and _is_value(node.name, tree))
@@ -373,7 +377,7 @@ def _note_procedure(
         for name, kind in zip(wanted, kinds, strict=True)
     ]
     procedure = Procedure(editor.project.new_id("p"), (words_of(node.name), *own), gives_value)
-    editor.apply(AddProcedure(procedure, len(editor.project.procedures)))
+    editor.apply(AddProcedure(procedure, position))
     names.procedures[node.name] = procedure
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+import itertools
 import logging
 import textwrap
 from collections.abc import Callable, Iterator, Sequence
@@ -295,7 +296,7 @@ def _update(
     _rename_robot(editor, source)
     code = _code(editor)
     written = _written(editor.project, code)
-    if _rename_own_blocks(editor, parts, written):
+    if _rename_own_blocks(editor, source, parts, written):
         code = _code(editor)
         written = _written(editor.project, code)
     own = own_names(source.tree, [part.function for part in parts if part.function])
@@ -349,10 +350,13 @@ def _rename_robot(editor: Editor, source: Source) -> None:
             log.debug("a robot keeps its name until the text is read")
 
 
-def _rename_own_blocks(editor: Editor, parts: Sequence[Part], written: Sequence[_Written]) -> bool:
+def _rename_own_blocks(
+    editor: Editor, source: Source, parts: Sequence[Part], written: Sequence[_Written]
+) -> bool:
     """Give own blocks, and their values, the names that they have in the text; says if any had not.
 
-    Those that are in it by no name of theirs are the new ones there, in their order.
+    Those that are in it by no name of theirs are the new ones there, in their order. One that
+    gives a value now, or none any more, makes way for a new one.
     """
     plain = [p.function for p in parts if p.function and not p.function.decorator_list]
     there = {function.name: function for function in plain}
@@ -366,9 +370,19 @@ def _rename_own_blocks(editor: Editor, parts: Sequence[Part], written: Sequence[
         given = [argument.arg for argument in function.args.args] if function else []
         if function is None or len(given) != len(one.given):
             continue
-        if (function.name, given) != (one.function, one.given):
+        lines = source.lines[function.lineno - 1 : function.end_lineno]
+        if _gives_value(lines) != _gives_value(one.text.splitlines()):
+            taken = {*there, *before}
+            names_left = (f"{one.function}_{number}" for number in itertools.count(2))
+            free = next(name for name in names_left if name not in taken)
+            is_changed |= _rename_own_block(editor, one, free, one.given)
+        elif (function.name, given) != (one.function, one.given):
             is_changed |= _rename_own_block(editor, one, function.name, given)
     return is_changed
+
+
+def _gives_value(lines: Sequence[str]) -> bool:
+    return any(line.lstrip().startswith("return ") for line in lines)
 
 
 def _rename_own_block(editor: Editor, one: _Written, name: str, given: Sequence[str]) -> bool:

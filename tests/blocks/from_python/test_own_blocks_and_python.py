@@ -191,11 +191,17 @@ def test_an_own_block_gets_the_names_of_the_text(language, changes):
     assert_same_again(editor)
 
 
+SAID = ("nao.say(str(double(3)))", "double(3)")
+
+
 @pytest.mark.parametrize(
     "changes",
     [
         [("tell(x)", "tell(x, y)"), ("tell(2)", "tell(2, 3)")],
         [("tell(x)", "tell(x, y)"), ("tell(2)", "tell(2, 3)"), ("tell", "say_it")],
+        [("nao.say(str(double(x)))", "return x"), ("    tell(2)", "    nao.say(str(tell(2)))")],
+        [("return n * 2", 'nao.say("a")'), ("nao.say(str(double(x)))", "double(x)"), SAID],
+        [("double(n)", "double(n, m)"), ("double(x)", "double(x, 1)"), ("e(3)", "e(3, 1)")],
         [("tell(x)", "tell()"), ("double(x)", "double(1)"), ("tell(2)", "tell()")],
         [
             ("def double(n):\n    return n * 2\n\n\n", ""),
