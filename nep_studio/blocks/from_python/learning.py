@@ -526,8 +526,8 @@ class CodeUnread(BlocksError):
 class RefusedAtLine(EditRefused):
     """An edit that cannot be; ``line`` of the text asks for it."""
 
-    def __init__(self, reason: EditRefused, line: int) -> None:
-        super().__init__(reason.sentence, checklist=reason.checklist)
+    def __init__(self, sentence: Words, line: int, /, *, checklist: Sequence[Words] = ()) -> None:
+        super().__init__(sentence, checklist=checklist)
         self.line = line
 
 
@@ -537,7 +537,7 @@ def at_line(line: int) -> Iterator[None]:
     try:
         yield
     except EditRefused as refused:
-        raise RefusedAtLine(refused, line) from refused
+        raise RefusedAtLine(refused.sentence, line, checklist=refused.checklist) from refused
 
 
 @dataclass(slots=True)
