@@ -7,7 +7,7 @@ import re
 import symtable
 import unicodedata
 import warnings
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 from types import CodeType
@@ -17,16 +17,21 @@ from faults import Text, Words, text_of
 from .definitions import PYTHON_KINDS, Definition
 from .errors import BlocksError
 from .program import Block, Project
+from .slots import JOINERS
 
 _GENERATOR_FLAGS = 0x20 | 0x80 | 0x200
 """Of a code object: it is a generator, a coroutine, or both."""
 
 
 class CodeTextRefused(BlocksError):
-    """Python that cannot be where it is; ``line`` is the one that is wrong, from 1."""
+    """Python that cannot be where it is; ``line`` is the one that is wrong, from 1.
 
-    def __init__(self, sentence: Words, line: int = 1) -> None:
-        super().__init__(sentence)
+    ``reason`` is the sentence without the line.
+    """
+
+    def __init__(self, reason: Words, line: int = 1, *, checklist: Sequence[Words] = ()) -> None:
+        super().__init__(_in_line(reason, line), checklist=checklist)
+        self.reason = reason
         self.line = line
 
 
@@ -63,13 +68,17 @@ def read_lines(text: str, *, in_loop: bool = True) -> CodeText:
         code = compile_quietly("\n".join([*opening, *shifted, "  pass"]))
     except CodeTextRefused as refused:
         line = min(max(refused.line - 2, 1), len(lines))
-        raise CodeTextRefused(_in_line(refused.sentence, line), line) from refused
+        raise CodeTextRefused(refused.reason, line) from refused
     if any(getattr(c, "co_flags", 0) & _GENERATOR_FLAGS for c in code.co_consts):
-        raise CodeTextRefused("“yield” and “await” cannot be in a block of a program.")
+        waiting = (n for n in outside_functions(tree) if isinstance(n, ast.Yield | ast.YieldFrom))
+        line = min((node.lineno for node in waiting), default=1)
+        raise CodeTextRefused("“yield” and “await” cannot be in a block of a program.", line)
     for node in outside_functions(tree):
         if isinstance(node, ast.Global | ast.Nonlocal):
             raise CodeTextRefused(
-                _in_line(Text("The program writes “global” by itself."), node.lineno), node.lineno
+                "The program writes “global” by itself.",
+                node.lineno,
+                checklist=("Write the “global” line first in the function.",),
             )
     read, made = _names(tree)
     here = frozenset(name for node in outside_functions(tree) for name in made_by(node))
@@ -159,7 +168,7 @@ def _parse(text: str, mode: str) -> ast.Module | ast.Expression:
             return ast.parse(text, mode=mode)  # type: ignore[return-value]
     except SyntaxError as error:
         line = error.lineno or 1
-        raise CodeTextRefused(_in_line(_syntax_sentence(error), line), line) from error
+        raise CodeTextRefused(_syntax_sentence(error), line) from error
     except (ValueError, RecursionError, MemoryError, OverflowError) as error:
         raise CodeTextRefused("Python cannot read this.") from error
 
@@ -168,10 +177,8 @@ def _visible_lines(text: str) -> list[str]:
     """The lines of a text; what Python would take for something else is refused."""
     lines = text.rstrip().split("\n")
     for number, line in enumerate(lines, start=1):
-        if not line.replace("\t", " ").isprintable() or _FILLERS.search(line):
-            raise CodeTextRefused(
-                _in_line(Text("There is a character here that cannot be seen."), number), number
-            )
+        if not line.translate(_SEEN_AS_GAPS).isprintable() or _FILLERS.search(line):
+            raise CodeTextRefused("There is a character here that cannot be seen.", number)
     return lines
 
 
@@ -226,7 +233,7 @@ def _syntax_sentence(error: SyntaxError) -> Text:
     return text_of("Python does not understand this: {msg}.", msg=error.msg)
 
 
-def _in_line(sentence: Text, line: int) -> Text:
+def _in_line(sentence: Words, line: int) -> Words:
     if line == 1:
         return sentence
     return text_of("Line {line}: {sentence}", line=line, sentence=sentence)
@@ -271,6 +278,7 @@ _DEEP = re.compile(rf"(?m)^(?:[{_SPACES}]{{80,}}|\t{{{LONG_RUN},}})")
 _EMPTY_LINES = re.compile(rf"\n(?:[ \t]*\n){{{LONG_RUN},}}")
 _FILLERS = re.compile("[\u034f\u115f\u1160\u17b4\u17b5\u180b-\u180f\u3164\uffa0]")
 """Letters without a look, which names of Python may have: ``ㅤ = 1`` is a line of it."""
+_SEEN_AS_GAPS = str.maketrans(dict.fromkeys(f"\t{JOINERS}", " "))
 _CHOOSERS = "\ufe00-\ufe0f\U000e0100-\U000e01ef"
 _CARRIED = re.compile(
     rf"(?<=[{_CHOOSERS}])[{_CHOOSERS}]|(?<=[^\W0-9])(?<=[\x00-\x7f])[{_CHOOSERS}]"
@@ -279,8 +287,7 @@ _CARRIED = re.compile(
 """What chooses the look of a letter and carries a hidden text instead; a heap of accents."""
 _UNSEEN = frozenset(("Cc", "Cf", "Cs", "Co", "Cn", "Zl", "Zp"))
 _END = "\n"
-_PLAIN = frozenset("\n\t\u200c\u200d")
-"""Ends of lines, tabs, and what Persian words and many emoji need."""
+_PLAIN = frozenset(f"\n\t{JOINERS}")
 
 
 def plainly(text: str) -> str:

@@ -72,7 +72,8 @@ RESULT_SHAPES: dict[str, SlotShape] = {
 # What a field may hold: checked when a file is loaded and each time a field is set.
 
 _HALF = re.compile("[\ud800-\udfff]")
-_JOINERS = "\u200c\u200d"
+JOINERS = "\u200c\u200d"
+"""What cannot be seen, and is needed by Persian words and many emoji."""
 _COLOUR = re.compile(r"#[0-9a-fA-F]{6}")
 
 
@@ -98,7 +99,7 @@ def why_not_line(value: object) -> Text | None:
 
 def _is_visible(letter: str) -> bool:
     """Whether a letter may be in a line: Japanese has its own space, Persian and emoji join."""
-    return letter.isprintable() or letter in _JOINERS or unicodedata.category(letter) == "Zs"
+    return letter.isprintable() or letter in JOINERS or unicodedata.category(letter) == "Zs"
 
 
 def why_not_text(value: object) -> Text | None:

@@ -63,7 +63,6 @@ NAO = resource_folder() / "robots" / "nao"
         ("manifests", "not_text.toml", "cannot be used"),
         ("csv", "long_number.csv", "not finite"),
         ("csv", "not_text.csv", "not a text file"),
-        ("python", "only_global.txt", "cannot become blocks"),
         ("python", "deep_in_rule.txt", "read"),
     ],
 )

@@ -18,7 +18,7 @@ from .learning import CodeUnread
 from .naming import functions_of, locals_of, names_made
 from .outside import HEADERS, Part, is_frame
 from .reading import as_block
-from .source import Source, begin_of, read_source
+from .source import Source, begin_of, end_of, read_source
 
 
 @dataclass(frozen=True, slots=True)
@@ -293,12 +293,12 @@ def _lost_comments(
     source: Source, made: Source, functions: Mapping[str, ast.FunctionDef]
 ) -> set[int]:
     """The innermost statements around comments that would be gone."""
-    missing = _said(source) - _said(made)
+    missing = Counter(source.comments.values()) - Counter(made.comments.values())
     lost = set()
     for line, said in source.comments.items():
-        if not missing[_words(said)] or not _words(said):
+        if not missing[said] or not said:
             continue
-        around = [f for f in functions.values() if _holds(f, line)]
+        around = [f for f in functions.values() if _holds(source, f, line)]
         if not around:
             raise CodeUnread(
                 "This comment has no place among the blocks.",
@@ -311,7 +311,7 @@ def _lost_comments(
             parts |= {id(one) for one in _else_ifs(node)}
             if not isinstance(node, ast.stmt) or id(node) in parts:
                 continue
-            if _holds(node, line) and node.lineno >= inner.lineno:
+            if _holds(source, node, line) and node.lineno >= inner.lineno:
                 inner = node
         lost.add(inner.lineno)
         lost.add(around[0].lineno) if inner.lineno == line else None
@@ -326,20 +326,18 @@ def _else_ifs(node: ast.AST) -> list[ast.stmt]:
     return [inner] if inner is not None and is_part else []
 
 
-def _said(source: Source) -> Counter[str]:
-    return Counter(_words(comment) for comment in source.comments.values())
-
-
-def _words(comment: str) -> str:
-    return " ".join("".join(c if c.isprintable() else " " for c in comment).split())
-
-
-def _holds(node: ast.stmt, line: int) -> bool:
-    return begin_of(node) <= line <= (node.end_lineno or node.lineno)
+def _holds(source: Source, node: ast.stmt, line: int) -> bool:
+    """Whether a line is one of a statement, or a comment at its end that is as far in."""
+    if begin_of(node) <= line <= end_of([node]):
+        return True
+    is_inside = begin_of(node) < line and source.margin(line) > node.col_offset
+    return is_inside and line <= source.end_inside(node)
 
 
 def _without_global(body: Sequence[ast.stmt]) -> list[ast.stmt]:
-    return [node for node in body if not isinstance(node, ast.Global)]
+    """Statements without the “global” lines, which do nothing."""
+    kept = [node for node in body if not isinstance(node, ast.Global)]
+    return kept if kept or not body else [ast.Pass()]
 
 
 def _same(one: object, other: object) -> bool:

@@ -10,13 +10,13 @@ import itertools
 import re
 from collections import defaultdict
 from collections.abc import Iterator, Mapping, Sequence
-from contextlib import suppress
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass, field
 from functools import lru_cache
 
 from faults import Words, text_of
 from nep_studio.blocks.definitions import Definition, Slot
-from nep_studio.blocks.errors import BlocksError, CodeRefused
+from nep_studio.blocks.errors import BlocksError, CodeRefused, EditRefused
 from nep_studio.blocks.generate.expressions import Body, Expressions, Function, Piece, show
 from nep_studio.blocks.generate.generators import REPORTERS, STATEMENTS
 from nep_studio.blocks.generate.kinds import ANY, LIST, NUMBER, TEXT, WHOLE, Kinds, note
@@ -521,6 +521,23 @@ class CodeUnread(BlocksError):
         said = text_of(sentence, **values)
         super().__init__("Line {line}: {sentence}", checklist=checklist, line=line, sentence=said)
         self.line = line
+
+
+class RefusedAtLine(EditRefused):
+    """An edit that cannot be; ``line`` of the text asks for it."""
+
+    def __init__(self, sentence: Words, line: int, /, *, checklist: Sequence[Words] = ()) -> None:
+        super().__init__(sentence, checklist=checklist)
+        self.line = line
+
+
+@contextmanager
+def at_line(line: int) -> Iterator[None]:
+    """Tell of edits that cannot be which line of the text asks for them."""
+    try:
+        yield
+    except EditRefused as refused:
+        raise RefusedAtLine(refused.sentence, line, checklist=refused.checklist) from refused
 
 
 @dataclass(slots=True)

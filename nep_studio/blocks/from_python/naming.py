@@ -10,7 +10,7 @@ from dataclasses import dataclass, field
 from nep_studio.blocks.code_text import made_by, outside_functions
 from nep_studio.blocks.edits.content import AddProcedure, SetExtra
 from nep_studio.blocks.edits.project import RenameProject
-from nep_studio.blocks.procedures import parameters, words
+from nep_studio.blocks.procedures import DEFINE, parameters, words
 
 from ..deployment import names_used, robot_entries
 from ..editor import Editor
@@ -26,7 +26,7 @@ from ..program import (
     Parameter,
     Procedure,
 )
-from .learning import CodeUnread
+from .learning import CodeUnread, at_line
 from .outside import HEADERS
 
 
@@ -103,6 +103,8 @@ def names_in(
     they put values into becomes variables too.
     """
     names = _known(editor)
+    for name in own_names(tree, functions) if not loose else ():
+        names.variables.pop(name, None)
     begun = _begun_otherwise(tree, hints)
     known = _kinds_given(tree, names) if hints is None else hints.kinds
     _note_kinds(tree, {name: ANY if name in begun else kinds for name, kinds in known.items()})
@@ -111,14 +113,18 @@ def names_in(
             case ast.Assign(
                 targets=[ast.Name(id=name)], value=ast.Call(func=ast.Name(id=made))
             ) if made in HEADERS:
-                _note(editor, names, name, made, node)
+                with at_line(node.lineno):
+                    _note(editor, names, name, made, node)
     of_functions = {node.name: node for node in functions if not node.decorator_list}
     others = {n.name for n in tree.body if isinstance(n, ast.FunctionDef | ast.ClassDef)}
     for name in others - of_functions.keys():
         names.procedures.pop(name, None)
     assigned: list[str] = []
+    position = 0
     for node in of_functions.values():
-        _note_procedure(editor, names, node, tree, begun, hints)
+        with at_line(node.lineno):
+            _note_procedure(editor, names, node, tree, begun, hints, position)
+        position = list(editor.project.procedures).index(names.procedures[node.name].id) + 1
         if node.name not in as_code:
             assigned += _kept(node, tree)
     for name in [*assigned, *_begun(tree), *_shared(tree, loose=loose)]:
@@ -155,6 +161,25 @@ def locals_of(function: ast.FunctionDef | ast.AsyncFunctionDef) -> dict[str, int
     What it is given is not one of them.
     """
     return names_made(function.body)
+
+
+def own_names(tree: ast.Module, functions: Sequence[ast.FunctionDef]) -> set[str]:
+    """The names that rules have for themselves, and that nothing else in a text has.
+
+    ``functions`` are those that become blocks.
+    """
+    rules = {function.lineno for function in functions if function.decorator_list}
+    own, others = set[str](), set[str]()
+    for part in tree.body:
+        functions_inside = functions_of(part) if part.lineno in rules else ()
+        made = {name for function in functions_inside for name in locals_of(function)}
+        own |= made
+        for node in ast.walk(part):
+            if isinstance(node, ast.Global):
+                others.update(node.names)
+            elif isinstance(node, ast.Name) and node.id not in made:
+                others.add(node.id)
+    return own - others
 
 
 def names_made(body: Sequence[ast.stmt]) -> dict[str, int]:
@@ -241,10 +266,17 @@ def _known(editor: Editor) -> SourceNames:
         names.robots.setdefault(_safe(robot.lower(), "robot"), robot)
     names.robots.setdefault("all_robots", ALL_ROBOTS)
     for variable in editor.project.variables:
-        names.variables.setdefault(_safe(variable.name, "variable"), variable.id)
-    for procedure in editor.project.procedures.values():
+        names.variables.setdefault(variable_name(variable.name), variable.id)
+    defined = {editor.project.blocks[s.body[0]].type for s in editor.project.stacks.values()}
+    procedures = editor.project.procedures.values()
+    for procedure in sorted(procedures, key=lambda one: DEFINE + one.id not in defined):
         names.procedures.setdefault(_safe(words(procedure), "block"), procedure)
     return names
+
+
+def variable_name(text: str) -> str:
+    """What a variable is called in Python, if nothing else there is."""
+    return _safe(text, "variable")
 
 
 def _safe(text: str, fallback: str) -> str:
@@ -274,12 +306,20 @@ def _note(editor: Editor, names: SourceNames, name: str, made: str, node: ast.As
             for robot in listed:
                 _add_robot(editor, _text_of(robot))
             return
-    raise CodeUnread(
-        "{made} needs a name in quotes here.",
-        node.lineno,
-        checklist=('Write the name in quotes, such as "NAO".',),
-        made=made,
-    )
+    raise _header_unread(call, made, node.lineno)
+
+
+def _header_unread(call: ast.Call, made: str, line: int) -> CodeUnread:
+    """That a robot or the behaviour is not made as the program makes it, with what to do."""
+    sentence = "{made} needs a name in quotes here."
+    step = 'Write it as the program does: nao = Robot("NAO"), behavior = Behavior("Test").'
+    if made == "Robot":
+        step = 'Write the name in quotes, such as "NAO".'
+    if call.args and _text_of(call.args[0]):
+        sentence = "{made} is given a name here, and nothing else."
+        if made == "Robot":
+            step = "Give the robot the address of a real one, on the page Robots."
+    return CodeUnread(sentence, line, checklist=(step,), made=made)
 
 
 def _is_known(call: ast.Call, made: str) -> bool:
@@ -320,7 +360,9 @@ def _note_procedure(
     tree: ast.Module,
     begun: Mapping[str, str],
     hints: Hints | None,
+    position: int,
 ) -> None:
+    """Find the own block that a function makes, or make it at a position of the list of them."""
     wanted = [argument.arg for argument in node.args.args]
     gives_value = any(isinstance(n, ast.Return) and n.value is not None for n in ast.walk(node))
     gives_value = gives_value or (_never_ends(node.body) and _is_value(node.name, tree))
@@ -331,14 +373,17 @@ def _note_procedure(
     if hints is not None:
         kinds = hints.turns.kinds_at(node.lineno, kinds)
     own = [
-        Parameter(editor.project.new_id("a"), name.replace("_", " "), kind)
+        Parameter(editor.project.new_id("a"), words_of(name), kind)
         for name, kind in zip(wanted, kinds, strict=True)
     ]
-    procedure = Procedure(
-        editor.project.new_id("p"), (node.name.replace("_", " ").strip(), *own), gives_value
-    )
-    editor.apply(AddProcedure(procedure, len(editor.project.procedures)))
+    procedure = Procedure(editor.project.new_id("p"), (words_of(node.name), *own), gives_value)
+    editor.apply(AddProcedure(procedure, position))
     names.procedures[node.name] = procedure
+
+
+def words_of(name: str) -> str:
+    """What an own block, or a value of it, is called by its name in Python."""
+    return name.replace("_", " ").strip() or name
 
 
 def _never_ends(body: Sequence[ast.stmt]) -> bool:

@@ -3,16 +3,18 @@
 from __future__ import annotations
 
 import ast
+import sys
 from collections import Counter
 from collections.abc import Collection, Iterator
 from dataclasses import dataclass, field
 
 from nep_studio.blocks.code_text import CodeTextRefused, read_outside
+from nep_studio.blocks.generate.expressions import comment_line
 from nep_studio.blocks.generate.names import API, MODULES
 from nep_studio.blocks.generate.program import runs
 
 from .learning import CodeUnread
-from .source import Source, begin_of
+from .source import Source, begin_of, end_of
 
 HEADERS = ("Robot", "Behavior")
 """What the lines before the functions make."""
@@ -121,16 +123,16 @@ class _Splitter:
                 after = self.source.last_line(node.body)
                 continue
             self._wait_for(after, begin)
-            after = node.end_lineno or node.lineno
             place = END if number >= self.end_from else TOP if begin <= head else HERE
             if self._is_own(node, number):
                 can_be_top = isinstance(node, ast.Import | ast.ImportFrom) or _is_text(node)
                 place = HERE if place == TOP and not can_be_top else place
                 self._add_waiting(place)
-                self._add(node, number, place)
+                after = self._add(node, number, place)
                 continue
+            after = end_of([node])
             self._add_waiting(HERE if node is self.run else place)
-            self.waiting += [n for n in range(begin, after + 1) if n in self.source.comments]
+            self.waiting += self._comments_of(number)
             self._add_waiting(place)
         self._wait_for(after, len(self.source.lines) + 1)
         self._add_waiting(END if self.end_from < len(body) else HERE)
@@ -166,18 +168,16 @@ class _Splitter:
 
     def _is_own(self, node: ast.stmt, number: int) -> bool:
         """Whether a statement is kept as it is written."""
-        begin, end = begin_of(node), node.end_lineno or node.lineno
         if node is self.run:
             return False
-        if number >= self.end_from or (begin in self.kept and not _is_head(node)):
+        if number >= self.end_from or (begin_of(node) in self.kept and not _is_head(node)):
             return True
         if number == 0 and _is_text(node):
             return not is_made_docstring(node)
         if _is_beginning(node) and (self.parts or self.lines) and self.place != TOP:
             return True  # what variables begin with is written above all else: it stays where it is
         if isinstance(node, ast.Import) or _is_beginning(node):
-            is_commented = any(n in self.source.comments for n in range(begin, end + 1))
-            return is_commented or not is_frame(node)
+            return bool(self._comments_of(number)) or not is_frame(node)
         return not is_frame(node)
 
     def _wait_for(self, after: int, before: int) -> None:
@@ -188,25 +188,39 @@ class _Splitter:
         for line in self.waiting:
             comment = self.source.lines[line - 1].strip()
             is_behind = line not in self.source.alone
-            self._put(line, [f"# {self.source.comments[line]}" if is_behind else comment], place)
+            said = comment_line(self.source.comments[line]) if is_behind else comment
+            self._put(line, [said], place)
         self.waiting.clear()
 
-    def _add(self, node: ast.stmt, number: int, place: str) -> None:
-        """Add a statement as it is written, with a comment behind it."""
-        begin, end = begin_of(node), node.end_lineno or node.lineno
-        body = self.source.tree.body
-        above = body[number - 1] if number else None
-        below = body[number + 1] if number + 1 < len(body) else None
-        is_shared = (above is not None and (above.end_lineno or 0) >= begin) or (
-            below is not None and below.lineno <= end
-        )
-        if not is_shared:
+    def _add(self, node: ast.stmt, number: int, place: str) -> int:
+        """Add a statement as it is written, with comments behind it, and last in it.
+
+        Gives the last line that was added.
+        """
+        begin, end = begin_of(node), end_of([node])
+        above, below = self._ends_around(number)
+        if above < begin and end < below:
+            end = self.source.end_inside(node)
             self._put(begin, list(self.source.lines[begin - 1 : end]), place)
-            return
+            return end
         text = ast.get_source_segment("\n".join(self.source.lines), node) or ast.unparse(node)
+        if end < below and end in self.source.comments:
+            text += f"  {comment_line(self.source.comments[end])}"
         self._put(begin, text.split("\n"), place)
-        if (below is None or below.lineno > end) and end in self.source.comments:
-            self._put(end, [f"# {self.source.comments[end]}"], place)
+        return end
+
+    def _comments_of(self, number: int) -> list[int]:
+        """The lines of the comments in and behind a statement, and not behind its neighbours."""
+        node = self.source.tree.body[number]
+        begin, end = begin_of(node), end_of([node])
+        _, below = self._ends_around(number)
+        return [n for n in range(begin, min(end + 1, below)) if n in self.source.comments]
+
+    def _ends_around(self, number: int) -> tuple[int, int]:
+        """The line where the statement above one ends, and that where the one below begins."""
+        body = self.source.tree.body
+        above = end_of([body[number - 1]]) if number else 0
+        return above, begin_of(body[number + 1]) if number + 1 < len(body) else sys.maxsize
 
     def _put(self, line: int, lines: list[str], place: str) -> None:
         if place != self.place:
@@ -235,7 +249,7 @@ class _Splitter:
             except CodeTextRefused as refused:
                 line = min(self.first + refused.line - 1, len(self.source.lines))
                 checklist = ("Correct this line.",)
-                raise CodeUnread(refused.sentence, line, checklist=checklist) from refused
+                raise CodeUnread(refused.reason, line, checklist=checklist) from refused
             self.parts.append(Part(self.first, None, text, self.place))
             self.lines = []
 

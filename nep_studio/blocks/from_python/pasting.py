@@ -46,7 +46,7 @@ def read_snippet(text: str, language: Language, base: Project) -> Clip:
             made.append(create_chain(scratch, reader.rule(node, 0)))
         elif isinstance(node, ast.FunctionDef):
             first = source.first_line(node, 0)
-            text = "\n".join(source.lines[first - 1 : node.end_lineno])
+            text = "\n".join(source.lines[first - 1 : source.end_inside(node)])
             made.append(create_outside(scratch, text, HERE, first))
         elif not _is_around(node, source) or len(source.tree.body) == 1:
             loose.append(node)

@@ -11,6 +11,7 @@ from nep_studio.blocks.code_text import CodeTextRefused, read_lines
 from nep_studio.blocks.editor import Editor
 from nep_studio.blocks.edits.placing import CreateBlocks
 from nep_studio.blocks.files import from_bytes, to_bytes
+from nep_studio.blocks.generate.expressions import comment_line, comment_text
 from nep_studio.blocks.language import Language
 from nep_studio.blocks.procedures import DEFINE, parameters
 from nep_studio.blocks.program import Project
@@ -82,9 +83,9 @@ class StatementReader:
         begin = self._keep_code(made, code, begin)
         said = self._source.comments_between(begin + 1, until, margin)
         note = self.values.type_of("note")
-        if said and note:
-            text = "\n".join(f"# {line}" for line in said)
-            made.append(Made(note, {"text": "\n".join(said)}, text=text))
+        made += [
+            Made(note, {"text": line}, text=comment_line(line)) for line in said if line and note
+        ]
         return made
 
     def rule(self, node: ast.FunctionDef, after: int) -> list[Made]:
@@ -108,7 +109,9 @@ class StatementReader:
             read_lines(text)
         except CodeTextRefused as refused:
             raise CodeUnread(
-                refused.sentence, first + refused.line - 1, checklist=("Correct this line.",)
+                refused.reason,
+                self._source.line_at(first, refused.line),
+                checklist=refused.checklist or ("Correct this line.",),
             ) from refused
         if not block_type:
             raise CodeUnread("There is no block for this.", first)
@@ -206,15 +209,15 @@ class StatementReader:
         """Put statements that are no blocks into one code block; gives the line after which."""
         if not code:
             return begin
-        made.append(self.code(code, begin))
-        end = end_of(code)
+        end = self._source.end_inside(code[-1])
+        made.append(self.code(code, begin, end))
         code.clear()
         return end
 
     def _describe(self, made: Made, nodes: Sequence[ast.stmt], begin: int) -> None:
         made.comment = self._source.comment_of(nodes[0], begin)
         first = self._source.first_line(nodes[0], begin)
-        made.text = self._source.text(first, end_of(nodes))
+        made.text = self._source.text(first, self._source.end_inside(nodes[-1]))
 
 
 def as_block(node: ast.stmt) -> ast.stmt:
@@ -311,8 +314,8 @@ def read_rules(
         is_known = left[text] >= 0 and not any(node.lineno <= n <= last for n in kept)
         chain = [] if is_known else reader.rule(node, after)
         if chain and above:
-            said = [line.lstrip("#").strip() for line in above.split("\n")]
-            chain[0].comment = "\n".join([*said, *filter(None, [chain[0].comment])])
+            said = "\n".join(map(comment_text, above.split("\n"))).strip("\n")
+            chain[0].comment = "\n".join(filter(None, [said, chain[0].comment]))
             chain[0].text = f"{above}\n{chain[0].text}"
         rules.append(ReadRule(node, chain, text))
     return rules

@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import ast
 import io
+import itertools
 import tokenize
 import warnings
-from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
 
-from nep_studio.blocks.code_text import lines_inside_texts
+from nep_studio.blocks.code_text import lines_inside_texts, outside_functions
+from nep_studio.blocks.generate.expressions import comment_line, comment_text
 
 from .learning import CodeUnread
 from .mistakes import checklist_of, too_deep
@@ -22,7 +24,8 @@ class Source:
     """A Python text; ``comments`` are the comments by line, ``alone`` the lines of only one.
 
     ``inside_texts`` are the lines that begin inside a text of several lines, ``set_aside`` those
-    of “global” statements, which blocks write by themselves: nothing is left of them but comments.
+    of “global” statements, which blocks write by themselves, each with what is left of it: comments
+    stay in any case, and “pass” where nothing else is done.
     """
 
     lines: tuple[str, ...]
@@ -30,7 +33,7 @@ class Source:
     comments: dict[int, str]
     alone: frozenset[int]
     inside_texts: frozenset[int]
-    set_aside: frozenset[int] = frozenset()
+    set_aside: Mapping[int, str] = field(default_factory=dict)
 
     def first_line(self, node: ast.stmt, after: int) -> int:
         """Where a statement begins with its decorators and the comments above it."""
@@ -49,8 +52,14 @@ class Source:
 
     def last_line(self, body: Sequence[ast.stmt]) -> int:
         """The last line of comments that stand below statements as far in as those do."""
-        last = line = end_of(body)
-        margin = body[0].col_offset
+        return self._last_line(end_of(body), body[0].col_offset)
+
+    def end_inside(self, node: ast.stmt) -> int:
+        """The last line of a statement, with the comments below it that are further in than it."""
+        return self._last_line(end_of([node]), node.col_offset + 1)
+
+    def _last_line(self, line: int, margin: int) -> int:
+        last = line
         while line < len(self.lines) and (
             self._is_empty(line + 1) or self._is_alone(line + 1, margin)
         ):
@@ -69,12 +78,13 @@ class Source:
         said = [self.comments[line] for line in range(first, begin) if line in self.comments]
         if node.lineno in self.comments and node.lineno not in self.alone:
             said.append(self.comments[node.lineno])
-        return "\n".join(said)
+        return "\n".join(said).strip("\n")
 
     def comment_of_function(self, node: ast.FunctionDef, after: int) -> str:
         """The comments above a function and in the lines before its body."""
         numbers = range(self.first_line(node, after), self.line_before(node.body) + 1)
-        return "\n".join(self.comments[line] for line in numbers if line in self.comments)
+        said = [self.comments[line] for line in numbers if line in self.comments]
+        return "\n".join(said).strip("\n")
 
     def comments_between(self, first: int, last: int, margin: int) -> list[str]:
         """The comments on lines of their own from one line to another, so far in."""
@@ -89,17 +99,21 @@ class Source:
         lines = [self._line(n)[margin if n in code else 0 :] for n in numbers]
         return "\n".join(lines).rstrip()
 
+    def line_at(self, first: int, number: int) -> int:
+        """Which line of the source a line is in the text of lines from one on, counted from 1."""
+        lines = (n for n in range(first, len(self.lines)) if not self._is_aside(n))
+        return next(itertools.islice(lines, number - 1, None), len(self.lines))
+
     def _line(self, line: int) -> str:
-        """A line, of one that is set aside the comment alone."""
+        """A line, of one that is set aside what is left of it."""
         text = self.lines[line - 1]
-        return (
-            text[: self.margin(line)] + f"# {self.comments[line]}"
-            if (line in self.set_aside)
-            else text
-        )
+        if line not in self.set_aside:
+            return text
+        said = comment_line(self.comments[line]) if line in self.comments else ""
+        return text[: self.margin(line)] + "  ".join(filter(None, [self.set_aside[line], said]))
 
     def _is_aside(self, line: int) -> bool:
-        return line in self.set_aside and line not in self.comments
+        return self.set_aside.get(line) == "" and line not in self.comments
 
     def _is_above(self, line: int, node: ast.stmt) -> bool:
         return line in self.alone and self.margin(line) <= node.col_offset
@@ -142,8 +156,8 @@ def read_source(text: str, *, is_program: bool = False) -> Source:
             "Python cannot read this.", 1, checklist=("Undo the last change of the code.",)
         ) from error
     inside = frozenset(lines_inside_texts(tree))
-    aside = frozenset(_set_aside(tree, lines))
-    alone |= aside & comments.keys()
+    aside = dict(_set_aside(tree, lines))
+    alone |= aside.keys() & comments.keys()
     return Source(lines, tree, comments, frozenset(alone), inside, aside)
 
 
@@ -155,14 +169,38 @@ def _require_whole(text: str, tree: ast.Module, lines: Sequence[str]) -> None:
         raise too_deep(tree, lines) from error
 
 
-def _set_aside(tree: ast.Module, lines: Sequence[str]) -> Iterator[int]:
-    """The lines of “global” statements directly in a function of the text, with nothing else."""
+def _set_aside(tree: ast.Module, lines: Sequence[str]) -> Iterator[tuple[int, str]]:
+    """The lines of “global” statements in functions of the text, with what is left of each.
+
+    Those of functions in functions, and lines with something else, stay.
+    """
     for function in tree.body:
-        for node in function.body if isinstance(function, ast.FunctionDef) else ():
-            if isinstance(node, ast.Global) and node.lineno == node.end_lineno:
-                code = lines[node.lineno - 1].partition("#")[0]
-                if code.split()[:1] == ["global"] and ";" not in code:
-                    yield node.lineno
+        if not isinstance(function, ast.FunctionDef):
+            continue
+        inside = (n for one in function.body for n in outside_functions(one) if not _is_scope(n))
+        for node in itertools.chain([function], inside):
+            for body in _bodies(node):
+                found = [one.lineno for one in body if _is_plain_global(one, lines)]
+                left = "pass" if len(found) == len(body) else ""
+                yield from ((line, left if line == found[0] else "") for line in found)
+
+
+def _bodies(node: ast.AST) -> Iterator[list[ast.stmt]]:
+    """The lists of statements that are in a part of a function."""
+    for name in ("body", "orelse", "finalbody"):
+        if isinstance(body := getattr(node, name, None), list):
+            yield body
+
+
+def _is_scope(node: ast.AST) -> bool:
+    return isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef | ast.ClassDef | ast.Lambda)
+
+
+def _is_plain_global(node: ast.stmt, lines: Sequence[str]) -> bool:
+    if not isinstance(node, ast.Global) or node.lineno != node.end_lineno:
+        return False
+    code = lines[node.lineno - 1].partition("#")[0]
+    return code.split()[:1] == ["global"] and ";" not in code
 
 
 def end_of(nodes: Sequence[ast.stmt]) -> int:
@@ -182,7 +220,7 @@ def _comments(text: str) -> tuple[dict[int, str], set[int]]:
     alone: set[int] = set()
     for token in tokenize.generate_tokens(io.StringIO(text).readline):
         if token.type == tokenize.COMMENT:
-            comments[token.start[0]] = token.string.lstrip("#").strip()
+            comments[token.start[0]] = comment_text(token.string)
             if not token.line[: token.start[1]].strip():
                 alone.add(token.start[0])
     return comments, alone

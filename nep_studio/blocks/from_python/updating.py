@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+import itertools
 import logging
 import textwrap
 from collections.abc import Callable, Iterator, Sequence
@@ -15,8 +16,14 @@ from faults import Words
 from nep_studio.blocks.code_text import CodeTextRefused, read_outside
 from nep_studio.blocks.deployment import OUTSIDE_BLOCK, chains, names_used, robot_entries
 from nep_studio.blocks.editor import Editor
-from nep_studio.blocks.edits.content import SetComment, SetField
+from nep_studio.blocks.edits.content import (
+    ChangeProcedure,
+    RemoveProcedure,
+    SetComment,
+    SetField,
+)
 from nep_studio.blocks.edits.placing import CreateBlocks, DeleteBlocks, MoveBlocks
+from nep_studio.blocks.edits.project import RemoveVariable
 from nep_studio.blocks.errors import BlocksError, CodeRefused, EditRefused
 from nep_studio.blocks.generate.expressions import comment_lines
 from nep_studio.blocks.generate.program import generate_program
@@ -24,14 +31,14 @@ from nep_studio.blocks.generate.source_map import Code
 from nep_studio.blocks.operations.finding import why_not_robot_name
 from nep_studio.blocks.operations.fixes import rename_robot
 from nep_studio.blocks.operations.selection import chain_around
-from nep_studio.blocks.places import InBody, InInput, InStack, NewStack, Place
-from nep_studio.blocks.procedures import procedure_of
-from nep_studio.blocks.program import Block, Project, split_slot
+from nep_studio.blocks.places import InBody, InInput, InStack, NewStack, Place, variable_uses
+from nep_studio.blocks.procedures import parameters, procedure_of
+from nep_studio.blocks.program import Block, Parameter, Procedure, Project, split_slot
 
 from .comparing import lost_lines
-from .learning import CodeUnread, Made, blocks_of
+from .learning import CodeUnread, Made, RefusedAtLine, at_line, blocks_of
 from .mistakes import too_deep
-from .naming import Hints, Turns
+from .naming import Hints, Turns, own_names, variable_name, words_of
 from .outside import Part, parts_of
 from .reading import ReadRule, create_chain, create_outside, read_rules
 from .source import Source, read_source
@@ -180,11 +187,18 @@ class ChainUpdater:
 
 @dataclass(frozen=True, slots=True)
 class _Written:
-    """A stack that makes a function now: its chain and its lines."""
+    """A stack that makes a function now: its chain and its lines.
+
+    ``procedure`` is the own block that it defines, if any, ``given`` are the values of that one,
+    ``shared`` the names in its “global” line.
+    """
 
     stack: str
     function: str
     text: str
+    procedure: str
+    given: list[str]
+    shared: set[str]
 
 
 def update_from_python(editor: Editor, text: str) -> None:
@@ -244,15 +258,20 @@ def _update_until_same(editor: Editor, source: Source) -> None:
                 raise CodeUnread(
                     differs.sentence,
                     min(differs.lines),
-                    checklist=("Write it in another way.", "Or undo the last change."),
+                    checklist=_OTHERWISE,
                 ) from differs
             kept |= differs.lines
         except EditRefused as refused:
             if anew:
-                raise CodeUnread(refused.sentence, 1, checklist=refused.checklist) from refused
+                line = refused.line if isinstance(refused, RefusedAtLine) else 1
+                checklist = refused.checklist or _OTHERWISE
+                raise CodeUnread(refused.sentence, line, checklist=checklist) from refused
             anew = True
         else:
             return
+
+
+_OTHERWISE = ("Write it in another way.", "Or undo the last change.")
 
 
 class _Differs(Exception):
@@ -277,7 +296,11 @@ def _update(
     _rename_robot(editor, source)
     code = _code(editor)
     written = _written(editor.project, code)
-    known_texts = [] if anew else [w.text for w in written]
+    if _rename_own_blocks(editor, source, parts, written):
+        code = _code(editor)
+        written = _written(editor.project, code)
+    own = own_names(source.tree, [part.function for part in parts if part.function])
+    known_texts = [] if anew else [w.text for w in written if not own & w.shared]
     rules = read_rules(editor, source, parts, kept, known_texts, hints)
     left = {stack.stack: stack for stack in written}
     same = [
@@ -294,11 +317,14 @@ def _update(
             known = _take(left, (w for w in left.values() if w.function == name))
             if known is None and len(rules) == len(written):  # it has got another name
                 known = left.pop(written[number].stack, None)
-            firsts.append(_change(editor, code, rule, known, anew, page))
+            with at_line(rule.function.lineno):
+                firsts.append(_change(editor, code, rule, known, anew, page))
         page = editor.project.page_of(firsts[-1])
     for gone in left.values():
         stack = editor.project.stacks[gone.stack]
         editor.apply(DeleteBlocks(stack.body[0], len(stack.body)))
+    _remove_own_blocks(editor, written)
+    _remove_variables(editor, own)
     _put_in_order(editor, _update_outside(editor, parts, firsts))
     stacks = [editor.project.stack_of(first).id for first in firsts]
     return parts, dict(zip(stacks, (rule.function for rule in rules), strict=True))
@@ -322,6 +348,79 @@ def _rename_robot(editor: Editor, source: Source) -> None:
             rename_robot(editor, listed[gone[0]], new[0])
         except EditRefused:  # Python that is to be read anew names it in another way
             log.debug("a robot keeps its name until the text is read")
+
+
+def _rename_own_blocks(
+    editor: Editor, source: Source, parts: Sequence[Part], written: Sequence[_Written]
+) -> bool:
+    """Give own blocks, and their values, the names that they have in the text; says if any had not.
+
+    Those that are in it by no name of theirs are the new ones there, in their order. One that
+    gives a value now, or none any more, makes way for a new one.
+    """
+    plain = [p.function for p in parts if p.function and not p.function.decorator_list]
+    there = {function.name: function for function in plain}
+    before = {one.function: one for one in written if one.procedure}
+    new = [name for name in there if name not in before]
+    gone = [name for name in before if name not in there]
+    names = dict(zip(gone, new, strict=True)) if len(gone) == len(new) else {}
+    is_changed = False
+    for one in before.values():
+        function = there.get(names.get(one.function, one.function))
+        given = [argument.arg for argument in function.args.args] if function else []
+        if function is None or len(given) != len(one.given):
+            continue
+        lines = source.lines[function.lineno - 1 : function.end_lineno]
+        if _gives_value(lines) != _gives_value(one.text.splitlines()):
+            taken = {*there, *before}
+            names_left = (f"{one.function}_{number}" for number in itertools.count(2))
+            free = next(name for name in names_left if name not in taken)
+            is_changed |= _rename_own_block(editor, one, free, one.given)
+        elif (function.name, given) != (one.function, one.given):
+            is_changed |= _rename_own_block(editor, one, function.name, given)
+    return is_changed
+
+
+def _gives_value(lines: Sequence[str]) -> bool:
+    return any(line.lstrip().startswith("return ") for line in lines)
+
+
+def _rename_own_block(editor: Editor, one: _Written, name: str, given: Sequence[str]) -> bool:
+    """Give an own block and its values other names in Python; says whether it could be."""
+    procedure = editor.project.procedures[one.procedure]
+    values = [
+        part if old == new else Parameter(part.id, words_of(new), part.kind)
+        for part, old, new in zip(parameters(procedure), one.given, given, strict=True)
+    ]
+    of_values = iter(values)
+    parts = [next(of_values) if isinstance(p, Parameter) else p for p in procedure.parts]
+    if name != one.function:
+        said = [part for part in parts if isinstance(part, str)]
+        first = parts.index(said[0])
+        parts = [p for p in parts if isinstance(p, Parameter)]
+        parts.insert(first if len(said) == 1 else 0, words_of(name))
+    try:
+        editor.apply(ChangeProcedure(Procedure(procedure.id, tuple(parts), procedure.gives_value)))
+    except EditRefused:  # Python that is to be read anew names it in another way
+        log.debug("an own block keeps its name until the text is read")
+        return False
+    return True
+
+
+def _remove_own_blocks(editor: Editor, written: Sequence[_Written]) -> None:
+    """Remove the own blocks that were defined and are not any more, where nothing has them."""
+    used = {procedure_of(block.type) for block in editor.project.blocks.values()}
+    for one in written:
+        if one.procedure and one.procedure not in used:
+            editor.apply(RemoveProcedure(one.procedure))
+
+
+def _remove_variables(editor: Editor, own: set[str]) -> None:
+    """Remove the variables whose names rules have for themselves now, where no block has them."""
+    variables = editor.project.variables if own else ()
+    for variable in [one for one in variables if variable_name(one.name) in own]:
+        if not variable_uses(editor.project, variable.id):
+            editor.apply(RemoveVariable(variable.id))
 
 
 def _update_outside(editor: Editor, parts: Sequence[Part], firsts: Sequence[str]) -> list[str]:
@@ -395,7 +494,8 @@ def _change(
     if known is None:
         return create_chain(editor, rule.chain, page=page)
     stack = editor.project.stacks[known.stack]
-    if not anew:
+    hat = editor.project.blocks[stack.body[0]].type
+    if not anew and (hat == rule.chain[0].type or not procedure_of(hat)):
         return ChainUpdater(editor, code).update_stack(stack.body[0], rule.chain)
     page = editor.project.page_of(stack.id)
     editor.apply(DeleteBlocks(stack.body[0], len(stack.body)))
@@ -443,12 +543,17 @@ def _written(project: Project, code: Code) -> list[_Written]:
     found, every = [], code.text.splitlines()
     for stack, (first, last) in spans.items():
         hat, numbers = project.stacks[stack].body[0], range(first, last + 1)
-        lines = [
-            line
-            for line, number in zip(every[first - 1 : last], numbers, strict=True)
-            if not (line.startswith("    global ") and code.blocks[number - 1] == hat)
-        ]  # as a text is read: without what the program writes by itself
-        headers = (line[4:].partition("(")[0] for line in lines if line.startswith("def "))
+        lines, shared = list[str](), set[str]()
+        for line, number in zip(every[first - 1 : last], numbers, strict=True):
+            if line.startswith("    global ") and code.blocks[number - 1] == hat:
+                # as a text is read: without what the program writes by itself
+                shared.update(line.removeprefix("    global ").split(", "))
+            else:
+                lines.append(line)
+        header = next((line[4:] for line in lines if line.startswith("def ")), "")
+        name, _, said = header.removesuffix("):").partition("(")
+        given = said.split(", ") if said else []
         text = textwrap.dedent("\n".join(lines)).rstrip()
-        found.append(_Written(stack, next(headers, ""), text))
+        procedure = procedure_of(project.blocks[hat].type)
+        found.append(_Written(stack, name, text, procedure, given, shared))
     return found

@@ -15,7 +15,7 @@ from nep_studio.blocks.errors import CodeRefused
 from nep_studio.blocks.language import Language
 from nep_studio.blocks.program import Block, Project, split_slot
 from nep_studio.blocks.sharing import Sharing
-from nep_studio.blocks.slots import TEXT_RESULTS, FieldValue, Kind, constant
+from nep_studio.blocks.slots import JOINERS, TEXT_RESULTS, FieldValue, Kind, constant
 
 from .kinds import (
     LIST,
@@ -578,9 +578,26 @@ Piece = str | Body | Function | Assignment | Leave | EndRule | GiveBack | Writte
 StatementGenerator = Callable[[Expressions, Block], Sequence[Piece]]
 
 
+# Comments: those of blocks are without the sign and the space behind it.
+
+
 def comment_lines(text: str) -> Iterator[str]:
-    """A text as comments of Python; control characters could end a comment."""
-    for line in text.splitlines():
-        visible = "".join(c if c.isprintable() else " " for c in line).strip()
-        if visible:
-            yield f"# {visible}"
+    """A text as comments of Python; lines without words stay between others."""
+    lines = [visible_line(line) for line in text.splitlines()]
+    yield from map(comment_line, "\n".join(lines).strip("\n").split("\n") if any(lines) else ())
+
+
+def comment_line(text: str) -> str:
+    """A line as a comment of Python. One that begins with the sign is one of signs, as “####”."""
+    return f"#{text}" if not text or text.lstrip().startswith("#") else f"# {text}"
+
+
+def comment_text(comment: str) -> str:
+    """What a comment of Python says: what ``comment_line`` makes it of."""
+    text = visible_line(comment[1:])
+    return text if text.lstrip().startswith("#") else text.removeprefix(" ")
+
+
+def visible_line(text: str) -> str:
+    """A line with spaces for control characters, which could end a comment; none at its end."""
+    return "".join(c if c.isprintable() or c in JOINERS else " " for c in text).rstrip()

@@ -27,6 +27,15 @@ def body_of(editor) -> str:
     return textwrap.dedent(body)
 
 
+def assert_same_again(editor) -> None:
+    """The program that has been made becomes no other one by its own text."""
+    before = to_bytes(editor.project)
+
+    update_from_python(editor, generate_program(editor.project, editor.language).text)
+
+    assert to_bytes(editor.project) == before
+
+
 @pytest.mark.parametrize(
     ("written", "made"),
     [
@@ -36,12 +45,169 @@ def body_of(editor) -> str:
         ("# above\n\nwait(1)", "# above\nwait(1)"),
         ("if True:\n    # nothing\n    pass", "if True:\n    # nothing\n    pass"),
         ("if True:\n    wait(1)\n\n    # end", "if True:\n    wait(1)\n    # end"),
+        ("wait(1)\n# one\n# two", "wait(1)\n# one\n# two"),
+        ("wait(1)\n# one\n\n# two", "wait(1)\n# one\n# two"),
+        ("pass\n# one\n# two", "# one\n# two\npass"),
+        ("try:\n    wait(1)\nexcept ValueError:\n    wait(2)\n    # end", None),
+        ("try:\n    wait(1)\nfinally:\n    wait(2)\n    # end\n# below\nwait(3)", None),
+        ("with open('a'):\n    if x:\n        wait(2)\n        # in\n    # end", None),
+        ("while x:\n    wait(1)\nelse:\n    wait(2)\n    # one\n    # two", None),
+        ("while x:\n    for i in range(2):\n        print(i)\n        # end", None),
+        ("def inner():\n    return 1\n    # end\n\ninner()", None),
+        ("wait(1)\n    # further in", None),
+        ("for _ in range(2):\n    wait(1)\n    # one\n    # two", None),
+        ("if True:\n    wait(1)\nelse:\n    wait(2)\n    # one\n    # two\n# three", None),
+        ("wait(1)\n# one\ttwo", "wait(1)\n# one two"),
+        ("wait(1)\n# one\n#\n# two\nwait(2)", None),
+        ("#\n# one\n#\nwait(2)", "# one\nwait(2)"),
+        ("#\nwait(2)\n#", "wait(2)"),
+        ("#one\n#  two\nwait(2)", "# one\n#  two\nwait(2)"),
     ],
 )
 def test_a_comment_stays_wherever_it_stands(language, written, made):
     editor = updated(language, written)
 
-    assert body_of(editor) == made
+    assert body_of(editor) == (made or written)
+    assert_same_again(editor)
+
+
+COMMENTS = [
+    "# for i in range(3):\n#     nao.say(i)\n#         deep",
+    "###########\n# a title #\n###########",
+    "## a heading",
+    "# # commented out twice",
+    "# -----",
+    "# 👩\u200d👩\u200d👧 and \u0645\u06cc\u200c\u062e",
+]
+
+
+@pytest.mark.parametrize("comment", COMMENTS)
+@pytest.mark.parametrize("above", ["wait(1)\n", "print('a')\n", "if x:\n    wait(1)\n    "])
+@pytest.mark.parametrize("below", ["", "\nwait(2)", "\nprint('b')"])
+def test_a_comment_is_kept_to_the_letter(language, above, comment, below):
+    margin = above.rpartition("\n")[2]
+    written = above + comment.replace("\n", f"\n{margin}") + below
+
+    editor = updated(language, written)
+
+    assert body_of(editor) == written
+    assert_same_again(editor)
+
+
+@pytest.mark.parametrize("comment", [*COMMENTS, "# one\n#\n# two"])
+def test_a_comment_above_a_rule_is_kept_to_the_letter(language, comment):
+    editor = updated(language, "wait(1)")
+    text = generate_program(editor.project, language).text.replace("\n@", f"\n{comment}\n@")
+
+    update_from_python(editor, text)
+
+    assert generate_program(editor.project, language).text == text
+    assert_same_again(editor)
+
+
+@pytest.mark.parametrize(
+    "written",
+    [
+        "if True:\n    global x  # all\n    x = 1",
+        "if True:\n    global x  # all\n    x = 1\nelse:\n    print(x)",
+        "try:\n    global x\n    x = 1\nexcept ValueError:\n    wait(1)",
+        "try:\n    wait(1)\nexcept ValueError:\n    # all\n    global x\n    x = 1  # one",
+        "with open('a'):\n    global x  # all\n    global y\n    x = y = 2",
+        "while True:\n    wait(1)\nelse:\n    global x\n    x = 1",
+        "match 1:\n    case 1:\n        global x\n        x = 1",
+        "if True:\n    global x",
+        "try:\n    global x\nfinally:\n    wait(1)\nx = 1",
+        "global x",
+        "def inner():\n    global x\n    x = 1\ninner()",
+    ],
+)
+def test_a_global_line_may_stand_wherever_there_are_statements(language, written):
+    editor = updated(language, written)
+
+    kept = [line for line in written.splitlines() if "= " in line or "wait" in line]
+    assert all(line.strip().partition("  #")[0] in body_of(editor) for line in kept)
+    assert all(f"# {word}" in body_of(editor) for word in ("all", "one") if f"# {word}" in written)
+    assert "global x" in body_of(editor) or "x =" not in written
+    assert_same_again(editor)
+
+
+@pytest.mark.parametrize(
+    ("written", "line", "sentence", "step"),
+    [
+        ("with open('a'):\n    global x; x = 1", 2, "writes “global” by itself", "first in"),
+        ("global x\n\nfor i in [1]:\n    # all\n    print(x)\n    yield i", 6, "yield", "Correct"),
+        ("global x\nwith open('a'):\n    x = '\u202e'", 3, "cannot be seen", "Correct"),
+    ],
+)
+def test_what_no_block_may_hold_is_told_once_with_its_line(language, written, line, sentence, step):
+    with pytest.raises(CodeUnread, match=sentence) as raised:
+        updated(language, written)
+
+    assert raised.value.line == line + 8
+    assert str(raised.value.sentence).count("Line") == 1
+    assert step in str(raised.value.checklist[0])
+
+
+OUTSIDE = [
+    "def f(a=1):\n    return a\n    # one\n\n    # two",
+    "class A:\n    def f(self):\n        return 1\n\n    # def g(self):\n    #     return 2",
+    "if 1 > 0:\n    MODE = 1\n    # MODE = 2\nelse:\n    MODE = 3\n    # MODE = 4",
+    "for i in [1]:\n    if i:\n        print(i)\n        # in\n    # end\n\n# below\nprint(2)",
+]
+
+
+@pytest.mark.parametrize("outside", OUTSIDE)
+def test_a_comment_last_in_own_python_stays_in_it(language, outside):
+    editor = updated(language, "wait(1)")
+    text = generate_program(editor.project, language).text
+    text = text.replace("\n\n\n@", f"\n\n{outside}\n\n\n@")
+
+    update_from_python(editor, text)
+
+    assert f"\n\n{outside}\n\n\n" in generate_program(editor.project, language).text
+    assert_same_again(editor)
+
+
+@pytest.mark.parametrize(
+    ("written", "made"),
+    [
+        ("a = 1; b = 2  # two", "a = 1\nb = 2  # two"),
+        ("a = 1; b = 2; c = [  # three\n    3,\n]  # end", None),
+        ("a = [\n    1,  # one\n]; b = 2  # two", "a = [\n    1,  # one\n]\nb = 2  # two"),
+        ("import time; import random  # both", "import random  # both"),
+        ("a = 0; b = 0  # two", "b = 0  # two"),
+        ("a = f = 1; nao = 0  # two\nprint(a)", "a = f = 1\nnao = 0  # two\nprint(a)"),
+    ],
+)
+def test_a_comment_behind_several_statements_stays_behind_the_last(language, written, made):
+    editor = updated(language, "wait(1)")
+    text = generate_program(editor.project, language).text
+    text = text.replace("\n\n\n@", f"\n\n{written}\n\n\n@")
+
+    update_from_python(editor, text)
+
+    made = made or written.replace("; ", "\n")
+    assert f"\n{made}\n\n\n" in generate_program(editor.project, language).text
+    assert_same_again(editor)
+
+
+def test_a_comment_last_below_the_end_stays_there(language):
+    editor = updated(language, "wait(1)")
+    text = generate_program(editor.project, language).text
+    end = 'if __name__ == "__main__":\n    behavior.run()\n    # print("end")\n'
+
+    update_from_python(editor, text.replace("behavior.run()\n", end))
+
+    assert generate_program(editor.project, language).text.endswith(end)
+    assert_same_again(editor)
+
+
+def test_what_the_program_cannot_hold_is_told_with_its_rule(language):
+    with pytest.raises(CodeUnread, match="too long") as raised:
+        updated(language, "wait(1)\n# " + "x" * 100_001)
+
+    assert raised.value.line == 8
+    assert raised.value.checklist
 
 
 def test_a_comment_at_the_top_of_the_text_is_in_no_body(language):

@@ -2,15 +2,19 @@
 
 from __future__ import annotations
 
+import pytest
 from block_building import B, build
 
 from nep_studio.blocks.editor import Editor
 from nep_studio.blocks.edits.content import AddProcedure
+from nep_studio.blocks.files import to_bytes
+from nep_studio.blocks.from_python.updating import update_from_python
 from nep_studio.blocks.generate.program import generate_program
 from nep_studio.blocks.operations.copying import copy, from_text, paste, to_text
 from nep_studio.blocks.operations.finding import definition_of, subjects_of, uses_of
 from nep_studio.blocks.operations.moving import create_and_drop, reporter_of
 from nep_studio.blocks.places import InInput
+from nep_studio.blocks.procedures import words
 from nep_studio.blocks.program import Parameter, Procedure, Project
 from tests.blocks.block_building import read_program
 
@@ -137,3 +141,114 @@ behavior.run()
 
     assert generate_program(project, language).text == text
     assert "code.value" not in {block.type for block in project.blocks.values()}
+
+
+TWO = """from nep_core import Behavior, Robot
+
+nao = Robot("NAO")
+behavior = Behavior("Two")
+
+
+def double(n):
+    return n * 2
+
+
+def tell(x):
+    nao.say(str(double(x)))
+
+
+@behavior.when_started
+def when_started():
+    tell(2)
+    nao.say(str(double(3)))
+
+
+behavior.run()
+"""
+
+
+@pytest.mark.parametrize(
+    "changes",
+    [
+        [("double", "twice")],
+        [("tell", "say_it")],
+        [("double", "twice"), ("tell", "say_it")],
+        [("double(n)", "double(much)"), ("n * 2", "much * 2")],
+    ],
+    ids=str,
+)
+def test_an_own_block_gets_the_names_of_the_text(language, changes):
+    editor = updated(Editor(Project("Two"), language), TWO)
+    blocks, own = list(editor.project.blocks), list(editor.project.procedures)
+    text = generate_program(editor.project, language).text
+    for old, new in changes:
+        text = text.replace(old, new)
+
+    updated(editor, text)
+
+    assert generate_program(editor.project, language).text == text
+    assert (list(editor.project.blocks), list(editor.project.procedures)) == (blocks, own)
+    assert_same_again(editor)
+
+
+SAID = ("nao.say(str(double(3)))", "double(3)")
+
+
+@pytest.mark.parametrize(
+    "changes",
+    [
+        [("tell(x)", "tell(x, y)"), ("tell(2)", "tell(2, 3)")],
+        [("tell(x)", "tell(x, y)"), ("tell(2)", "tell(2, 3)"), ("tell", "say_it")],
+        [("nao.say(str(double(x)))", "return x"), ("    tell(2)", "    nao.say(str(tell(2)))")],
+        [("return n * 2", 'nao.say("a")'), ("nao.say(str(double(x)))", "double(x)"), SAID],
+        [("double(n)", "double(n, m)"), ("double(x)", "double(x, 1)"), ("e(3)", "e(3, 1)")],
+        [("tell(x)", "tell()"), ("double(x)", "double(1)"), ("tell(2)", "tell()")],
+        [
+            ("def double(n):\n    return n * 2\n\n\n", ""),
+            ("str(double(x))", '"a"'),
+            ("str(double(3))", '"b"'),
+        ],
+    ],
+    ids=str,
+)
+def test_an_own_block_with_other_values_is_made_anew(language, changes):
+    editor = updated(Editor(Project("Two"), language), TWO)
+    text = generate_program(editor.project, language).text
+    for old, new in changes:
+        text = text.replace(old, new)
+
+    updated(editor, text)
+
+    assert generate_program(editor.project, language).text == text
+    assert not {"code.lines", "code.program"} & {b.type for b in editor.project.blocks.values()}
+    assert len(editor.project.procedures) == text.count("\ndef ") - 1
+    assert_same_again(editor)
+
+
+def test_an_own_block_that_a_loose_block_calls_stays_beside_the_new_one(language):
+    editor = updated(Editor(Project("Two"), language), TWO)
+    (old,) = (p for p in editor.project.procedures.values() if words(p) == "tell")
+    build(language, [B(f"my.call.{old.id}")], editor=editor)
+    text = generate_program(editor.project, language).text
+    text = text.replace("tell(x)", "tell(x, y)").replace("tell(2)", "tell(2, 3)")
+
+    updated(editor, text)
+
+    assert generate_program(editor.project, language).text == text
+    assert [words(p) for p in editor.project.procedures.values()].count("tell") == 2
+    assert_same_again(editor)
+
+
+def updated(editor: Editor, text: str) -> Editor:
+    """The editor with its program made what a text says."""
+    update_from_python(editor, text)
+    return editor
+
+
+def assert_same_again(editor: Editor) -> None:
+    """The program that has been made becomes no other one by its own text."""
+    before = to_bytes(editor.project)
+
+    updated(editor, generate_program(editor.project, editor.language).text)
+
+    assert to_bytes(editor.project) == before

@@ -178,3 +178,31 @@ def test_a_text_with_values_in_braces_is_a_value_among_blocks(language):
 
     assert said in generate_program(editor.project, language).text
     assert not any(block.type == "code.lines" for block in editor.project.blocks.values())
+
+
+@pytest.mark.parametrize(
+    "body",
+    ["n = 1\nnao.say(as_text(n))", "for n in range(3):\n    nao.say(as_text(n))", "n = [1, 2]"],
+)
+def test_a_variable_that_is_not_in_the_text_any_more_is_none(language, body):
+    text = f"{HEAD}\n\n@behavior.when_started\ndef when_started():\n{indented(body)}\n\n\nbehavior.run()\n"
+    new, editor = Editor(Project("T"), language), Editor(Project("T"), language)
+    update_from_python(new, text)
+    before = text.replace("\n\n\n@", "\nn = 0\n\n\n@").replace("():\n", "():\n    global n\n")
+    update_from_python(editor, before)
+
+    update_from_python(editor, text)
+
+    made = generate_program(editor.project, language).text
+    assert made == generate_program(new.project, language).text
+    assert not editor.project.variables
+
+
+def test_a_variable_of_a_loose_block_stays_and_is_told(language):
+    text = f"{HEAD}\n\n@behavior.when_started\ndef when_started():\n    n = 1\n\n\nbehavior.run()\n"
+    editor = build(language, [B("variable.set", {"variable": "v1"})], variables=("n", "m"))
+
+    with pytest.raises(CodeUnread, match="a variable of the whole program"):
+        update_from_python(editor, text)
+
+    assert [variable.name for variable in editor.project.variables] == ["n", "m"]
