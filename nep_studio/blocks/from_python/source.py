@@ -92,11 +92,13 @@ class Source:
         return [self.comments[line] for line in lines if self.margin(line) == margin]
 
     def text(self, first: int, last: int) -> str:
-        """Lines of the text, without their common margin; texts of several lines keep theirs."""
+        """Lines of the text, without the margin of the first; texts of several lines keep theirs."""
         numbers = [n for n in range(first, last + 1) if not self._is_aside(n)]
-        code = [n for n in numbers if n not in self.inside_texts and not self._is_empty(n)]
-        margin = min(map(self.margin, code), default=0)
-        lines = [self._line(n)[margin if n in code else 0 :] for n in numbers]
+        code = {n for n in numbers if n not in self.inside_texts and not self._is_empty(n)}
+        # the first statement is the least far in: comments and lines in brackets stand anywhere
+        begin = min(code - self.alone or code, default=first)
+        margins = {n: min(self.margin(begin), self.margin(n)) for n in code}
+        lines = [self._line(n)[margins.get(n, 0) :] for n in numbers]
         return "\n".join(lines).rstrip()
 
     def line_at(self, first: int, number: int) -> int:

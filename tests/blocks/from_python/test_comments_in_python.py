@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import ast
 import textwrap
 
 import pytest
@@ -68,6 +69,35 @@ def test_a_comment_stays_wherever_it_stands(language, written, made):
     editor = updated(language, written)
 
     assert body_of(editor) == (made or written)
+    assert_same_again(editor)
+
+
+@pytest.mark.parametrize(
+    "lines",
+    [
+        "    if 1 < 2:\n# zero\n        wait(1)",
+        "    if 1 < 2:\n        wait(1)\n  # zero\n        wait(2)",
+        "    if x:\n        wait(1)\n    else:\n# zero\n        wait(2)",
+        "    for _ in range(2):\n# zero\n        wait(1)",
+        "    for i, y in enumerate([1]):\n# zero\n        print(y)",
+        "    for i, y in enumerate([1]):\n        print(y)\n# zero\n        print(i)",
+        "    try:\n# zero\n        print(1)\n    finally:\n        print(2)",
+        "    def inner():\n# zero\n        print(1)\n    inner()",
+        "    with open('a'):\n        poem = '''\na\n  b'''\n# zero\n        print(poem)",
+        "    y = sorted([\n# zero\n        1])",
+        "    y = sorted([\n1,\n# zero\n        2])",
+        "    wait(\n# zero\n1\n)",
+    ],
+)
+def test_a_comment_less_far_in_than_what_is_around_it_is_kept(language, lines):
+    editor = build(language, [B("event.started"), B("control.wait")], variables=("x",))
+    text = generate_program(editor.project, language).text.replace("    wait(1)", lines)
+
+    update_from_python(editor, text)
+
+    again = generate_program(editor.project, language).text
+    assert "# zero" in again
+    assert ast.dump(ast.parse(again).body[-2]) == ast.dump(ast.parse(text).body[-2])
     assert_same_again(editor)
 
 
