@@ -11,7 +11,7 @@ from nep_studio.blocks.code_text import CodeTextRefused, compile_quietly
 from nep_studio.blocks.editor import Editor
 from nep_studio.blocks.errors import CodeRefused
 from nep_studio.blocks.generate.names import API
-from nep_studio.blocks.generate.program import ProgramGenerator
+from nep_studio.blocks.generate.program import ProgramGenerator, generate_program
 from nep_studio.blocks.generate.source_map import Code
 
 from .learning import CodeUnread
@@ -67,6 +67,24 @@ def lost_lines(
     return Lost(lines, generator.kinds(), places)
 
 
+def lost_of_functions(editor: Editor, functions: Mapping[str, ast.FunctionDef]) -> set[int]:
+    """The lines of those functions, by their stacks, that the blocks would make in another way."""
+    if not functions:
+        return set()
+    try:
+        code = generate_program(editor.project, editor.language)
+        again = _functions_made(editor, code, read_source(code.text))
+    except CodeRefused as refused:
+        is_known = refused.block in editor.project.blocks
+        stack = editor.project.stack_of(refused.block).id if is_known else ""
+        return {one.lineno for of, one in functions.items() if stack in (of, "")}
+    return {
+        one.lineno
+        for stack, one in functions.items()
+        if stack not in again or _differing(one, again[stack])
+    }
+
+
 def _require_own_names(source: Source, parts: Sequence[Part]) -> None:
     """Own Python cannot give another meaning to what the program itself calls so."""
     taken = {"behavior", *API} | {
@@ -108,11 +126,7 @@ def _lost_functions(
     functions: Mapping[str, ast.FunctionDef],
 ) -> tuple[set[int], set[int]]:
     """The statements, or functions, that the blocks would make in another way; the innermost."""
-    by_stack: dict[str, ast.FunctionDef] = {}
-    for node in made.tree.body:
-        block = code.block_at(node.lineno)
-        if isinstance(node, ast.FunctionDef) and block in editor.project.blocks:
-            by_stack[editor.project.stack_of(str(block)).id] = node
+    by_stack = _functions_made(editor, code, made)
     lost: set[int] = set()
     places: set[int] = set()
     renamed: dict[str, int] = {}
@@ -131,6 +145,16 @@ def _lost_functions(
     if not lost:
         _require_no_use(source, renamed)
     return lost, places
+
+
+def _functions_made(editor: Editor, code: Code, made: Source) -> dict[str, ast.FunctionDef]:
+    """The functions that the blocks make, by their stacks."""
+    found: dict[str, ast.FunctionDef] = {}
+    for node in made.tree.body:
+        block = code.block_at(node.lineno)
+        if isinstance(node, ast.FunctionDef) and block in editor.project.blocks:
+            found[editor.project.stack_of(str(block)).id] = node
+    return found
 
 
 def _innermost(there: Sequence[ast.stmt], again: Sequence[ast.stmt], around: int) -> Iterator[int]:

@@ -274,6 +274,12 @@ def _known(editor: Editor) -> SourceNames:
     return names
 
 
+def names_taken(editor: Editor) -> set[str]:
+    """The names that robots and variables of a project have in Python."""
+    names = _known(editor)
+    return names.robots.keys() | names.variables.keys()
+
+
 def variable_name(text: str) -> str:
     """What a variable is called in Python, if nothing else there is."""
     return _safe(text, "variable")

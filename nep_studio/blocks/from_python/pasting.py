@@ -3,14 +3,17 @@
 from __future__ import annotations
 
 import ast
+from collections.abc import Mapping
 
+from nep_studio.blocks.editor import Editor
 from nep_studio.blocks.edits.placing import DeleteBlocks
 from nep_studio.blocks.language import Language
 from nep_studio.blocks.operations.copying import Clip, copy
 from nep_studio.blocks.program import Project
 
+from .comparing import lost_of_functions
 from .learning import CodeUnread, Made
-from .naming import names_in
+from .naming import locals_of, names_in, names_made, names_taken
 from .outside import HERE, is_frame, is_made_docstring, parts_of
 from .reading import StatementReader, create_chain, create_outside, scratch_of
 from .source import Source, read_source
@@ -37,13 +40,30 @@ def read_snippet(text: str, language: Language, base: Project) -> Clip:
         ]
         ids = [block for stack in stacks for block in stack.body]
         return copy(scratch.project, scratch.language, ids)
-    functions = [part.function for part in parts_of(source) if part.function is not None]
+    kept = set[int]()
+    while True:
+        clip, changed = _read_lines(source, scratch_of(base, language), kept)
+        if not changed:
+            return clip
+        kept |= changed
+
+
+def _read_lines(source: Source, scratch: Editor, kept: set[int]) -> tuple[Clip, set[int]]:
+    """The blocks of a text without rules, and the lines of functions that would do other things.
+
+    Those in the lines ``kept`` stay Python.
+    """
+    functions = [part.function for part in parts_of(source, kept) if part.function is not None]
+    taken = names_taken(scratch) | _names_made(source)
+    changed = {one.lineno for one in functions if taken & _own_names(one)}
     names = names_in(scratch, source.tree, functions, loose=True)
     reader = StatementReader(scratch.language, names, source)
     made, loose = [], []
+    stacks: dict[str, ast.FunctionDef] = {}
     for node in source.tree.body:
         if isinstance(node, ast.FunctionDef) and node in functions:
             made.append(create_chain(scratch, reader.rule(node, 0)))
+            stacks[scratch.project.stack_of(made[-1]).id] = node
         elif isinstance(node, ast.FunctionDef):
             first = source.first_line(node, 0)
             text = "\n".join(source.lines[first - 1 : source.end_inside(node)])
@@ -59,7 +79,29 @@ def read_snippet(text: str, language: Language, base: Project) -> Clip:
             checklist=("Choose lines that do something: comments alone become no blocks.",),
         )
     ids = [block for first in made for block in scratch.project.stack_of(first).body]
-    return copy(scratch.project, scratch.language, ids)
+    clip = copy(scratch.project, scratch.language, ids)
+    return clip, changed | (_changed(scratch, stacks) if stacks else set())
+
+
+def _names_made(source: Source) -> set[str]:
+    """The names that lines outside of functions give a meaning to."""
+    is_function = ast.FunctionDef | ast.AsyncFunctionDef
+    loose = [node for node in source.tree.body if not isinstance(node, is_function)]
+    return set(names_made(loose)) if loose else set()
+
+
+def _own_names(function: ast.FunctionDef) -> set[str]:
+    """The names that a function has for itself, also those of what it is given."""
+    return {argument.arg for argument in function.args.args} | locals_of(function).keys()
+
+
+def _changed(scratch: Editor, stacks: Mapping[str, ast.FunctionDef]) -> set[int]:
+    """The lines of the functions that blocks would make in another way, by their stacks."""
+    for page, others in scratch.project.pages.items():
+        if scratch.project.kind_of_page(page) == "behaviour":
+            for stack in [one for one in others if one.id not in stacks]:
+                scratch.apply(DeleteBlocks(stack.body[0], len(stack.body)))
+    return lost_of_functions(scratch, stacks)
 
 
 def _is_program(source: Source) -> bool:

@@ -92,7 +92,7 @@ class Source:
         return [self.comments[line] for line in lines if self.margin(line) == margin]
 
     def text(self, first: int, last: int) -> str:
-        """Lines of the text, without the margin of the first; texts of several lines keep theirs."""
+        """Lines of the text, without the margin of the first; long texts keep theirs."""
         numbers = [n for n in range(first, last + 1) if not self._is_aside(n)]
         code = {n for n in numbers if n not in self.inside_texts and not self._is_empty(n)}
         # the first statement is the least far in: comments and lines in brackets stand anywhere

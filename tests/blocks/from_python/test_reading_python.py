@@ -191,6 +191,58 @@ def test_a_few_lines_are_pasted_as_blocks(language, text, types):
     assert len(editor.project.blocks) == len(types)
 
 
+BASE = """from nep_core import Behavior, Robot
+
+nao = Robot("NAO")
+behavior = Behavior("T")
+x = 0
+
+
+@behavior.when_started
+def when_started():
+    global x
+    x = 1
+    nao.say("x")
+
+
+behavior.run()
+"""
+
+
+def pasted(language, text: str) -> str:
+    """The Python of a program with the variable x and the robot NAO, after pasting a text."""
+    editor = Editor(read_program(BASE, language), language)
+    paste(editor, read_snippet(text, language, editor.project), "behaviour", 0, 0)
+    return generate_program(editor.project, language).text
+
+
+@pytest.mark.parametrize(
+    "function",
+    [
+        "def f(x):\n    x = x + 1\n    return x",
+        "def f(x):\n    nao.say(x)",
+        "def f(nao):\n    nao.say('x')",
+        "def f(nao, wait):\n    nao.say(wait)",
+        "def f():\n    x = 2",
+        "def f():\n    for x in [1, 2]:\n        wait(x)",
+        "def f():\n    nao = 2\n    wait(nao)",
+        "def f():\n    with open('a') as x:\n        print(x)",
+        "def f():\n    global x\n    x = 2",
+        "def f():\n    y = 2\n    wait(y)",
+        "y = 1\n\n\ndef f():\n    y = 2\n    wait(y)",
+        "def f():\n    return [x for x in [1]]",
+        "def f(wait):\n    return wait",
+        "def nao():\n    wait(2)",
+    ],
+)
+def test_a_function_that_is_pasted_does_the_same(language, function):
+    wanted = ast.parse(function).body[-1]
+
+    made = ast.parse(pasted(language, function))
+
+    assert ast.dump(wanted) in [ast.dump(node) for node in made.body]
+
+
 def test_what_has_no_block_keeps_its_text_in_a_code_block(language):
     if "code.lines" not in language.definitions:
         pytest.skip("this language has no code blocks")
