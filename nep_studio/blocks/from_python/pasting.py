@@ -16,7 +16,7 @@ from .learning import CodeUnread, Made
 from .naming import locals_of, names_in, names_made, names_taken
 from .outside import HERE, is_frame, is_made_docstring, parts_of
 from .reading import StatementReader, create_chain, create_outside, scratch_of
-from .source import Source, read_source
+from .source import Source, end_of, read_source
 from .updating import update_from_python
 
 
@@ -70,8 +70,12 @@ def _read_lines(source: Source, scratch: Editor, kept: set[int]) -> tuple[Clip, 
             made.append(create_outside(scratch, text, HERE, first))
         elif not _is_around(node, source) or len(source.tree.body) == 1:
             loose.append(node)
+    is_loose_last = bool(loose) and loose[-1] is source.tree.body[-1]
     if loose:
-        made.append(create_chain(scratch, _loose(reader, loose)))
+        until = len(source.lines) if is_loose_last else 0
+        made.append(create_chain(scratch, _loose(reader, source, loose, until)))
+    if made and not is_loose_last and (below := _comments_below(source)):
+        made.append(create_outside(scratch, below, HERE))
     if not made:
         raise CodeUnread(
             "There is nothing here that blocks could be made of.",
@@ -117,12 +121,25 @@ def _is_around(node: ast.stmt, source: Source) -> bool:
     return is_frame(node) or (node is source.tree.body[0] and is_made_docstring(node))
 
 
-def _loose(reader: StatementReader, nodes: list[ast.stmt]) -> list[Made]:
+def _comments_below(source: Source) -> str:
+    """The comments below the last statement of a text, and not in it."""
+    last = source.end_inside(source.tree.body[-1]) if source.tree.body else 0
+    below = range(last + 1, len(source.lines) + 1)
+    return "\n".join(source.lines[n - 1].strip() for n in below if n in source.alone)
+
+
+def _loose(
+    reader: StatementReader, source: Source, nodes: list[ast.stmt], until: int
+) -> list[Made]:
+    """The blocks of lines that are in no function, with the comments down to a line."""
     if len(nodes) == 1 and isinstance(nodes[0], ast.Expr):
         value = nodes[0].value
         found = reader.values.blocks(value)
         code = reader.values.type_of("code_value")
         is_call = isinstance(value, ast.Call) and (not found or found[0][0].type == code)
         if found and not is_call:
-            return [found[0][0]]
-    return reader.chain(nodes, 0, 0)
+            made = found[0][0]
+            lines = range(source.first_line(nodes[0], 0), max(until, end_of(nodes)) + 1)
+            made.comment = "\n".join(source.comments[n] for n in lines if n in source.comments)
+            return [made]
+    return reader.chain(nodes, 0, until)

@@ -243,6 +243,31 @@ def test_a_function_that_is_pasted_does_the_same(language, function):
     assert ast.dump(wanted) in [ast.dump(node) for node in made.body]
 
 
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        ('nao.say("a")\n# last', ["last"]),
+        ('nao.say("a")  # behind\n\n# one\n# two', ["behind", "one", "two"]),
+        ("x = 2\n# last", ["last"]),
+        ('print("a")\n# last', ["last"]),
+        ("42  # behind", ["behind"]),
+        ("# above\n42\n# last", ["above\nlast"]),
+        ("def f():\n    wait(1)\n    # in\n\n\n# last", ["in", "# last"]),
+        ("def f(a=1):\n    wait(a)\n# last", ["# last"]),
+        ("def f():\n    wait(1)\n\n\n# mid\nwait(2)\n# last", ["mid", "last"]),
+        ("wait(2)\n# mid\ndef f():\n    wait(1)", ["mid"]),
+    ],
+)
+def test_comments_are_pasted_too(language, text, said):
+    clip = read_snippet(text, language, read_program(BASE, language))
+
+    blocks = clip.project.blocks.values()
+    notes = [str(b.fields.get("text")) for b in blocks if b.type == "control.note"]
+    own = [str(b.fields["code"]) for b in blocks if b.type == "code.program"]
+    found = [*[b.comment for b in blocks], *notes, *[code for code in own if code[:1] == "#"]]
+    assert sorted(filter(None, found)) == sorted(said)
+
+
 def test_what_has_no_block_keeps_its_text_in_a_code_block(language):
     if "code.lines" not in language.definitions:
         pytest.skip("this language has no code blocks")
