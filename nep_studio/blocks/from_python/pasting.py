@@ -7,6 +7,7 @@ from collections.abc import Mapping
 
 from nep_studio.blocks.editor import Editor
 from nep_studio.blocks.edits.placing import DeleteBlocks
+from nep_studio.blocks.generate.expressions import comment_lines
 from nep_studio.blocks.language import Language
 from nep_studio.blocks.operations.copying import Clip, copy
 from nep_studio.blocks.program import Project
@@ -14,9 +15,9 @@ from nep_studio.blocks.program import Project
 from .comparing import lost_of_functions
 from .learning import CodeUnread, Made
 from .naming import locals_of, names_in, names_made, names_taken
-from .outside import HERE, is_frame, is_made_docstring, parts_of
+from .outside import HERE, TOP, is_frame, is_made_docstring, parts_of
 from .reading import StatementReader, create_chain, create_outside, scratch_of
-from .source import Source, end_of, read_source
+from .source import Source, end_of, read_source, without_margin
 from .updating import update_from_python
 
 
@@ -26,6 +27,7 @@ def read_snippet(text: str, language: Language, base: Project) -> Clip:
     Functions are rules or own blocks, other lines one stack, an expression alone a value. Of a
     text with rules all becomes blocks that a whole program needs.
     """
+    text = without_margin(text)
     source = read_source(text)
     scratch = scratch_of(base, language)
     if _is_program(source):
@@ -60,6 +62,8 @@ def _read_lines(source: Source, scratch: Editor, kept: set[int]) -> tuple[Clip, 
     reader = StatementReader(scratch.language, names, source)
     made, loose = [], []
     stacks: dict[str, ast.FunctionDef] = {}
+    has_functions = any(isinstance(node, ast.FunctionDef) for node in source.tree.body)
+    is_alone = len(source.tree.body) == 1
     for node in source.tree.body:
         if isinstance(node, ast.FunctionDef) and node in functions:
             made.append(create_chain(scratch, reader.rule(node, 0)))
@@ -68,7 +72,10 @@ def _read_lines(source: Source, scratch: Editor, kept: set[int]) -> tuple[Clip, 
             first = source.first_line(node, 0)
             text = "\n".join(source.lines[first - 1 : source.end_inside(node)])
             made.append(create_outside(scratch, text, HERE, first))
-        elif not _is_around(node, source) or len(source.tree.body) == 1:
+        elif _is_import_outside(node, has_functions):
+            text = "\n".join([*comment_lines(source.comment_of(node, 0)), ast.unparse(node)])
+            made.append(create_outside(scratch, text, TOP, node.lineno))
+        elif not _is_around(node, source) or (is_alone and not _is_all(node)):
             loose.append(node)
     is_loose_last = bool(loose) and loose[-1] is source.tree.body[-1]
     if loose:
@@ -118,7 +125,26 @@ def _is_around(node: ast.stmt, source: Source) -> bool:
     """Whether a statement is written by the program itself: no value of a variable is."""
     if isinstance(node, ast.Assign) and isinstance(node.value, ast.Constant | ast.List):
         return False
-    return is_frame(node) or (node is source.tree.body[0] and is_made_docstring(node))
+    return (
+        is_frame(node) or _is_api(node) or (node is source.tree.body[0] and is_made_docstring(node))
+    )
+
+
+def _is_all(node: ast.stmt) -> bool:
+    """Whether a statement imports all that there is in a module."""
+    return isinstance(node, ast.ImportFrom) and node.names[0].name == "*"
+
+
+def _is_api(node: ast.stmt) -> bool:
+    """Whether a statement imports all that programs have, which they name by themselves."""
+    return isinstance(node, ast.ImportFrom) and node.module == "nep_core" and _is_all(node)
+
+
+def _is_import_outside(node: ast.stmt, has_functions: bool) -> bool:
+    """Whether an import stands above the functions, which may use what it names."""
+    if not isinstance(node, ast.Import | ast.ImportFrom) or is_frame(node) or _is_api(node):
+        return False
+    return has_functions or _is_all(node)
 
 
 def _comments_below(source: Source) -> str:

@@ -268,6 +268,71 @@ def test_comments_are_pasted_too(language, text, said):
     assert sorted(filter(None, found)) == sorted(said)
 
 
+@pytest.mark.parametrize(
+    ("text", "plain"),
+    [
+        ('    wait(1)\n    nao.say("b")', 'wait(1)\nnao.say("b")'),
+        ('wait(1)\n    nao.say("b")', 'wait(1)\nnao.say("b")'),
+        ("\twait(1)\r\n\r\n\twait(2)\r\n", "wait(1)\nwait(2)"),
+        ("if x == 1:\n        wait(1)\n    wait(2)", "if x == 1:\n    wait(1)\nwait(2)"),
+        ("    if x == 1:\n# c\n        wait(1)", "if x == 1:\n    # c\n    wait(1)"),
+        ("# c\n\n    wait(1)\n  # d", "# c\nwait(1)\n# d"),
+        ("    y = '''\na\n  b'''\n    wait(y)", "y = '''\na\n  b'''\nwait(y)"),
+        ("    def f(a):\n        wait(a)", "def f(a):\n    wait(a)"),
+        ("    # all\n    print(1)\n    print(2)", "# all\nprint(1)\nprint(2)"),
+    ],
+)
+def test_lines_of_a_function_are_pasted_without_its_margin(language, text, plain):
+    base = read_program(BASE, language)
+
+    clips = [read_snippet(one, language, base) for one in (text, plain)]
+
+    made = [
+        [(b.type, b.fields, b.comment) for b in clip.project.within(clip.roots[0])]
+        for clip in clips
+    ]
+    assert made[0] == made[1]
+
+
+@pytest.mark.parametrize(
+    ("text", "told"), [("    x = (", "closed"), ("  wait(1)\n wait(2)", "ind")]
+)
+def test_a_mistake_in_lines_with_a_margin_is_told_as_without_it(language, text, told):
+    with pytest.raises(CodeUnread, match=told) as raised:
+        read_snippet(text, language, Project())
+
+    assert raised.value.line in (1, 2)
+
+
+@pytest.mark.parametrize(
+    ("text", "there"),
+    [
+        ("import math as m\n\n\ndef area(r):\n    return m.pi * r", "import math as m"),
+        (
+            "# for sin\nfrom math import sin\n\n\ndef f(a=1):\n    wait(sin(a))",
+            "# for sin\nfrom math import sin",
+        ),
+        ("from math import *\nwait(sin(1))", "from math import *"),
+        ("from nep_core import *\nwait(2)\nprint(as_text(2))", ""),
+        ("from nep_core import *\n\n\ndef f(a):\n    wait(a)", ""),
+        ("import math\n\n\ndef f():\n    wait(math.pi)", "import math"),
+        ("import math as m\nwait(m.pi)", ""),
+    ],
+)
+def test_what_functions_import_is_pasted_outside_of_them(language, text, there):
+    made = pasted(language, text)
+
+    title = '"""T. Made with NEP Studio."""\n'
+    above = made.split("from nep_core")[0].replace(title, "")
+    assert above == (f"{there}\n" if there else "")
+    compile(made, "program.py", "exec")
+
+
+def test_an_import_of_everything_alone_is_nothing_to_paste(language):
+    with pytest.raises(CodeUnread, match="nothing here"):
+        read_snippet("from nep_core import *", language, Project())
+
+
 def test_what_has_no_block_keeps_its_text_in_a_code_block(language):
     if "code.lines" not in language.definitions:
         pytest.skip("this language has no code blocks")
