@@ -176,6 +176,8 @@ class _Splitter:
             return not is_made_docstring(node)
         if _is_beginning(node) and (self.parts or self.lines) and self.place != TOP:
             return True  # what variables begin with is written above all else: it stays where it is
+        if _is_beginning(node) and self.waiting:
+            return True  # a comment above it stays there
         if isinstance(node, ast.Import) or _is_beginning(node):
             return bool(self._comments_of(number)) or not is_frame(node)
         return not is_frame(node)

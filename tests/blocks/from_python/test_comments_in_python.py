@@ -186,6 +186,30 @@ OUTSIDE = [
 ]
 
 
+@pytest.mark.parametrize(
+    "top",
+    [
+        "# score\nx = 0\ny = 0",
+        "x = 0\n# second\ny = 0",
+        "# first\nx = 0\n# second\ny = 0",
+        "# all of them\n\nx = 0\ny = 0",
+        "# one\n# two\nx = 0\ny = 0",
+        "# unused\nw = 0\nx = 0\ny = 0",
+        "# kept\nw = 2.5\nx = 0\ny = 0",
+    ],
+)
+def test_a_comment_above_a_variable_stays_there(language, top):
+    editor = updated(language, "global x, y\nx += 1\ny += 1\nwait(x + y)")
+    text = generate_program(editor.project, language).text
+    text = text.replace("x = 0\ny = 0\n", f"{top}\n")
+
+    update_from_python(editor, text)
+
+    made = generate_program(editor.project, language).text
+    assert made.replace("\n\n#", "\n#") == text
+    assert_same_again(editor)
+
+
 @pytest.mark.parametrize("outside", OUTSIDE)
 def test_a_comment_last_in_own_python_stays_in_it(language, outside):
     editor = updated(language, "wait(1)")
