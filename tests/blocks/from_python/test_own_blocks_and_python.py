@@ -239,6 +239,31 @@ def test_an_own_block_that_a_loose_block_calls_stays_beside_the_new_one(language
     assert_same_again(editor)
 
 
+LIMIT, CLASS = "LIMIT = [1, 2]", "class Friend:\n    def go(self):\n        helper()"
+RULES = [f"@behavior.when_started\ndef {name}():\n    wait(1)" for name in ("one", "two")]
+HELPERS = [f"def {name}():\n    wait(2)" for name in ("helper", "another")]
+
+
+@pytest.mark.parametrize(
+    "parts",
+    [
+        [*RULES, *HELPERS],
+        [LIMIT, *RULES, HELPERS[0]],
+        ["n = 0", RULES[0].replace("wait(1)", "n = 5\n    wait(n)"), HELPERS[0]],
+        [RULES[0], LIMIT, HELPERS[0], RULES[1]],
+        [RULES[0], HELPERS[0], LIMIT, HELPERS[1]],
+        [CLASS, *RULES, HELPERS[0]],
+        [RULES[0], CLASS, LIMIT, *HELPERS, RULES[1]],
+        [LIMIT, HELPERS[0], "# on its own\nMAX = 2", HELPERS[1], *RULES],
+    ],
+)
+def test_own_blocks_written_anywhere_are_in_the_order_of_the_program(language, parts):
+    text = 'from nep_core import Behavior, wait\n\nbehavior = Behavior("T")\n'
+    text = "\n\n\n".join([text, *parts, "behavior.run()\n"])
+
+    assert_same_again(updated(Editor(Project("T"), language), text))
+
+
 def updated(editor: Editor, text: str) -> Editor:
     """The editor with its program made what a text says."""
     update_from_python(editor, text)
