@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import ast
+import symtable
+import warnings
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
@@ -273,7 +275,7 @@ def _require_no_use(source: Source, renamed: Mapping[str, int]) -> None:
 def _lost_around(source: Source, made: Source) -> set[int]:
     """The statements around the functions that the program would not write so by itself."""
     again = [_plain(node) for node in made.tree.body]
-    used = {n.id for n in ast.walk(source.tree) if isinstance(n, ast.Name) and _is_read(n)}
+    used = set(_read_of_program(source))
     lost = set()
     for node in source.tree.body:
         if not is_frame(node) or isinstance(node, ast.ImportFrom) or _plain(node) in again:
@@ -305,8 +307,17 @@ def _require_unused(node: ast.Assign, used: set[str]) -> None:
         )
 
 
-def _is_read(node: ast.Name) -> bool:
-    return isinstance(node.ctx, ast.Load)
+def _read_of_program(source: Source) -> Iterator[str]:
+    """The names of what is outside of all functions that are read, wherever they are."""
+    with warnings.catch_warnings(action="ignore"):
+        left = [symtable.symtable("\n".join(source.lines), "program.py", "exec")]
+    while left:
+        table = left.pop()
+        is_outside = table.get_type() == "module"
+        for symbol in table.get_symbols():
+            if symbol.is_referenced() and (is_outside or symbol.is_global()):
+                yield symbol.get_name()
+        left += table.get_children()
 
 
 def _is_header(node: ast.Assign) -> bool:

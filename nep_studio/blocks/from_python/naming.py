@@ -202,6 +202,8 @@ def _kept(function: ast.FunctionDef, tree: ast.Module) -> list[str]:
     for other in tree.body:
         named = ast.walk(other) if other is not function else iter(())
         elsewhere.update(node.id for node in named if isinstance(node, ast.Name))
+        if isinstance(other, ast.FunctionDef | ast.AsyncFunctionDef | ast.ClassDef):
+            elsewhere.add(other.name)
     made: dict[str, None] = {}
     for node in ast.walk(function):
         if isinstance(node, ast.Global | ast.Nonlocal):
