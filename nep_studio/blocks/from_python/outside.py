@@ -203,9 +203,9 @@ class _Splitter:
         above, below = self._ends_around(number)
         if above < begin and end < below:
             end = self.source.end_inside(node)
-            self._put(begin, list(self.source.lines[begin - 1 : end]), place)
+            self._put(begin, self.source.whole(begin, end).split("\n"), place)
             return end
-        text = ast.get_source_segment("\n".join(self.source.lines), node) or ast.unparse(node)
+        text = ast.get_source_segment(self.source.whole(1, end), node) or ast.unparse(node)
         if end < below and end in self.source.comments:
             text += f"  {comment_line(self.source.comments[end])}"
         self._put(begin, text.split("\n"), place)

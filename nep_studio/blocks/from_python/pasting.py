@@ -70,7 +70,7 @@ def _read_lines(source: Source, scratch: Editor, kept: set[int]) -> tuple[Clip, 
             stacks[scratch.project.stack_of(made[-1]).id] = node
         elif isinstance(node, ast.FunctionDef):
             first = source.first_line(node, 0)
-            text = "\n".join(source.lines[first - 1 : source.end_inside(node)])
+            text = source.whole(first, source.end_inside(node))
             made.append(create_outside(scratch, text, HERE, first))
         elif _is_import_outside(node, has_functions):
             text = "\n".join([*comment_lines(source.comment_of(node, 0)), ast.unparse(node)])

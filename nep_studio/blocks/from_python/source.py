@@ -103,6 +103,13 @@ class Source:
         lines = [self._line(n)[margins.get(n, 0) :] for n in numbers]
         return "\n".join(lines).rstrip()
 
+    def whole(self, first: int, last: int) -> str:
+        """Lines of the text as they are, but for spaces at their ends."""
+        return "\n".join(
+            self.lines[n - 1] if n + 1 in self.inside_texts else self.lines[n - 1].rstrip()
+            for n in range(first, last + 1)
+        )
+
     def line_at(self, first: int, number: int) -> int:
         """Which line of the source a line is in the text of lines from one on, counted from 1."""
         lines = (n for n in range(first, len(self.lines)) if not self._is_aside(n))
@@ -112,7 +119,7 @@ class Source:
         """A line, of one that is set aside what is left of it."""
         text = self.lines[line - 1]
         if line not in self.set_aside:
-            return text
+            return self.whole(line, line)
         said = comment_line(self.comments[line]) if line in self.comments else ""
         return text[: self.margin(line)] + "  ".join(filter(None, [self.set_aside[line], said]))
 

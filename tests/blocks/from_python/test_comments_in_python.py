@@ -8,7 +8,8 @@ import textwrap
 import pytest
 from block_building import B, build
 
-from nep_studio.blocks.files import to_bytes
+from nep_studio.blocks.editor import Editor
+from nep_studio.blocks.files import from_bytes, to_bytes
 from nep_studio.blocks.from_python.learning import CodeUnread
 from nep_studio.blocks.from_python.updating import update_from_python
 from nep_studio.blocks.generate.program import generate_program
@@ -176,6 +177,34 @@ def test_what_no_block_may_hold_is_told_once_with_its_line(language, written, li
     assert raised.value.line == line + 8
     assert str(raised.value.sentence).count("Line") == 1
     assert step in str(raised.value.checklist[0])
+
+
+@pytest.mark.parametrize(
+    "written",
+    [
+        "x: int = 0   ",
+        "def f(a=1): \n    return a\t\n  \n    # end  ",
+        "class A:\n\n    n = 1   # one  \n   \n    m = 2 ",
+        "poem = '''  \na   \n'''  ",
+        "def f(a=1):\n    global n   \n    n = '''a  \n  b  '''  \n    return a",
+        "a = 1 ; b = [  \n    2,\n]  ",
+    ],
+)
+def test_spaces_at_the_ends_of_lines_are_in_no_own_python(language, written):
+    editor = updated(language, f"wait(1)  \n{written}  \nwait(2)")
+    text = generate_program(editor.project, language).text
+    text = text.replace("\n\n\n@", f"\n\n{written}\n\n\n@")
+
+    update_from_python(editor, text)
+
+    made = generate_program(editor.project, language).text
+    assert [ast.dump(n) for n in ast.parse(made).body] == [
+        ast.dump(n) for n in ast.parse(text).body
+    ]
+    again = Editor(from_bytes(to_bytes(editor.project), "project", language), language)
+    assert to_bytes(again.project) == to_bytes(editor.project)
+    assert_same_again(again)
+    assert_same_again(editor)
 
 
 OUTSIDE = [
