@@ -131,6 +131,8 @@ class _Splitter:
                 after = self._add(node, number, place)
                 continue
             after = end_of([node])
+            if _is_head(node) and number < self.end_from:
+                place = TOP  # what is said of it is of the whole program, and of no rule
             self._add_waiting(HERE if node is self.run else place)
             self.waiting += self._comments_of(number)
             self._add_waiting(place)

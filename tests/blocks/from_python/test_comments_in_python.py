@@ -215,6 +215,25 @@ OUTSIDE = [
 ]
 
 
+@pytest.mark.parametrize("above", ["", "# one\n", "# one\n# two\n\n"])
+@pytest.mark.parametrize("behind", ["", "  # three"])
+@pytest.mark.parametrize("more", ["", "x = 0\n", "LIMIT = 2.5\n", "# four\nx = 0\n"])
+def test_comments_of_a_robot_stay_above_all_rules(language, above, behind, more):
+    editor = build(language, [B("event.started"), B("robot.say")])
+    text = generate_program(editor.project, language).text
+    text = text.replace('nao = Robot("NAO")', f'{above}nao = Robot("NAO"){behind}')
+    text = text.replace("\n\n\n@", f"\n{more}\n\n@")
+
+    update_from_python(editor, text)
+
+    made = generate_program(editor.project, language).text
+    begin = made.index("nao =")
+    said = [word for word in ("one", "two", "three") if f"# {word}" in above + behind]
+    assert [word for word in ("one", "two", "three") if f"# {word}\n" in made[:begin]] == said
+    assert made.count("#") == text.count("#")
+    assert_same_again(editor)
+
+
 @pytest.mark.parametrize(
     "top",
     [
