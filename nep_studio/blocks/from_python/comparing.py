@@ -28,12 +28,14 @@ class Lost:
     """What would be lost or changed: the lines of what is then kept as Python instead.
 
     ``kinds`` are those of the values of the program, by name; ``places`` the lines of the innermost
-    statements that other blocks might say as they are.
+    statements that other blocks might say as they are; ``around`` those that are in no function,
+    which may depend on what is in these.
     """
 
     lines: set[int]
     kinds: dict[str, int]
     places: set[int] = field(default_factory=set)
+    around: set[int] = field(default_factory=set)
 
 
 def lost_lines(
@@ -66,7 +68,7 @@ def lost_lines(
     around = _lost_around(source, made)
     places = places or _setting(source, around)
     lines = lost | around or _lost_comments(source, made, functions)
-    return Lost(lines, generator.kinds(), places)
+    return Lost(lines, generator.kinds(), places, around)
 
 
 def lost_of_functions(editor: Editor, functions: Mapping[str, ast.FunctionDef]) -> set[int]:

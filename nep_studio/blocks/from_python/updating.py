@@ -254,13 +254,14 @@ def _update_until_same(editor: Editor, source: Source) -> None:
                 continue
             if turns.go_on(lost.places):
                 continue
-            if differs.lines <= kept:
+            more = (differs.lines - lost.around - kept) or (differs.lines - kept)
+            if not more:
                 raise CodeUnread(
                     differs.sentence,
                     min(differs.lines),
                     checklist=_OTHERWISE,
                 ) from differs
-            kept |= differs.lines
+            kept |= more
         except EditRefused as refused:
             if anew:
                 line = refused.line if isinstance(refused, RefusedAtLine) else 1

@@ -215,6 +215,17 @@ OUTSIDE = [
 ]
 
 
+@pytest.mark.parametrize("value", ['""', '"it"', "[1]", "None"])
+def test_a_variable_begins_as_it_did_when_a_line_that_changes_it_is_kept(language, value):
+    editor = updated(language, "global x\nx += 1\nwait(x)")
+    text = generate_program(editor.project, language).text.replace("x += 1", f"x += {value}")
+
+    update_from_python(editor, text)
+
+    assert generate_program(editor.project, language).text == text
+    assert_same_again(editor)
+
+
 @pytest.mark.parametrize("above", ["", "# one\n", "# one\n# two\n\n"])
 @pytest.mark.parametrize("behind", ["", "  # three"])
 @pytest.mark.parametrize("more", ["", "x = 0\n", "LIMIT = 2.5\n", "# four\nx = 0\n"])
