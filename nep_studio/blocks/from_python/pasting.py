@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import ast
+from bisect import bisect_left
 from collections.abc import Mapping
 
 from nep_studio.blocks.editor import Editor
 from nep_studio.blocks.edits.placing import DeleteBlocks
-from nep_studio.blocks.generate.expressions import comment_lines
+from nep_studio.blocks.generate.expressions import comment_line, comment_lines
 from nep_studio.blocks.language import Language
 from nep_studio.blocks.operations.copying import Clip, copy
 from nep_studio.blocks.program import Project
@@ -17,7 +18,7 @@ from .learning import CodeUnread, Made
 from .naming import locals_of, names_in, names_made, names_taken
 from .outside import HERE, TOP, is_frame, is_made_docstring, parts_of
 from .reading import StatementReader, create_chain, create_outside, scratch_of
-from .source import Source, end_of, read_source, without_margin
+from .source import Source, begin_of, end_of, read_source, without_margin
 from .updating import update_from_python
 
 
@@ -59,7 +60,7 @@ def _read_lines(source: Source, scratch: Editor, kept: set[int]) -> tuple[Clip, 
     taken = names_taken(scratch) | _names_made(source)
     changed = {one.lineno for one in functions if taken & _own_names(one)}
     names = names_in(scratch, source.tree, functions, loose=True)
-    reader = StatementReader(scratch.language, names, source)
+    reader = StatementReader(scratch.language, names, source, kept)
     made, loose = [], []
     stacks: dict[str, ast.FunctionDef] = {}
     has_functions = any(isinstance(node, ast.FunctionDef) for node in source.tree.body)
@@ -89,9 +90,37 @@ def _read_lines(source: Source, scratch: Editor, kept: set[int]) -> tuple[Clip, 
             1,
             checklist=("Choose lines that do something: comments alone become no blocks.",),
         )
-    ids = [block for first in made for block in scratch.project.stack_of(first).body]
-    clip = copy(scratch.project, scratch.language, ids)
+    clip = _clip(scratch, made)
+    lost = _lost_comments(source, clip)
+    around = {one.lineno for one in source.tree.body if _holds(source, one, lost)}
+    changed |= around - kept
+    if lost and not changed:
+        said = "\n".join(comment_line(source.comments[line]) for line in lost)
+        made.insert(0, create_outside(scratch, said, HERE))
+        clip = _clip(scratch, made)
     return clip, changed | (_changed(scratch, stacks) if stacks else set())
+
+
+def _clip(scratch: Editor, firsts: list[str]) -> Clip:
+    ids = [block for first in firsts for block in scratch.project.stack_of(first).body]
+    return copy(scratch.project, scratch.language, ids)
+
+
+def _lost_comments(source: Source, clip: Clip) -> list[int]:
+    """The lines of the comments that no block has."""
+    said, code = set[str](), list[str]()
+    for block in clip.project.blocks.values():
+        said.update(block.comment.split("\n"))
+        said.add(str(block.fields.get("text", "")))
+        code.append(str(block.fields.get("code", "")))
+    whole = "\n".join(code)
+    return [n for n, one in source.comments.items() if not (one in said or one in whole)]
+
+
+def _holds(source: Source, node: ast.stmt, lines: list[int]) -> bool:
+    """Whether one of these lines, which are in order, is in a statement."""
+    first = bisect_left(lines, begin_of(node))
+    return first < len(lines) and lines[first] <= source.end_inside(node)
 
 
 def _names_made(source: Source) -> set[str]:

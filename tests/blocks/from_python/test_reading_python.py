@@ -269,6 +269,25 @@ def test_comments_are_pasted_too(language, text, said):
 
 
 @pytest.mark.parametrize(
+    "text",
+    [
+        "if x == 1:\n    wait(1)\nelse:  # this\n    wait(2)",
+        "global x  # this\nx = 1",
+        "# this\nimport random\nwait(1)",
+        "import random  # this\n\n\ndef f():\n    wait(1)",
+        "nao = Robot('NAO')  # this\nnao.say('x')",
+        "def f():\n    if x == 1:\n        wait(1)\n    else:  # this\n        wait(2)",
+        "wait(\n    # this\n    1,\n)",
+    ],
+)
+def test_a_comment_anywhere_in_what_is_pasted_is_kept(language, text):
+    clip = read_snippet(text, language, read_program(BASE, language))
+
+    said = [f"{block.comment} {block.fields}" for block in clip.project.blocks.values()]
+    assert "this" in " ".join(said)
+
+
+@pytest.mark.parametrize(
     ("text", "plain"),
     [
         ('    wait(1)\n    nao.say("b")', 'wait(1)\nnao.say("b")'),
