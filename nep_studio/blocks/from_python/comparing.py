@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import ast
+import symtable
+import warnings
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
@@ -11,7 +13,7 @@ from nep_studio.blocks.code_text import CodeTextRefused, compile_quietly
 from nep_studio.blocks.editor import Editor
 from nep_studio.blocks.errors import CodeRefused
 from nep_studio.blocks.generate.names import API
-from nep_studio.blocks.generate.program import ProgramGenerator
+from nep_studio.blocks.generate.program import ProgramGenerator, generate_program
 from nep_studio.blocks.generate.source_map import Code
 
 from .learning import CodeUnread
@@ -26,12 +28,14 @@ class Lost:
     """What would be lost or changed: the lines of what is then kept as Python instead.
 
     ``kinds`` are those of the values of the program, by name; ``places`` the lines of the innermost
-    statements that other blocks might say as they are.
+    statements that other blocks might say as they are; ``around`` those that are in no function,
+    which may depend on what is in these.
     """
 
     lines: set[int]
     kinds: dict[str, int]
     places: set[int] = field(default_factory=set)
+    around: set[int] = field(default_factory=set)
 
 
 def lost_lines(
@@ -64,7 +68,25 @@ def lost_lines(
     around = _lost_around(source, made)
     places = places or _setting(source, around)
     lines = lost | around or _lost_comments(source, made, functions)
-    return Lost(lines, generator.kinds(), places)
+    return Lost(lines, generator.kinds(), places, around)
+
+
+def lost_of_functions(editor: Editor, functions: Mapping[str, ast.FunctionDef]) -> set[int]:
+    """The lines of those functions, by their stacks, that the blocks would make in another way."""
+    if not functions:
+        return set()
+    try:
+        code = generate_program(editor.project, editor.language)
+        again = _functions_made(editor, code, read_source(code.text))
+    except CodeRefused as refused:
+        is_known = refused.block in editor.project.blocks
+        stack = editor.project.stack_of(refused.block).id if is_known else ""
+        return {one.lineno for of, one in functions.items() if stack in (of, "")}
+    return {
+        one.lineno
+        for stack, one in functions.items()
+        if stack not in again or _differing(one, again[stack])
+    }
 
 
 def _require_own_names(source: Source, parts: Sequence[Part]) -> None:
@@ -108,11 +130,7 @@ def _lost_functions(
     functions: Mapping[str, ast.FunctionDef],
 ) -> tuple[set[int], set[int]]:
     """The statements, or functions, that the blocks would make in another way; the innermost."""
-    by_stack: dict[str, ast.FunctionDef] = {}
-    for node in made.tree.body:
-        block = code.block_at(node.lineno)
-        if isinstance(node, ast.FunctionDef) and block in editor.project.blocks:
-            by_stack[editor.project.stack_of(str(block)).id] = node
+    by_stack = _functions_made(editor, code, made)
     lost: set[int] = set()
     places: set[int] = set()
     renamed: dict[str, int] = {}
@@ -131,6 +149,16 @@ def _lost_functions(
     if not lost:
         _require_no_use(source, renamed)
     return lost, places
+
+
+def _functions_made(editor: Editor, code: Code, made: Source) -> dict[str, ast.FunctionDef]:
+    """The functions that the blocks make, by their stacks."""
+    found: dict[str, ast.FunctionDef] = {}
+    for node in made.tree.body:
+        block = code.block_at(node.lineno)
+        if isinstance(node, ast.FunctionDef) and block in editor.project.blocks:
+            found[editor.project.stack_of(str(block)).id] = node
+    return found
 
 
 def _innermost(there: Sequence[ast.stmt], again: Sequence[ast.stmt], around: int) -> Iterator[int]:
@@ -249,7 +277,7 @@ def _require_no_use(source: Source, renamed: Mapping[str, int]) -> None:
 def _lost_around(source: Source, made: Source) -> set[int]:
     """The statements around the functions that the program would not write so by itself."""
     again = [_plain(node) for node in made.tree.body]
-    used = {n.id for n in ast.walk(source.tree) if isinstance(n, ast.Name) and _is_read(n)}
+    used = set(_read_of_program(source))
     lost = set()
     for node in source.tree.body:
         if not is_frame(node) or isinstance(node, ast.ImportFrom) or _plain(node) in again:
@@ -281,8 +309,17 @@ def _require_unused(node: ast.Assign, used: set[str]) -> None:
         )
 
 
-def _is_read(node: ast.Name) -> bool:
-    return isinstance(node.ctx, ast.Load)
+def _read_of_program(source: Source) -> Iterator[str]:
+    """The names of what is outside of all functions that are read, wherever they are."""
+    with warnings.catch_warnings(action="ignore"):
+        left = [symtable.symtable("\n".join(source.lines), "program.py", "exec")]
+    while left:
+        table = left.pop()
+        is_outside = table.get_type() == "module"
+        for symbol in table.get_symbols():
+            if symbol.is_referenced() and (is_outside or symbol.is_global()):
+                yield symbol.get_name()
+        left += table.get_children()
 
 
 def _is_header(node: ast.Assign) -> bool:

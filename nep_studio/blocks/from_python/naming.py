@@ -202,6 +202,8 @@ def _kept(function: ast.FunctionDef, tree: ast.Module) -> list[str]:
     for other in tree.body:
         named = ast.walk(other) if other is not function else iter(())
         elsewhere.update(node.id for node in named if isinstance(node, ast.Name))
+        if isinstance(other, ast.FunctionDef | ast.AsyncFunctionDef | ast.ClassDef):
+            elsewhere.add(other.name)
     made: dict[str, None] = {}
     for node in ast.walk(function):
         if isinstance(node, ast.Global | ast.Nonlocal):
@@ -272,6 +274,12 @@ def _known(editor: Editor) -> SourceNames:
     for procedure in sorted(procedures, key=lambda one: DEFINE + one.id not in defined):
         names.procedures.setdefault(_safe(words(procedure), "block"), procedure)
     return names
+
+
+def names_taken(editor: Editor) -> set[str]:
+    """The names that robots and variables of a project have in Python."""
+    names = _known(editor)
+    return names.robots.keys() | names.variables.keys()
 
 
 def variable_name(text: str) -> str:

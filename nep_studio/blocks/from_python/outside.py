@@ -131,6 +131,8 @@ class _Splitter:
                 after = self._add(node, number, place)
                 continue
             after = end_of([node])
+            if _is_head(node) and number < self.end_from:
+                place = TOP  # what is said of it is of the whole program, and of no rule
             self._add_waiting(HERE if node is self.run else place)
             self.waiting += self._comments_of(number)
             self._add_waiting(place)
@@ -176,6 +178,8 @@ class _Splitter:
             return not is_made_docstring(node)
         if _is_beginning(node) and (self.parts or self.lines) and self.place != TOP:
             return True  # what variables begin with is written above all else: it stays where it is
+        if _is_beginning(node) and self.waiting:
+            return True  # a comment above it stays there
         if isinstance(node, ast.Import) or _is_beginning(node):
             return bool(self._comments_of(number)) or not is_frame(node)
         return not is_frame(node)
@@ -201,9 +205,9 @@ class _Splitter:
         above, below = self._ends_around(number)
         if above < begin and end < below:
             end = self.source.end_inside(node)
-            self._put(begin, list(self.source.lines[begin - 1 : end]), place)
+            self._put(begin, self.source.whole(begin, end).split("\n"), place)
             return end
-        text = ast.get_source_segment("\n".join(self.source.lines), node) or ast.unparse(node)
+        text = ast.get_source_segment(self.source.whole(1, end), node) or ast.unparse(node)
         if end < below and end in self.source.comments:
             text += f"  {comment_line(self.source.comments[end])}"
         self._put(begin, text.split("\n"), place)

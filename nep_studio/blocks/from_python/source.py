@@ -5,6 +5,7 @@ from __future__ import annotations
 import ast
 import io
 import itertools
+import textwrap
 import tokenize
 import warnings
 from collections.abc import Iterator, Mapping, Sequence
@@ -46,6 +47,7 @@ class Source:
     def line_before(self, body: Sequence[ast.stmt]) -> int:
         """The line after which comments belong to statements that are moved in."""
         line, margin = begin_of(body[0]) - 1, body[0].col_offset
+        margin = 0 if self.margin(line + 1) == margin else margin
         while line and (self._is_empty(line) or self._is_alone(line, margin)):
             line -= 1
         return line
@@ -92,12 +94,21 @@ class Source:
         return [self.comments[line] for line in lines if self.margin(line) == margin]
 
     def text(self, first: int, last: int) -> str:
-        """Lines of the text, without their common margin; texts of several lines keep theirs."""
+        """Lines of the text, without the margin of the first; long texts keep theirs."""
         numbers = [n for n in range(first, last + 1) if not self._is_aside(n)]
-        code = [n for n in numbers if n not in self.inside_texts and not self._is_empty(n)]
-        margin = min(map(self.margin, code), default=0)
-        lines = [self._line(n)[margin if n in code else 0 :] for n in numbers]
+        code = {n for n in numbers if n not in self.inside_texts and not self._is_empty(n)}
+        # the first statement is the least far in: comments and lines in brackets stand anywhere
+        begin = min(code - self.alone or code, default=first)
+        margins = {n: min(self.margin(begin), self.margin(n)) for n in code}
+        lines = [self._line(n)[margins.get(n, 0) :] for n in numbers]
         return "\n".join(lines).rstrip()
+
+    def whole(self, first: int, last: int) -> str:
+        """Lines of the text as they are, but for spaces at their ends."""
+        return "\n".join(
+            self.lines[n - 1] if n + 1 in self.inside_texts else self.lines[n - 1].rstrip()
+            for n in range(first, last + 1)
+        )
 
     def line_at(self, first: int, number: int) -> int:
         """Which line of the source a line is in the text of lines from one on, counted from 1."""
@@ -108,7 +119,7 @@ class Source:
         """A line, of one that is set aside what is left of it."""
         text = self.lines[line - 1]
         if line not in self.set_aside:
-            return text
+            return self.whole(line, line)
         said = comment_line(self.comments[line]) if line in self.comments else ""
         return text[: self.margin(line)] + "  ".join(filter(None, [self.set_aside[line], said]))
 
@@ -134,7 +145,7 @@ def read_source(text: str, *, is_program: bool = False) -> Source:
         raise CodeUnread(
             "This is too long to become blocks.", 1, checklist=("Take a part of it at a time.",)
         )
-    text = text.removeprefix("\ufeff").replace("\r\n", "\n").replace("\r", "\n")
+    text = _plain(text)
     lines = tuple(text.split("\n"))
     try:
         with warnings.catch_warnings(action="ignore"):
@@ -159,6 +170,44 @@ def read_source(text: str, *, is_program: bool = False) -> Source:
     aside = dict(_set_aside(tree, lines))
     alone |= aside.keys() & comments.keys()
     return Source(lines, tree, comments, frozenset(alone), inside, aside)
+
+
+def without_margin(text: str) -> str:
+    """A text without the margin of all its lines, such as lines of a function have.
+
+    The first line may lack it, as when it is selected from its first sign on. What is inside texts
+    of several lines stays as it is.
+    """
+    lines = _plain(text).split("\n")
+    code = [n for n, line in enumerate(lines) if line.strip() and line.lstrip()[0] != "#"]
+    if len(text) > LONGEST_PROGRAM or not code or _tree(text) is not None:
+        return text
+    others = (_margin_of(lines[n]) for n in code[1:])
+    margin = _margin_of(lines[code[0]]) or min(others, default="", key=len)
+    lines[code[0]] = margin + lines[code[0]].lstrip()
+    tree = _tree("\n".join(["if True:", *lines]))
+    if not margin or tree is None:
+        return textwrap.dedent(text)
+    inside = {number - 2 for number in lines_inside_texts(tree)}
+    cut = [0 if n in inside else len(_margin_of(line)) for n, line in enumerate(lines)]
+    return "\n".join(line[min(n, len(margin)) :] for n, line in zip(cut, lines, strict=True))
+
+
+def _tree(text: str) -> ast.Module | None:
+    """The tree of a text; none when Python does not understand it."""
+    try:
+        with warnings.catch_warnings(action="ignore"):
+            return ast.parse(text)
+    except (SyntaxError, ValueError, RecursionError, MemoryError):
+        return None
+
+
+def _plain(text: str) -> str:
+    return text.removeprefix("\ufeff").replace("\r\n", "\n").replace("\r", "\n")
+
+
+def _margin_of(line: str) -> str:
+    return line[: len(line) - len(line.lstrip())]
 
 
 def _require_whole(text: str, tree: ast.Module, lines: Sequence[str]) -> None:

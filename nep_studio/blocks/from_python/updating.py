@@ -254,13 +254,14 @@ def _update_until_same(editor: Editor, source: Source) -> None:
                 continue
             if turns.go_on(lost.places):
                 continue
-            if differs.lines <= kept:
+            more = (differs.lines - lost.around - kept) or (differs.lines - kept)
+            if not more:
                 raise CodeUnread(
                     differs.sentence,
                     min(differs.lines),
                     checklist=_OTHERWISE,
                 ) from differs
-            kept |= differs.lines
+            kept |= more
         except EditRefused as refused:
             if anew:
                 line = refused.line if isinstance(refused, RefusedAtLine) else 1
@@ -505,8 +506,26 @@ def _change(
 def _put_in_order(editor: Editor, firsts: Sequence[str]) -> None:
     """Let stacks come on their page in the order of the text; they stay where they lie."""
     project = editor.project
-    if not any(project.blocks[first].type == OUTSIDE_BLOCK for first in firsts):
+    if any(project.blocks[first].type == OUTSIDE_BLOCK for first in firsts):
+        _sort(editor, firsts)
+        firsts = _as_written(editor, firsts)
+    else:
         firsts = [f for f in firsts if not procedure_of(project.blocks[f].type)]
+    _sort(editor, firsts)
+
+
+def _as_written(editor: Editor, firsts: Sequence[str]) -> list[str]:
+    """Stacks in the order in which the program writes them: own blocks above who uses them."""
+    lines: dict[str, int] = {}
+    for number, block in enumerate(_code(editor).blocks):
+        if block in editor.project.blocks:
+            first = editor.project.stack_of(block).body[0]
+            lines.setdefault(first, number)
+    return sorted((first for first in firsts if first in lines), key=lambda first: lines[first])
+
+
+def _sort(editor: Editor, firsts: Sequence[str]) -> None:
+    project = editor.project
     for above, first in pairwise(firsts):
         upper, stack = project.stack_of(above), project.stack_of(first)
         page = project.page_of(stack.id)

@@ -349,8 +349,9 @@ class RuleWriter:
             self._has_code_blocks = True
             frame.scope.assigned.update(piece.assigned)
             for number, line in enumerate(piece.lines, start=1):
-                is_inside = number in piece.inside_texts
-                self._line(line if is_inside else (margin + line).rstrip(), frame.block)
+                text = line if number in piece.inside_texts else margin + line
+                is_within = number + 1 in piece.inside_texts
+                self._line(text if is_within else text.rstrip(), frame.block)
             return
         if isinstance(piece, EndRule) and (self._code.procedure or frame.scope.indent > 1):
             self._line(margin + show(self._code.api_call("stop_rule")), frame.block)

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import ast
 import textwrap
 
 import pytest
 from block_building import B, build
 
-from nep_studio.blocks.files import to_bytes
+from nep_studio.blocks.editor import Editor
+from nep_studio.blocks.files import from_bytes, to_bytes
 from nep_studio.blocks.from_python.learning import CodeUnread
 from nep_studio.blocks.from_python.updating import update_from_python
 from nep_studio.blocks.generate.program import generate_program
@@ -68,6 +70,35 @@ def test_a_comment_stays_wherever_it_stands(language, written, made):
     editor = updated(language, written)
 
     assert body_of(editor) == (made or written)
+    assert_same_again(editor)
+
+
+@pytest.mark.parametrize(
+    "lines",
+    [
+        "    if 1 < 2:\n# zero\n        wait(1)",
+        "    if 1 < 2:\n        wait(1)\n  # zero\n        wait(2)",
+        "    if x:\n        wait(1)\n    else:\n# zero\n        wait(2)",
+        "    for _ in range(2):\n# zero\n        wait(1)",
+        "    for i, y in enumerate([1]):\n# zero\n        print(y)",
+        "    for i, y in enumerate([1]):\n        print(y)\n# zero\n        print(i)",
+        "    try:\n# zero\n        print(1)\n    finally:\n        print(2)",
+        "    def inner():\n# zero\n        print(1)\n    inner()",
+        "    with open('a'):\n        poem = '''\na\n  b'''\n# zero\n        print(poem)",
+        "    y = sorted([\n# zero\n        1])",
+        "    y = sorted([\n1,\n# zero\n        2])",
+        "    wait(\n# zero\n1\n)",
+    ],
+)
+def test_a_comment_less_far_in_than_what_is_around_it_is_kept(language, lines):
+    editor = build(language, [B("event.started"), B("control.wait")], variables=("x",))
+    text = generate_program(editor.project, language).text.replace("    wait(1)", lines)
+
+    update_from_python(editor, text)
+
+    again = generate_program(editor.project, language).text
+    assert "# zero" in again
+    assert ast.dump(ast.parse(again).body[-2]) == ast.dump(ast.parse(text).body[-2])
     assert_same_again(editor)
 
 
@@ -148,12 +179,94 @@ def test_what_no_block_may_hold_is_told_once_with_its_line(language, written, li
     assert step in str(raised.value.checklist[0])
 
 
+@pytest.mark.parametrize(
+    "written",
+    [
+        "x: int = 0   ",
+        "def f(a=1): \n    return a\t\n  \n    # end  ",
+        "class A:\n\n    n = 1   # one  \n   \n    m = 2 ",
+        "poem = '''  \na   \n'''  ",
+        "def f(a=1):\n    global n   \n    n = '''a  \n  b  '''  \n    return a",
+        "a = 1 ; b = [  \n    2,\n]  ",
+    ],
+)
+def test_spaces_at_the_ends_of_lines_are_in_no_own_python(language, written):
+    editor = updated(language, f"wait(1)  \n{written}  \nwait(2)")
+    text = generate_program(editor.project, language).text
+    text = text.replace("\n\n\n@", f"\n\n{written}\n\n\n@")
+
+    update_from_python(editor, text)
+
+    made = generate_program(editor.project, language).text
+    assert [ast.dump(n) for n in ast.parse(made).body] == [
+        ast.dump(n) for n in ast.parse(text).body
+    ]
+    again = Editor(from_bytes(to_bytes(editor.project), "project", language), language)
+    assert to_bytes(again.project) == to_bytes(editor.project)
+    assert_same_again(again)
+    assert_same_again(editor)
+
+
 OUTSIDE = [
     "def f(a=1):\n    return a\n    # one\n\n    # two",
     "class A:\n    def f(self):\n        return 1\n\n    # def g(self):\n    #     return 2",
     "if 1 > 0:\n    MODE = 1\n    # MODE = 2\nelse:\n    MODE = 3\n    # MODE = 4",
     "for i in [1]:\n    if i:\n        print(i)\n        # in\n    # end\n\n# below\nprint(2)",
 ]
+
+
+@pytest.mark.parametrize("value", ['""', '"it"', "[1]", "None"])
+def test_a_variable_begins_as_it_did_when_a_line_that_changes_it_is_kept(language, value):
+    editor = updated(language, "global x\nx += 1\nwait(x)")
+    text = generate_program(editor.project, language).text.replace("x += 1", f"x += {value}")
+
+    update_from_python(editor, text)
+
+    assert generate_program(editor.project, language).text == text
+    assert_same_again(editor)
+
+
+@pytest.mark.parametrize("above", ["", "# one\n", "# one\n# two\n\n"])
+@pytest.mark.parametrize("behind", ["", "  # three"])
+@pytest.mark.parametrize("more", ["", "x = 0\n", "LIMIT = 2.5\n", "# four\nx = 0\n"])
+def test_comments_of_a_robot_stay_above_all_rules(language, above, behind, more):
+    editor = build(language, [B("event.started"), B("robot.say")])
+    text = generate_program(editor.project, language).text
+    text = text.replace('nao = Robot("NAO")', f'{above}nao = Robot("NAO"){behind}')
+    text = text.replace("\n\n\n@", f"\n{more}\n\n@")
+
+    update_from_python(editor, text)
+
+    made = generate_program(editor.project, language).text
+    begin = made.index("nao =")
+    said = [word for word in ("one", "two", "three") if f"# {word}" in above + behind]
+    assert [word for word in ("one", "two", "three") if f"# {word}\n" in made[:begin]] == said
+    assert made.count("#") == text.count("#")
+    assert_same_again(editor)
+
+
+@pytest.mark.parametrize(
+    "top",
+    [
+        "# score\nx = 0\ny = 0",
+        "x = 0\n# second\ny = 0",
+        "# first\nx = 0\n# second\ny = 0",
+        "# all of them\n\nx = 0\ny = 0",
+        "# one\n# two\nx = 0\ny = 0",
+        "# unused\nw = 0\nx = 0\ny = 0",
+        "# kept\nw = 2.5\nx = 0\ny = 0",
+    ],
+)
+def test_a_comment_above_a_variable_stays_there(language, top):
+    editor = updated(language, "global x, y\nx += 1\ny += 1\nwait(x + y)")
+    text = generate_program(editor.project, language).text
+    text = text.replace("x = 0\ny = 0\n", f"{top}\n")
+
+    update_from_python(editor, text)
+
+    made = generate_program(editor.project, language).text
+    assert made.replace("\n\n#", "\n#") == text
+    assert_same_again(editor)
 
 
 @pytest.mark.parametrize("outside", OUTSIDE)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import ast
+
 import pytest
 from block_building import B, build
 
@@ -236,6 +238,59 @@ def test_an_own_block_that_a_loose_block_calls_stays_beside_the_new_one(language
 
     assert generate_program(editor.project, language).text == text
     assert [words(p) for p in editor.project.procedures.values()].count("tell") == 2
+    assert_same_again(editor)
+
+
+LIMIT, CLASS = "LIMIT = [1, 2]", "class Friend:\n    def go(self):\n        helper()"
+RULES = [f"@behavior.when_started\ndef {name}():\n    wait(1)" for name in ("one", "two")]
+HELPERS = [f"def {name}():\n    wait(2)" for name in ("helper", "another")]
+
+
+@pytest.mark.parametrize(
+    "parts",
+    [
+        [*RULES, *HELPERS],
+        [LIMIT, *RULES, HELPERS[0]],
+        ["n = 0", RULES[0].replace("wait(1)", "n = 5\n    wait(n)"), HELPERS[0]],
+        [RULES[0], LIMIT, HELPERS[0], RULES[1]],
+        [RULES[0], HELPERS[0], LIMIT, HELPERS[1]],
+        [CLASS, *RULES, HELPERS[0]],
+        [RULES[0], CLASS, LIMIT, *HELPERS, RULES[1]],
+        [LIMIT, HELPERS[0], "# on its own\nMAX = 2", HELPERS[1], *RULES],
+    ],
+)
+def test_own_blocks_written_anywhere_are_in_the_order_of_the_program(language, parts):
+    text = 'from nep_core import Behavior, wait\n\nbehavior = Behavior("T")\n'
+    text = "\n\n\n".join([text, *parts, "behavior.run()\n"])
+
+    assert_same_again(updated(Editor(Project("T"), language), text))
+
+
+@pytest.mark.parametrize("rule", ["wait(1)", "helper(2)", "nao.say('a')", "helper(nao)"])
+@pytest.mark.parametrize(
+    "function",
+    [
+        "def helper(nao):\n    nao.say('hi')",
+        "def helper(a, nao):\n    nao.say(a)",
+        "def helper(a):\n    nao = a\n    wait(nao)",
+        "def helper(a):\n    told = lambda nao: nao.say('q')\n    told(a)",
+        "def helper(behavior):\n    wait(behavior)",
+        "def helper(a):\n    another = a\n    wait(another)\n\n\ndef another():\n    wait(2)",
+        "def helper(another):\n    wait(another)\n\n\ndef another():\n    wait(2)",
+    ],
+)
+def test_what_is_called_as_something_of_the_program_in_a_function_alone_stays_there(
+    language, function, rule
+):
+    text = 'from nep_core import Behavior, Robot, wait\n\nnao = Robot("NAO")\n'
+    text += f'behavior = Behavior("T")\n\n\n{function}\n\n\n'
+    text += f"@behavior.when_started\ndef when_started():\n    {rule}\n\n\nbehavior.run()\n"
+
+    editor = updated(Editor(Project("T"), language), text)
+
+    made = ast.parse(generate_program(editor.project, language).text)
+    wanted = ast.parse(text).body[3:-1]
+    assert {ast.dump(one) for one in wanted} <= {ast.dump(one) for one in made.body}
     assert_same_again(editor)
 
 

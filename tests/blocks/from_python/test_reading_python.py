@@ -191,6 +191,167 @@ def test_a_few_lines_are_pasted_as_blocks(language, text, types):
     assert len(editor.project.blocks) == len(types)
 
 
+BASE = """from nep_core import Behavior, Robot
+
+nao = Robot("NAO")
+behavior = Behavior("T")
+x = 0
+
+
+@behavior.when_started
+def when_started():
+    global x
+    x = 1
+    nao.say("x")
+
+
+behavior.run()
+"""
+
+
+def pasted(language, text: str) -> str:
+    """The Python of a program with the variable x and the robot NAO, after pasting a text."""
+    editor = Editor(read_program(BASE, language), language)
+    paste(editor, read_snippet(text, language, editor.project), "behaviour", 0, 0)
+    return generate_program(editor.project, language).text
+
+
+@pytest.mark.parametrize(
+    "function",
+    [
+        "def f(x):\n    x = x + 1\n    return x",
+        "def f(x):\n    nao.say(x)",
+        "def f(nao):\n    nao.say('x')",
+        "def f(nao, wait):\n    nao.say(wait)",
+        "def f():\n    x = 2",
+        "def f():\n    for x in [1, 2]:\n        wait(x)",
+        "def f():\n    nao = 2\n    wait(nao)",
+        "def f():\n    with open('a') as x:\n        print(x)",
+        "def f():\n    global x\n    x = 2",
+        "def f():\n    y = 2\n    wait(y)",
+        "y = 1\n\n\ndef f():\n    y = 2\n    wait(y)",
+        "def f():\n    return [x for x in [1]]",
+        "def f(wait):\n    return wait",
+        "def nao():\n    wait(2)",
+    ],
+)
+def test_a_function_that_is_pasted_does_the_same(language, function):
+    wanted = ast.parse(function).body[-1]
+
+    made = ast.parse(pasted(language, function))
+
+    assert ast.dump(wanted) in [ast.dump(node) for node in made.body]
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        ('nao.say("a")\n# last', ["last"]),
+        ('nao.say("a")  # behind\n\n# one\n# two', ["behind", "one", "two"]),
+        ("x = 2\n# last", ["last"]),
+        ('print("a")\n# last', ["last"]),
+        ("42  # behind", ["behind"]),
+        ("# above\n42\n# last", ["above\nlast"]),
+        ("def f():\n    wait(1)\n    # in\n\n\n# last", ["in", "# last"]),
+        ("def f(a=1):\n    wait(a)\n# last", ["# last"]),
+        ("def f():\n    wait(1)\n\n\n# mid\nwait(2)\n# last", ["mid", "last"]),
+        ("wait(2)\n# mid\ndef f():\n    wait(1)", ["mid"]),
+    ],
+)
+def test_comments_are_pasted_too(language, text, said):
+    clip = read_snippet(text, language, read_program(BASE, language))
+
+    blocks = clip.project.blocks.values()
+    notes = [str(b.fields.get("text")) for b in blocks if b.type == "control.note"]
+    own = [str(b.fields["code"]) for b in blocks if b.type == "code.program"]
+    found = [*[b.comment for b in blocks], *notes, *[code for code in own if code[:1] == "#"]]
+    assert sorted(filter(None, found)) == sorted(said)
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "if x == 1:\n    wait(1)\nelse:  # this\n    wait(2)",
+        "global x  # this\nx = 1",
+        "# this\nimport random\nwait(1)",
+        "import random  # this\n\n\ndef f():\n    wait(1)",
+        "nao = Robot('NAO')  # this\nnao.say('x')",
+        "def f():\n    if x == 1:\n        wait(1)\n    else:  # this\n        wait(2)",
+        "wait(\n    # this\n    1,\n)",
+    ],
+)
+def test_a_comment_anywhere_in_what_is_pasted_is_kept(language, text):
+    clip = read_snippet(text, language, read_program(BASE, language))
+
+    said = [f"{block.comment} {block.fields}" for block in clip.project.blocks.values()]
+    assert "this" in " ".join(said)
+
+
+@pytest.mark.parametrize(
+    ("text", "plain"),
+    [
+        ('    wait(1)\n    nao.say("b")', 'wait(1)\nnao.say("b")'),
+        ('wait(1)\n    nao.say("b")', 'wait(1)\nnao.say("b")'),
+        ("\twait(1)\r\n\r\n\twait(2)\r\n", "wait(1)\nwait(2)"),
+        ("if x == 1:\n        wait(1)\n    wait(2)", "if x == 1:\n    wait(1)\nwait(2)"),
+        ("    if x == 1:\n# c\n        wait(1)", "if x == 1:\n    # c\n    wait(1)"),
+        ("# c\n\n    wait(1)\n  # d", "# c\nwait(1)\n# d"),
+        ("    y = '''\na\n  b'''\n    wait(y)", "y = '''\na\n  b'''\nwait(y)"),
+        ("    def f(a):\n        wait(a)", "def f(a):\n    wait(a)"),
+        ("    # all\n    print(1)\n    print(2)", "# all\nprint(1)\nprint(2)"),
+    ],
+)
+def test_lines_of_a_function_are_pasted_without_its_margin(language, text, plain):
+    base = read_program(BASE, language)
+
+    clips = [read_snippet(one, language, base) for one in (text, plain)]
+
+    made = [
+        [(b.type, b.fields, b.comment) for b in clip.project.within(clip.roots[0])]
+        for clip in clips
+    ]
+    assert made[0] == made[1]
+
+
+@pytest.mark.parametrize(
+    ("text", "told"), [("    x = (", "closed"), ("  wait(1)\n wait(2)", "ind")]
+)
+def test_a_mistake_in_lines_with_a_margin_is_told_as_without_it(language, text, told):
+    with pytest.raises(CodeUnread, match=told) as raised:
+        read_snippet(text, language, Project())
+
+    assert raised.value.line in (1, 2)
+
+
+@pytest.mark.parametrize(
+    ("text", "there"),
+    [
+        ("import math as m\n\n\ndef area(r):\n    return m.pi * r", "import math as m"),
+        (
+            "# for sin\nfrom math import sin\n\n\ndef f(a=1):\n    wait(sin(a))",
+            "# for sin\nfrom math import sin",
+        ),
+        ("from math import *\nwait(sin(1))", "from math import *"),
+        ("from nep_core import *\nwait(2)\nprint(as_text(2))", ""),
+        ("from nep_core import *\n\n\ndef f(a):\n    wait(a)", ""),
+        ("import math\n\n\ndef f():\n    wait(math.pi)", "import math"),
+        ("import math as m\nwait(m.pi)", ""),
+    ],
+)
+def test_what_functions_import_is_pasted_outside_of_them(language, text, there):
+    made = pasted(language, text)
+
+    title = '"""T. Made with NEP Studio."""\n'
+    above = made.split("from nep_core")[0].replace(title, "")
+    assert above == (f"{there}\n" if there else "")
+    compile(made, "program.py", "exec")
+
+
+def test_an_import_of_everything_alone_is_nothing_to_paste(language):
+    with pytest.raises(CodeUnread, match="nothing here"):
+        read_snippet("from nep_core import *", language, Project())
+
+
 def test_what_has_no_block_keeps_its_text_in_a_code_block(language):
     if "code.lines" not in language.definitions:
         pytest.skip("this language has no code blocks")
