@@ -13,8 +13,8 @@ import logging
 import os
 import sys
 import threading
-from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
 from functools import lru_cache
 from pathlib import Path
 from typing import Literal, NamedTuple
@@ -64,6 +64,7 @@ class Brought(NamedTuple):
     """A concern as who follows edits needs it, where it stands in Python."""
 
     key: str
+    text: str
     settings: frozenset[str] = frozenset()
     files: tuple[tuple[str, str], ...] = ()
 
@@ -216,16 +217,35 @@ def settings_of(block: Block) -> dict[str, object]:
     return {**block.fields, **(inside if isinstance(inside, dict) else {})}
 
 
+SHORTEST_PIECE = 9
+"""A line of fewer letters is in anybody's Python."""
+
+
+def _squashed(text: str) -> list[str]:
+    """The lines of Python without gaps, which a window may change as it shows them."""
+    lines = ("".join(line.split()) for line in text.splitlines())
+    return [line for line in lines if len(line) >= SHORTEST_PIECE]
+
+
+@dataclass(slots=True)
+class _Strange:
+    """What came in with a block: the keys of all that it held, and the lines of its Python."""
+
+    keys: set[str] = field(default_factory=set)
+    lines: set[str] = field(default_factory=set)
+    has_python: bool = False
+
+
 class Authorship:
     """Follows the edits of one project: which blocks the person made what they are.
 
-    Python that is typed is the person's own, unless its block held some that nobody has approved:
-    a letter more does not make that theirs. Of robots and nodes a person chooses each setting, and
-    with it the file that it names as that is then: theirs is what has no other setting that reaches
-    anything. Blocks that come in whole, by a paste, a drop, an import, or by undoing one, are what
-    their content is; those made in ``editor.history.as_own()`` are the person's, unless they hold
-    what came in that way, or Python in a project with some that nobody has approved: it may be cut
-    from that.
+    Python that is typed is the person's own, unless its block held some that nobody has approved,
+    or it has lines of such: a letter more does not make that theirs, nor another place. Of robots
+    and nodes a person chooses each setting, and with it the file that it names as that is then:
+    theirs is what has no other setting that reaches anything. Blocks that come in whole, by a
+    paste, a drop, an import, or by undoing one, are what their content is; those made in
+    ``editor.history.as_own()`` are the person's, unless they hold what came in that way, or Python
+    in a project with some that nobody has approved: it may be cut from that.
 
     ``shipped`` gives the keys of what comes with us, which nobody needs to approve.
     """
@@ -240,20 +260,26 @@ class Authorship:
         self._editor, self._approvals = editor, approvals
         self._brought_by, self._shipped = brought_by, shipped
         self._foreign: set[str] = set()
-        """The blocks with what nobody has approved, also those that are gone."""
-        self._strange: set[str] = set()
-        """The keys of all that came in: moved into another block, it is still a stranger's."""
+        """The blocks with what nobody has approved."""
+        self._strange: dict[str, _Strange] = {}
+        """What nobody has approved by the block that it came with, also where that is gone."""
+        self._unlike: set[str] = set()
+        """Lines that have been compared with all of these."""
         self._came: dict[str, dict[str, object]] = {}
-        """The settings with which robots and nodes came in."""
+        """The settings with which robots and nodes came in, but for those that were seen."""
         self._bytes: dict[tuple[str, str, object], str] = {}
         """What was behind a setting of a block when it was chosen or approved."""
         self._own: set[str] = set()
         self._typed: set[str] = set()
         """The keys of all that was typed, so that undoing brings nothing strange."""
-        self._has_strangers = False
-        """Whether there is, or was, Python that nobody has approved."""
         for block in editor.project.blocks.values():
-            self._come_in(block)
+            found = self._brought_by(block)
+            if block.type in (ROBOT_BLOCK, NODE_BLOCK):
+                self._came[block.id] = settings_of(block)
+            if not self._is_known(found):
+                self._keep_out(block, found)
+            else:
+                self._note_seen(block, found)
         editor.history.record(self._on_edits)
 
     def keep(self) -> None:
@@ -266,13 +292,12 @@ class Authorship:
     def look_again(self) -> None:
         """Something was approved: who changes that from now on changes what they know."""
         blocks = self._editor.project.blocks
-        self._foreign &= blocks.keys()
-        for block_id in list(self._foreign):
+        for block_id in self._foreign & blocks.keys():
             found = self._brought_by(blocks[block_id])
             if self._is_known(found):
                 self._foreign.discard(block_id)
-                self._is_chosen(blocks[block_id], found, anew=True)
-        self._has_strangers = any(map(self._holds_python, map(blocks.__getitem__, self._foreign)))
+                self._strange.pop(block_id, None)
+                self._note_seen(blocks[block_id], found)
 
     def close(self) -> None:
         """Follow no more."""
@@ -283,25 +308,16 @@ class Authorship:
         unknown = [one.key for one in found if not self._approvals.has(one.key)]
         return not unknown or set(unknown).issubset(self._shipped())
 
-    def _holds_python(self, block: Block) -> bool:
-        definition = self._editor.language.definitions.get(block.type)
-        return definition is not None and definition.holds_python
-
-    def _come_in(self, block: Block) -> None:
-        """A block is there that somebody else may have made."""
-        found = self._brought_by(block)
-        if not self._is_known(found):
-            self._keep_out(block, found)
-        if block.type in (ROBOT_BLOCK, NODE_BLOCK):
-            self._came[block.id] = settings_of(block)
-            if found and block.id not in self._foreign:
-                self._is_chosen(block, found, anew=True)
-
     def _keep_out(self, block: Block, found: Iterable[Concern | Brought]) -> None:
         self._foreign.add(block.id)
         self._own.discard(block.id)
-        self._strange.update(one.key for one in found)
-        self._has_strangers |= self._holds_python(block)
+        strange = self._strange.setdefault(block.id, _Strange())
+        for one in found:
+            strange.keys.add(one.key)
+            if isinstance(one, Brought):
+                strange.has_python = True
+                strange.lines.update(_squashed(one.text))
+                self._unlike.clear()
 
     def _let_in(self, block: Block, found: Iterable[Concern | Brought]) -> None:
         self._foreign.discard(block.id)
@@ -313,68 +329,75 @@ class Authorship:
         for edit in edits:
             match edit:
                 case SetField(block=block_id):
-                    self._on_typed(block_id, is_own=is_own)
+                    self._on_changed(block_id, is_typed=True, is_own=is_own)
                 case CreateBlocks(blocks=blocks):
                     for block in blocks:
-                        self._on_made(block.id, is_own=is_own, is_new=True)
+                        if is_own:
+                            self._came.setdefault(block.id, {})
+                        self._on_changed(block.id, is_typed=is_own, is_own=is_own)
                 case _:
-                    self._on_made(getattr(edit, "block", ""), is_own=is_own)
+                    self._on_changed(getattr(edit, "block", ""), is_typed=is_own, is_own=is_own)
 
-    def _on_typed(self, block_id: str, *, is_own: bool) -> None:
+    def _on_changed(self, block_id: str, *, is_typed: bool, is_own: bool) -> None:
         block = self._editor.project.blocks.get(block_id)
         if block is None:
             return
         found = self._brought_by(block)
         is_setting = block.type in (ROBOT_BLOCK, NODE_BLOCK)
+        came = self._came.setdefault(block_id, settings_of(block)) if is_setting else {}
         if not found:
             if not is_setting:  # nothing of it is left
                 self._foreign.discard(block_id)
             return
         if is_setting:
-            is_theirs = self._is_chosen(block, found)
+            is_theirs = is_typed and self._is_chosen(block, found, came)
         else:
-            is_strange = any(one.key in self._strange for one in found)
-            is_mixed = is_own and self._has_strangers
-            is_theirs = block_id not in self._foreign and not is_strange and not is_mixed
-        self._take(block, found, is_theirs=is_theirs)
-
-    def _on_made(self, block_id: str, *, is_own: bool, is_new: bool = False) -> None:
-        block = self._editor.project.blocks.get(block_id)
-        if block is None:
-            return
-        found = self._brought_by(block)
-        is_setting = block.type in (ROBOT_BLOCK, NODE_BLOCK)
-        is_typed = self._typed.issuperset(one.key for one in found)
-        if is_setting and is_new:
-            self._came[block_id] = {} if is_own or (found and is_typed) else settings_of(block)
-        if found:
-            is_strange = any(one.key in self._strange for one in found)
-            is_mixed = self._has_strangers and not is_setting
-            self._take(block, found, is_theirs=is_own and not is_strange and not is_mixed)
-
-    def _take(self, block: Block, found: Sequence[Concern | Brought], *, is_theirs: bool) -> None:
+            is_theirs = is_typed and block_id not in self._foreign and not self._is_strange(found)
+            is_theirs &= not (is_own and self._has_strangers())
         if is_theirs or self._typed.issuperset(one.key for one in found):
             self._let_in(block, found)
         elif not self._is_known(found):
             self._keep_out(block, found)
 
-    def _is_chosen(
-        self, block: Block, found: Iterable[Concern | Brought], *, anew: bool = False
-    ) -> bool:
-        """Whether all that a robot or a node reaches was chosen here, or is, ``anew``, from now on.
+    def _has_strangers(self) -> bool:
+        """Whether there is, or was, Python that nobody has approved."""
+        return any(one.has_python for one in self._strange.values())
 
-        A file counts as it was when it was chosen: who changes something else has not seen it.
+    def _is_strange(self, found: Iterable[Concern | Brought]) -> bool:
+        """Whether Python came in as it is, or lines of it did, or a part of such a line."""
+        if any(one.key in strange.keys for one in found for strange in self._strange.values()):
+            return True
+        theirs = {line for strange in self._strange.values() for line in strange.lines}
+        lines = {line for one in found if isinstance(one, Brought) for line in _squashed(one.text)}
+        for line in lines - self._unlike if theirs else ():
+            if any(line in other or other in line for other in theirs):
+                return True
+            self._unlike.add(line)
+        return False
+
+    def _is_chosen(
+        self, block: Block, found: Iterable[Concern | Brought], came: Mapping[str, object]
+    ) -> bool:
+        """Whether all that a robot or a node reaches was chosen here, or seen.
+
+        A file counts as it was then: who changes something else has not seen it.
         """
         now = settings_of(block)
-        if anew:
-            self._came[block.id] = {}
-        came = self._came.get(block.id, {})
         is_chosen = True
         for one in found:
-            is_chosen &= not any(n in came and came[n] == now.get(n) for n in one.settings)
-            for name, digest in one.files:
-                place = (block.id, name, now.get(name))
-                known = digest if anew else self._bytes.get(place, digest)
-                self._bytes[place] = known
-                is_chosen &= known == digest
+            files = dict(one.files)
+            for name in one.settings:
+                digest = files.get(name, "")
+                known = self._bytes.setdefault((block.id, name, now.get(name)), digest)
+                is_same = name in came and came[name] == now.get(name)
+                is_chosen &= known == digest and not is_same
         return is_chosen
+
+    def _note_seen(self, block: Block, found: Iterable[Concern | Brought]) -> None:
+        """A person knows what a block reaches as it is now; its other settings nobody has shown."""
+        now = settings_of(block)
+        for one in found:
+            files = dict(one.files)
+            for name in one.settings:
+                self._came.get(block.id, {}).pop(name, None)
+                self._bytes[block.id, name, now.get(name)] = files.get(name, "")

@@ -281,7 +281,7 @@ def brought_by(
     block: Block, project: Project, language: Language, folder: Path
 ) -> list[Concern | Brought]:
     """What is not blocks in one block."""
-    texts = [Brought(key) for _, key in python_texts(block, language)]
+    texts = [Brought(key, text) for text, key in python_texts(block, language)]
     if block.type not in (NODE_BLOCK, ROBOT_BLOCK):
         return [*texts]
     found = concerns_of(_only(block), language, folder)

@@ -16,6 +16,7 @@ from nep_studio.blocks.files import load
 from nep_studio.blocks.from_python.updating import update_from_python
 from nep_studio.blocks.generate.program import generate_program
 from nep_studio.blocks.operations.copying import copy, paste
+from nep_studio.blocks.operations.fixes import use_real_robot
 from nep_studio.project.trust import Approvals, Authorship
 from nep_studio.run.gate import Gate, brought_by, concerns_of
 from nep_studio.run.installation import studio_language
@@ -235,3 +236,88 @@ def test_a_file_counts_as_one_whatever_it_is_called(make: Maker, value: str) -> 
     node = B("nodes.launch", {"node": "sensory/replay", "name": "r", "parameters": settings})
 
     assert Opened(make, [node], page="nodes").asks() == ["node"]
+
+
+@pytest.mark.parametrize(
+    "piece",
+    ["{0}", "x = 1\n{0}", "x = {0}", "if 1: {0}  # mine", "# mine\n#{0}"],
+)
+def test_a_strangers_line_in_a_block_of_ones_own_is_a_strangers_still(
+    make: Maker, piece: str
+) -> None:
+    python = f"x = 5\n{make.python}"
+    mine = B("code.lines", {"code": "y = 1"})
+    opened = Opened(make, [STARTED, B("code.lines", {"code": python})], [STARTED, mine])
+    first, second = (b.id for b in opened.project.blocks.values() if b.type == "code.lines")
+
+    opened.editor.apply(DeleteBlocks(first, 1))
+    for text in ("z = 1", piece.format(make.python)):
+        opened.editor.apply(SetField(second, "code", text))
+
+    assert opened.asks() == ["python"]
+
+
+def test_a_part_of_a_strangers_value_is_a_strangers_still(make: Maker) -> None:
+    def wait(code: str) -> B:
+        return B("control.wait", inputs={"seconds": B("code.value", {"code": code})})
+
+    opened = Opened(make, [STARTED, wait(f"{make.value} or 1"), wait("1 + 1")])
+    first, second = (b.id for b in opened.project.blocks.values() if b.type == "code.value")
+
+    opened.editor.apply(SetField(second, "code", make.value))
+    opened.editor.apply(DeleteBlocks(first, 1))
+
+    assert opened.asks() == ["python"]
+
+
+def test_python_that_is_gone_before_a_yes_to_something_else_comes_back_a_strangers(
+    make: Maker,
+) -> None:
+    opened = Opened(make, [STARTED, B("code.lines", {"code": f"a = 1\n{make.python}"})])
+    build(make.language, [B("robots.robot", ROBOT)], page="robots", editor=opened.editor)
+    text = generate_program(opened.project, make.language).text
+
+    opened.editor.apply(DeleteBlocks(opened.block("code.lines"), 1))
+    opened.approve()
+    with opened.editor.history.as_own():
+        update_from_python(opened.editor, text.replace("a = 1", "a = 2"))
+
+    assert opened.asks() == ["python"]
+
+
+@pytest.mark.parametrize("is_known", [True, False])
+def test_a_yes_to_a_model_is_none_to_an_address_beside_it(make: Maker, is_known: bool) -> None:
+    settings = {"robot": "N", "driver": "virtual", "model": "ourbot"}
+    node = {"node": "action/nao", "name": "N", "parameters": settings}
+    if is_known:
+        Opened(make, [B("nodes.launch", node)], page="nodes").approve()
+    far = {**node, "parameters": {**settings, "address": FAR}}
+    opened = Opened(make, [B("nodes.launch", far)], page="nodes")
+    if not is_known:
+        opened.approve()
+    assert opened.asks() == []
+
+    opened.settings(driver="naoqi")
+
+    assert opened.asks() == ["robot"]
+
+
+def test_a_file_that_comes_after_the_yes_is_asked_about(make: Maker) -> None:
+    settings = {"recording": "late.csv", "speed": 1.0}
+    node = B("nodes.launch", {"node": "sensory/replay", "name": "r", "parameters": settings})
+    opened = Opened(make, [node], page="nodes")
+    opened.approve()
+
+    (make.folder / "late.csv").write_text("time,x\n0,1\n")
+    opened.settings(speed=2.0)
+
+    assert opened.asks() == ["node"]
+
+
+def test_a_robot_that_is_connected_here_is_the_persons(make: Maker) -> None:
+    opened = Opened(make, [STARTED])
+
+    with opened.editor.history.as_own():
+        use_real_robot(opened.editor, "NAO", FAR, "connect a robot")
+
+    assert opened.asks() == []

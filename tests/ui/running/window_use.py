@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from PySide6.QtCore import Qt
+from pytestqt.exceptions import TimeoutError as PytestQtTimeoutError
 from pytestqt.qtbot import QtBot
 
 from nep_core.wire import messages as m
@@ -48,7 +49,13 @@ def press(window: MainWindow, qtbot: QtBot, name: str) -> None:
 
 
 def state_is(window: MainWindow, qtbot: QtBot, state: str) -> None:
-    qtbot.waitUntil(lambda: window.running.runner.state == state, timeout=WAIT_MS)
+    runner = window.running.runner
+    try:
+        qtbot.waitUntil(lambda: runner.state == state, timeout=WAIT_MS)
+    except PytestQtTimeoutError as error:
+        logs = [f"{file.name}: {file.read_text()[-2000:]}" for file in runner.local.logs.glob("*.log")]
+        events = {name: node.event for name, node in runner.board.nodes.items()}
+        raise AssertionError(f"it is {runner.state}, nodes {events}\n" + "\n".join(logs)) from error
 
 
 def has_run(window: MainWindow, qtbot: QtBot, seen: Seen) -> None:

@@ -71,7 +71,9 @@ def use_robot(host: Host, robot: str, address: str, login: SavedLogin | None) ->
             Problem(tr("Not everything was kept"), sentence, steps, str(error))
         )
     try:
-        block = use_real_robot(workbench.canvas.editor, robot, address, tr("connect a robot"))
+        editor = workbench.canvas.editor
+        with editor.history.as_own():
+            block = use_real_robot(editor, robot, address, tr("connect a robot"))
     except EditRefused as refusal:
         host.services.messages.refuse(refusal.sentence, refusal.checklist)
         return

@@ -144,13 +144,15 @@ class WatchKit(QObject):
             dialog.trial.end()
             return
         try:
-            block = use_watch(
-                self._host.workbench.canvas.editor,
-                planned.parameters,
-                tr("connect a watch"),
-                node=planned.node,
-                name=planned.name,
-            )
+            editor = host.workbench.canvas.editor
+            with editor.history.as_own():
+                block = use_watch(
+                    editor,
+                    planned.parameters,
+                    tr("connect a watch"),
+                    node=planned.node,
+                    name=planned.name,
+                )
         except EditRefused as refusal:
             dialog.trial.end()
             host.services.messages.refuse(refusal.sentence, refusal.checklist)
