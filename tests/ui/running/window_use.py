@@ -53,7 +53,9 @@ def state_is(window: MainWindow, qtbot: QtBot, state: str) -> None:
     try:
         qtbot.waitUntil(lambda: runner.state == state, timeout=WAIT_MS)
     except PytestQtTimeoutError as error:
-        logs = [f"{file.name}: {file.read_text()[-2000:]}" for file in runner.local.logs.glob("*.log")]
+        logs = [
+            f"{file.name}: {file.read_text()[-2000:]}" for file in runner.local.logs.glob("*.log")
+        ]
         events = {name: node.event for name, node in runner.board.nodes.items()}
         raise AssertionError(f"it is {runner.state}, nodes {events}\n" + "\n".join(logs)) from error
 
