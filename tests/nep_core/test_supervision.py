@@ -134,6 +134,25 @@ def test_a_node_has_as_long_to_be_ready_as_its_manifest_says(
         launcher.start("sensory/slow").wait_ready()
 
 
+@pytest.mark.parametrize(("seconds", "is_in_time"), [(1.5, True), (60.0, False)])
+def test_a_node_that_loads_all_the_while_has_longer_to_be_ready(
+    launcher: Launcher, tmp_path: Path, seconds: float, is_in_time: bool
+) -> None:
+    code = f"end = time.monotonic() + {seconds}\nwhile time.monotonic() < end: pass\n"
+    code += "node.ready()\nnode.wait(60)"
+    write_node(tmp_path / "nodes", "slow", code, manifest="ready_s = 1\n")
+
+    launched = launcher.start("sensory/slow")
+
+    if is_in_time:
+        launched.wait_ready()
+        return
+    start_s = time.monotonic()
+    with pytest.raises(NodeStartError, match="ready within 1 s"):
+        launched.wait_ready()
+    assert 2.9 < time.monotonic() - start_s < 20.0
+
+
 def test_a_node_that_is_stopped_before_its_next_life_stays_stopped_at_once(
     launcher: Launcher, ends: Ends, monkeypatch: pytest.MonkeyPatch
 ) -> None:
