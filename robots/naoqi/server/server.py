@@ -412,7 +412,9 @@ def _turn_back(peer: Peer, why: Text, frame: Frame) -> bool:
         peer.answer(frame.answer(Kind.REPLY, encode("{sm}", said)))
     elif frame.kind == Kind.CALL:
         peer.answer_error(frame, why)
-        peer.close()
+        goodbye = threading.Timer(GOODBYE_S, peer.close)  # who sees the end first tells that alone
+        goodbye.daemon = True
+        goodbye.start()
     return False
 
 
@@ -430,6 +432,7 @@ def _line(connected: socket.socket, context: ssl.SSLContext | None) -> Line | No
 
 
 HANDSHAKE_S = 5.0
+GOODBYE_S = 1.0
 LISTEN_S = 0.5
 MOST_CLIENTS = 128
 MOST_TURNED_AWAY = 16

@@ -169,10 +169,13 @@ def test_a_message_that_cannot_be_sent_does_not_silence_the_next(
     heard: list[object] = []
     tap.arrived.connect(lambda batch: heard.extend(one.message for one in batch))
 
-    runner.send("/hunted", {"half a letter": "\ud800"})
-    runner.send("/hunted", {"whole": 1})
+    def is_heard() -> bool:  # the tap may begin to listen only now
+        runner.send("/hunted", {"whole": 1})
+        return {"whole": 1} in heard
 
-    qtbot.waitUntil(lambda: {"whole": 1} in heard)
+    runner.send("/hunted", {"half a letter": "\ud800"})
+
+    qtbot.waitUntil(is_heard, timeout=WAIT_MS)
 
 
 def _threads() -> set[str]:
