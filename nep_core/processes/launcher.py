@@ -46,7 +46,7 @@ AT_WORK = frozenset(("ready", "running", "busy", "connected", "connection_failed
 
 
 SLOW_TIMES = 3.0
-"""A node that works all the while may take so many times as long to be ready: others do, too."""
+"""A node that works all the while may take so many times as long: the computer is busy."""
 LOOK_S, WORKING_PART = 1.0, 0.03
 """It works when it has used this part of a processor since the last look; waiting takes less."""
 
@@ -142,8 +142,9 @@ class LaunchedNode:
     ) -> None:
         """Wait until the node says that it is ready, or has done its work and ended well.
 
-        ``timeout_s``: None takes ``ready_s`` of its manifest. ``given_up``: wait no longer once
-        this is set. Raises NodeStartError with its last words, or when the time is over.
+        ``timeout_s``: None takes ``ready_s`` of its manifest; a node that works all the while has
+        up to three times as long. ``given_up``: wait no longer once this is set. Raises
+        NodeStartError with its last words, or when the time is over.
         """
         if timeout_s is None:
             timeout_s = self.manifest.ready_s if self.manifest else READY_S

@@ -61,7 +61,7 @@ class Concern:
 
 
 class Brought(NamedTuple):
-    """A concern as who follows edits needs it, where it stands in Python."""
+    """Python in a block, as a concern for who follows the edits; it has no settings."""
 
     key: str
     text: str

@@ -40,7 +40,6 @@ from robots.naoqi.wire.line import (
     AUTHENTICATE,
     CAPABILITIES,
     DONE,
-    FULL,
     GOES_ON,
     NEW_TOKEN,
     REASON,
@@ -205,11 +204,11 @@ def enter(peer: Peer, login: Login | None, until_s: float) -> None:
         # NAOqi up to 2.1 does not know the call
         peer.send(Frame(Kind.CAPABILITY, 0, 0, 0, 0, encode("{sm}", CAPABILITIES)))
         return
-    if (reason := str(answer.get(REASON, ""))).startswith(FULL):
-        sentence = text_of("The robot serves as many programs as it can.")
-        raise NoRoom(sentence, checklist=MAKE_ROOM, details=reason)
     if answer.get(STATE) != DONE:
         raise _refused(login, str(answer.get(STATE)))
+    if REASON in answer:
+        sentence = text_of("The robot serves as many programs as it can.")
+        raise NoRoom(sentence, checklist=MAKE_ROOM, details=str(answer[REASON]))
     peer.capabilities = answer
 
 

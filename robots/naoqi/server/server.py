@@ -441,7 +441,6 @@ NO_ROOM = (
     "There is no room for another program: {most} are connected to this robot. Close programs that "
     "are not needed, then try again."
 )
-"""It begins with FULL, by which our client knows it."""
 _numbers = itertools.count(1)
 
 

@@ -114,10 +114,11 @@ AUTHENTICATE = 8
 """The number of the call, to service 0 and object 0."""
 STATE, USER, TOKEN, NEW_TOKEN = "__qi_auth_state", "auth_user", "auth_token", "auth_newToken"
 FAILED, GOES_ON, DONE = 1, 2, 3
-FULL = "There is no room for another program"
 REASON = "__qi_auth_err_reason"
-"""The key under which a server says why it lets nobody in. Source: libqi, authprovider.cpp."""
-"""So begins what our server says, instead of an answer, to a client that is one too many."""
+"""The key under which a server says why it lets nobody in: ours beside DONE where it has no room.
+
+Source: libqi, authprovider.cpp.
+"""
 CAPABILITIES = {
     "ClientServerSocket": True,
     "MessageFlags": True,

@@ -7,13 +7,12 @@ import signal
 import subprocess
 import time
 from collections.abc import Callable, Iterator
-from contextlib import ExitStack, contextmanager
+from contextlib import contextmanager
 from pathlib import Path
 
 import msgspec
 import pytest
 
-from nep_core.places import NODES_VARIABLE
 from nep_core.processes.process import program_command
 from nep_core.wire import messages as m
 from nep_studio import paths
@@ -33,11 +32,9 @@ from nep_studio.run.gate import (
     listing,
     node_concern,
 )
-from nep_studio.run.installation import studio_language
 from nep_studio.run.local_network import LocalNetwork
 from nep_studio.run.plan import NotForPages, PlannedNode, file_inside
 from nep_studio.run.session import Session
-from nep_studio.support.portable import SETTINGS_VARIABLE
 from tests.blocks.block_building import B, build
 from tests.nep_studio.run.hostile_projects import (
     STARTED,
@@ -46,20 +43,9 @@ from tests.nep_studio.run.hostile_projects import (
     Trap,
     all_in_one,
     lines,
-    own_nodes,
 )
 
 pytestmark = pytest.mark.strangers
-
-
-@pytest.fixture
-def make(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Maker]:
-    monkeypatch.setenv(SETTINGS_VARIABLE, str(tmp_path / "home"))
-    monkeypatch.setenv(NODES_VARIABLE, str(own_nodes(tmp_path)))
-    folder = tmp_path / "from a stranger"
-    folder.mkdir()
-    with ExitStack() as ending:
-        yield Maker(folder, studio_language(), ending)
 
 
 def file_of(trap: Trap, make: Maker) -> str:

@@ -2,13 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from contextlib import ExitStack
 from pathlib import Path
 
 import pytest
 
-from nep_core.places import NODES_VARIABLE
 from nep_studio.blocks.editor import Editor
 from nep_studio.blocks.edits.content import SetField
 from nep_studio.blocks.edits.placing import DeleteBlocks
@@ -19,24 +16,12 @@ from nep_studio.blocks.operations.copying import copy, paste
 from nep_studio.blocks.operations.fixes import use_real_robot
 from nep_studio.project.trust import Approvals, Authorship
 from nep_studio.run.gate import Gate, brought_by, concerns_of
-from nep_studio.run.installation import studio_language
-from nep_studio.support.portable import SETTINGS_VARIABLE
 from tests.blocks.block_building import B, build
-from tests.nep_studio.run.hostile_projects import STARTED, Maker, own_nodes
+from tests.nep_studio.run.hostile_projects import STARTED, Maker
 
 pytestmark = pytest.mark.strangers
 FAR = "203.0.113.7"
 ROBOT = {"name": "NAO", "driver": "naoqi", "address": FAR}
-
-
-@pytest.fixture
-def make(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Maker]:
-    monkeypatch.setenv(SETTINGS_VARIABLE, str(tmp_path / "home"))
-    monkeypatch.setenv(NODES_VARIABLE, str(own_nodes(tmp_path)))
-    folder = tmp_path / "from a stranger"
-    folder.mkdir()
-    with ExitStack() as ending:
-        yield Maker(folder, studio_language(), ending)
 
 
 class Opened:
