@@ -86,11 +86,10 @@ class NewAction:
 
 @dataclass(frozen=True)
 class NewPanel:
-    """A panel beside the canvas: left, right or at the bottom; ``title`` is an English template.
+    """A panel beside the canvas, or a page in its place; ``title`` is an English template.
 
     ``icon_name`` is a picture in ``resources/icons``. The widget's property ``help_page`` is the
     page of the help that F1 opens there. It hears nothing while it is hidden.
-    It gets at least ``least_share`` of the height of the window when it is opened at the bottom.
     """
 
     widget: QWidget
@@ -98,7 +97,6 @@ class NewPanel:
     icon_name: str
     area: AreaName
     is_shown: bool = False
-    least_share: float = 0.0
 
 
 @dataclass(frozen=True)

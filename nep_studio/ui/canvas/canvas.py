@@ -156,6 +156,7 @@ class Canvas(QAbstractScrollArea):
 
     def show_page(self, page: str) -> None:
         """Show another page, from its beginning; what is under way on this one ends."""
+        self.news.page_asked.emit()
         if page == self.page:
             return
         self._leave_page()

@@ -31,6 +31,7 @@ if TYPE_CHECKING:
 class CanvasNews(QObject):
     """What happens on a canvas, for those around it.
 
+    ``page_asked``: somebody wants to see a page, perhaps the one that is shown already;
     ``refused`` says in a sentence why something did not fit; ``announced`` is for screen readers;
     ``menu_requested`` gives a place in the viewport, ``page_double_clicked`` one of the page where
     no block is; ``blocks_deleted`` brings what was deleted,
@@ -39,6 +40,7 @@ class CanvasNews(QObject):
     name of a page of help.
     """
 
+    page_asked = Signal()
     page_changed = Signal(str)
     resized = Signal()
     view_changed = Signal()

@@ -93,9 +93,7 @@ class WindowHost:
 
     def _add_panel(self, new: NewPanel) -> None:
         panels = self.workbench.panels
-        added = panels.add(new.widget, new.title, new.icon_name, new.area, is_shown=new.is_shown)
-        if new.least_share:
-            panels.give_room(added, new.least_share)
+        panels.add(new.widget, new.title, new.icon_name, new.area, is_shown=new.is_shown)
 
     def _add_action(self, new: NewAction) -> None:
         action = self.actions.add(

@@ -1,43 +1,55 @@
-"""The tabs of a project's pages: show, add, rename, move, delete."""
+"""The tabs: a project's pages (show, add, rename, move, delete), and the rooms beside them."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import partial
 
-from PySide6.QtCore import QEvent, QPoint, Qt, Signal
-from PySide6.QtGui import QKeyEvent, QMouseEvent
+from PySide6.QtCore import QEvent, QPoint, QSize, Qt, Signal
+from PySide6.QtGui import QIcon, QKeyEvent, QMouseEvent
 from PySide6.QtWidgets import QLineEdit, QMenu, QTabBar, QToolButton, QWidget
 
 from nep_studio.blocks.editor import Editor
 from nep_studio.blocks.edits.project import AddPage, MovePage, RenamePage
 from nep_studio.blocks.program import PAGES, Project
-from nep_studio.ui.labels import follow_words, labelled
+from nep_studio.ui.labels import explained, follow_words, labelled
+from nep_studio.ui.theme.colours import Theme
 from nep_studio.ui.theme.icons import icon
 from nep_studio.ui.theme.look import Look
 from nep_studio.ui.widgets.layouts import in_row
 from nep_studio.ui.words import tr
 
+from .side_panels import Rooms
+
 KIND_ICONS = {"behaviour": "blocks", "robots": "bot", "nodes": "network"}
 
 
 class PagesBar(QWidget):
-    """Shows one page of an editor as chosen; ``page_chosen`` asks to see another.
+    """Shows one page of an editor, or one room, as chosen.
 
-    ``attempt`` makes a change and tells the person why not when it is refused.
+    ``page_chosen`` asks to see another page. ``attempt`` makes a change and tells the person why
+    not when it is refused. The pages that set robots and nodes up have a tab once somebody wants
+    to see them, until it is closed.
     """
 
     page_chosen = Signal(str)
 
     def __init__(
-        self, editor: Editor, look: Look, attempt: Callable[[Callable[[], object]], bool]
+        self,
+        editor: Editor,
+        look: Look,
+        attempt: Callable[[Callable[[], object]], bool],
+        rooms: Rooms,
     ) -> None:
         super().__init__()
-        self._look, self._attempt = look, attempt
+        self._look, self._attempt, self._rooms = look, attempt, rooms
         self._editor = editor
         self._page = PAGES[0]
+        self._wanted: set[str] = set()
+        """The pages for setting up that have been looked at."""
         self.tabs = PageTabs(self)
-        self.add_button = labelled(QToolButton(), tip="Add a page", name="Add a page")
-        self.add_button.clicked.connect(self.add_page)
+        self.add_button = labelled(QToolButton(), tip="Another page", name="Another page")
+        self.add_button.clicked.connect(self._show_more)
         in_row(self.tabs, self.add_button, 1, of=self, margins=0, spacing=0)
         self._connect()
         editor.history.listen(self._fill, is_of_whole=True)
@@ -49,6 +61,7 @@ class PagesBar(QWidget):
         self.tabs.renamed.connect(self.rename_page)
         self.tabs.customContextMenuRequested.connect(self._on_menu_requested)
         self._look.theme_changed.connect(self._fill)
+        self._rooms.changed.connect(self._fill)
 
     def set_editor(self, editor: Editor) -> None:
         """Show the pages of another project."""
@@ -56,16 +69,23 @@ class PagesBar(QWidget):
         self._editor = editor
         editor.history.listen(self._fill, is_of_whole=True)
         self._page = PAGES[0]
+        self._wanted.clear()
         self._fill()
 
     def show_page(self, page: str) -> None:
-        """Mark the page that is shown now."""
+        """Mark the page that is shown now; it has a tab from now on."""
         self._page = page
-        pages = list(self._editor.project.pages)
-        if page in pages:
-            self.tabs.blockSignals(True)
-            self.tabs.setCurrentIndex(pages.index(page))
-            self.tabs.blockSignals(False)
+        if page in PAGES[1:]:
+            self._wanted.add(page)
+        self._fill()
+
+    def pages(self) -> list[str]:
+        """The pages that have a tab, in their order."""
+        project = self._editor.project
+        return [page for page in project.pages if self._has_tab(page)]
+
+    def _has_tab(self, page: str) -> bool:
+        return page not in PAGES[1:] or page in self._wanted
 
     def add_page(self) -> None:
         """Add a page for behaviour behind the last one of those, and show it."""
@@ -96,38 +116,83 @@ class PagesBar(QWidget):
         self._attempt(lambda: self._editor.delete_page(page))
 
     def _fill(self, _changed: object = None) -> None:
-        project, theme = self._editor.project, self._look.theme
+        project, theme, tabs = self._editor.project, self._look.theme, self.tabs
+        pages, rooms = list(project.pages), self._rooms.open
         self.add_button.setIcon(icon("plus", theme))
-        self.tabs.blockSignals(True)
-        while self.tabs.count() > len(project.pages):
-            self.tabs.removeTab(self.tabs.count() - 1)
-        for index, page in enumerate(project.pages):
-            if index == self.tabs.count():
-                self.tabs.addTab("")
-            self.tabs.setTabText(index, page_title(project, page).replace("&", "&&"))
-            self.tabs.setTabIcon(index, icon(KIND_ICONS[project.kind_of_page(page)], theme))
-            self.tabs.setTabData(index, page_title(project, page))
-        self.tabs.blockSignals(False)
-        if self._page not in project.pages:
+        tabs.blockSignals(True)
+        while tabs.count() > len(pages) + len(rooms):
+            tabs.removeTab(tabs.count() - 1)
+        while tabs.count() < len(pages) + len(rooms):
+            tabs.addTab("")
+        for index, page in enumerate(pages):
+            sign = icon(KIND_ICONS[project.kind_of_page(page)], theme)
+            tabs.show_tab(index, page_title(project, page), sign)
+            tabs.setTabData(index, page)
+            tabs.setTabVisible(index, self._has_tab(page))
+            close = partial(self.close_page, page) if page in PAGES[1:] else None
+            tabs.let_close(index, close, theme)
+        for index, room in enumerate(rooms, len(pages)):
+            sign = self._rooms.signs.get(room, QIcon())
+            tabs.show_tab(index, tr(self._rooms.titles[room]), sign)
+            tabs.setTabData(index, room)
+            tabs.setTabVisible(index, True)
+            tabs.let_close(index, partial(self._rooms.close_asked.emit, room), theme)
+        shown = self._rooms.shown
+        if shown is not None and shown in rooms:
+            tabs.setCurrentIndex(len(pages) + rooms.index(shown))
+        elif self._page in pages:
+            tabs.setCurrentIndex(pages.index(self._page))
+        tabs.blockSignals(False)
+        if self._page not in pages:
             self.page_chosen.emit(PAGES[0])
-        else:
-            self.show_page(self._page)
+
+    def close_page(self, page: str) -> None:
+        """Take the tab of a page for setting up away; the page stays as it is."""
+        self._wanted.discard(page)
+        if self._page == page:
+            self.page_chosen.emit(PAGES[0])
+        self._fill()
 
     def _on_current_changed(self, index: int) -> None:
-        pages = list(self._editor.project.pages)
-        if 0 <= index < len(pages):
-            self.page_chosen.emit(pages[index])
+        shown = self.tabs.tabData(index)
+        if isinstance(shown, str):
+            self.page_chosen.emit(shown)
+        elif isinstance(shown, QWidget):
+            self._rooms.setCurrentWidget(shown)
 
     def _on_moved_to(self, page_index: int, position: int) -> None:
-        page = list(self._editor.project.pages)[page_index]
-        self._page = page
-        self._attempt(lambda: self._editor.apply(MovePage(page, position)))
+        pages = list(self._editor.project.pages)
+        if page_index < len(pages):  # rooms have their order
+            self._page = pages[page_index]
+            edit = MovePage(self._page, min(position, len(pages) - 1))
+            self._attempt(lambda: self._editor.apply(edit))
         self._fill()
 
     def _on_menu_requested(self, point: QPoint) -> None:
         index = self.tabs.tabAt(point)
-        if index >= 0:
+        if 0 <= index < len(self._editor.project.pages):
             self.menu(index).popup(self.tabs.mapToGlobal(point))
+
+    def _show_more(self) -> None:
+        below = self.add_button.rect().bottomLeft()
+        self.more().popup(self.add_button.mapToGlobal(below))
+
+    def more(self) -> QMenu:
+        """What can have a tab besides: a new page, those for setting up, the rooms."""
+        menu, theme = QMenu(self), self._look.theme
+        menu.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
+        sign = icon(KIND_ICONS["behaviour"], theme)
+        menu.addAction(sign, tr("New page for behaviour"), self.add_page)
+        menu.addSeparator()
+        for page in PAGES[1:]:
+            title = page_title(self._editor.project, page).replace("&", "&&")
+            show = partial(self.page_chosen.emit, page)
+            menu.addAction(icon(KIND_ICONS[page], theme), title, show)
+        menu.addSeparator()
+        for room, title in self._rooms.titles.items():
+            show = partial(self._rooms.open_asked.emit, room)
+            menu.addAction(self._rooms.signs[room], tr(title), show)
+        return menu
 
     def menu(self, index: int) -> QMenu:
         """What can be done with a page."""
@@ -191,9 +256,31 @@ class PageTabs(QTabBar):
         else:
             super().keyPressEvent(event)
 
+    def show_tab(self, index: int, title: str, sign: QIcon) -> None:
+        """Let a tab look so."""
+        self.setTabText(index, title.replace("&", "&&"))
+        self.setTabIcon(index, sign)
+
+    def let_close(self, index: int, close: Callable[[], object] | None, theme: Theme) -> None:
+        """Give a tab a button that closes it; None takes the button away."""
+        side = QTabBar.ButtonPosition.RightSide
+        if close is None:
+            self.setTabButton(index, side, None)
+            return
+        button, line = QToolButton(self, autoRaise=True), self.fontMetrics().height()
+        explained(button, "Close this tab")
+        button.setIcon(icon("x", theme))
+        button.setIconSize(QSize(line * 3 // 4, line * 3 // 4))
+        button.setFocusPolicy(Qt.FocusPolicy.NoFocus)
+        button.clicked.connect(close)
+        self.setTabButton(index, side, button)
+
     def edit_title(self, index: int) -> None:
         """Put a line edit over a tab; Enter and leaving it keep the title, Esc does not."""
-        edit = self.title_edit = _TitleEdit(str(self.tabData(index)), self)
+        if not isinstance(self.tabData(index), str):
+            return  # a room
+        title = self.tabText(index).replace("&&", "&")
+        edit = self.title_edit = _TitleEdit(title, self)
         edit.setGeometry(self.tabRect(index))
         edit.selectAll()
         edit.show()

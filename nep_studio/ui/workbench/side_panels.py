@@ -1,4 +1,4 @@
-"""The areas around the canvas, and the panels in them that a person shows and hides."""
+"""The rooms of the window: what stands around the canvas, and the pages that take its place."""
 
 from __future__ import annotations
 
@@ -6,19 +6,22 @@ from dataclasses import dataclass
 from functools import partial
 from typing import Literal
 
-from PySide6.QtCore import QObject, QSignalBlocker, QSize, Qt, Signal
-from PySide6.QtGui import QAction, QResizeEvent
-from PySide6.QtWidgets import QSplitter, QTabWidget, QToolButton, QWidget
+from PySide6.QtCore import QEvent, QObject, QSignalBlocker, QSize, Qt, Signal
+from PySide6.QtGui import QAction, QIcon, QResizeEvent
+from PySide6.QtWidgets import QSplitter, QStackedWidget, QTabWidget, QToolButton, QWidget
 
 from faults import Words
 from nep_studio.settings import Settings
 from nep_studio.ui.labels import follow_words, labelled
+from nep_studio.ui.theme.colours import Theme
 from nep_studio.ui.theme.icons import icon
 from nep_studio.ui.theme.look import Look
 from nep_studio.ui.widgets.layouts import in_column
 from nep_studio.ui.words import tr
 
-AreaName = Literal["left", "right", "bottom"]
+AreaName = Literal["left", "right", "bottom", "stage", "person", "page"]
+"""Where a panel stands: the ``stage`` is at the far side of the canvas at all times, the ``person``
+under it, ``right`` between the canvas and them. A ``page`` takes the place of the canvas."""
 
 
 @dataclass
@@ -28,7 +31,7 @@ class Panel:
     widget: QWidget
     title: Words
     icon_name: str
-    area: Area
+    area: Area | Rooms
     action: QAction
     is_usual: bool
     """Whether it is shown as long as nobody has shown or hidden it."""
@@ -45,6 +48,7 @@ class Area(QTabWidget):
         super().__init__()
         self._look = look
         self._is_wide = name == "bottom"
+        self._is_back = False
         self._titles: dict[QWidget, Words] = {}
         self.setDocumentMode(True)
         self.setUsesScrollButtons(True)
@@ -121,7 +125,21 @@ class Area(QTabWidget):
         if is_shown:
             self.setCurrentIndex(index)
         self._fit_titles()
-        self.setVisible(any(self.isTabVisible(i) for i in range(self.count())))
+        self._show_if_wanted()
+
+    def stand_back(self, is_back: bool) -> None:
+        """Take no room for a while, whatever is shown here."""
+        self._is_back = is_back
+        self._show_if_wanted()
+
+    def _show_if_wanted(self) -> None:
+        is_wanted = any(self.isTabVisible(index) for index in range(self.count()))
+        self.setVisible(is_wanted and not self._is_back)
+
+    def dress(self, widget: QWidget, sign: QIcon, theme: Theme) -> None:
+        """Take the signs of a theme."""
+        self.setTabIcon(self.indexOf(widget), sign)
+        self.close_button.setIcon(icon("x", theme))
 
     def show_first(self) -> None:
         """Let the first of the panels that are shown be on top."""
@@ -129,31 +147,117 @@ class Area(QTabWidget):
         self.setCurrentIndex(shown[0] if shown else 0)
 
 
-class Panels(QObject):
-    """All panels of one window, around ``middle``."""
+class Rooms(QStackedWidget):
+    """The canvas, or the panel that takes its place; ``changed`` tells which there are and what
+    is on top. Those that are open have a tab beside the pages of the project.
+    """
 
-    def __init__(self, middle: QWidget, look: Look, settings: Settings, parent: QWidget) -> None:
+    changed = Signal()
+    open_asked = Signal(QWidget)
+    close_asked = Signal(QWidget)
+
+    def __init__(self, canvas: QWidget) -> None:
+        super().__init__()
+        self.titles: dict[QWidget, Words] = {}
+        """Of all rooms, in the order of their tabs."""
+        self.signs: dict[QWidget, QIcon] = {}
+        self.open: list[QWidget] = []
+        self.addWidget(canvas)
+        self.currentChanged.connect(self.changed)
+
+    @property
+    def shown(self) -> QWidget | None:
+        """The room that is on top; None while that is the canvas."""
+        return self.currentWidget() if self.currentIndex() else None
+
+    def add_panel(self, widget: QWidget, title: Words) -> None:
+        """Add a room, behind the others."""
+        self.titles[widget] = title
+        self.addWidget(widget)
+
+    def show_panel(self, widget: QWidget, is_shown: bool) -> None:
+        """Give a room its tab and show it; or take both away."""
+        if is_shown and widget not in self.open:
+            self.open = [one for one in self.titles if one in (*self.open, widget)]
+        elif not is_shown and widget in self.open:
+            self.open.remove(widget)
+        if is_shown:
+            self.setCurrentWidget(widget)
+        elif self.currentWidget() is widget:
+            self.show_canvas()
+        self.changed.emit()
+
+    def show_first(self) -> None:
+        """Show the canvas."""
+        self.show_canvas()
+
+    def show_canvas(self) -> None:
+        """Show the canvas; the rooms keep their tabs."""
+        self.setCurrentIndex(0)
+
+    def dress(self, widget: QWidget, sign: QIcon, _theme: Theme) -> None:
+        """Take the sign of a theme."""
+        self.signs[widget] = sign
+        self.changed.emit()
+
+    def minimumSizeHint(self) -> QSize:
+        """Room for what is on top: a larger one below must not make the window larger."""
+        shown = self.currentWidget()
+        if shown is None:
+            return super().minimumSizeHint()
+        return shown.minimumSizeHint().expandedTo(shown.minimumSize())
+
+
+WIDEST = 16777215  # Qt's own
+
+CANVAS_SHARE = 0.56
+"""So much of the window's width the canvas has at least, as long as nobody moved a border."""
+
+STAGE_SHARE, WIDEST_STAGE = 0.21, 34
+"""How much of the width the stage has, and how many lines of text it is wide at most."""
+
+PERSON_SHARE = 0.38
+"""How much of the height beside the canvas the person has when somebody looks at it."""
+
+
+class Panels(QObject):
+    """All panels of one window: around ``middle``, and the ``rooms`` in it."""
+
+    def __init__(
+        self, middle: QWidget, rooms: Rooms, look: Look, settings: Settings, parent: QWidget
+    ) -> None:
         super().__init__(parent)
-        self._look, self._settings = look, settings
+        self._look, self._settings, self.rooms = look, settings, rooms
         self.all: list[Panel] = []
-        self.areas: dict[AreaName, Area] = {
-            "left": Area("left", look),
-            "right": Area("right", look),
-            "bottom": Area("bottom", look),
-        }
+        sides: tuple[AreaName, ...] = ("left", "right", "bottom", "stage", "person")
+        self.areas = {name: Area(name, look) for name in sides}
         self.column = QSplitter(Qt.Orientation.Vertical)
+        self.stage = QSplitter(Qt.Orientation.Vertical)
         self.row = QSplitter(Qt.Orientation.Horizontal)
+        self._is_arranged = False
+        """Whether somebody has moved a border of the row: then it is left as it is."""
+        self._unfolded = 0
+        """How wide the area at the left was before it was folded."""
         # the outer ones first: a widget is dressed anew in each parent
         in_column(self.row, of=parent, margins=0)
-        for beside in (self.areas["left"], self.column, self.areas["right"]):
+        for beside in (self.areas["left"], self.column, self.areas["right"], self.stage):
             self.row.addWidget(beside)
-        for widget in (middle, self.areas["bottom"]):
-            self.column.addWidget(widget)
-        for splitter, stretched in ((self.column, 0), (self.row, 1)):
+        for splitter, parts in (
+            (self.column, (middle, self.areas["bottom"])),
+            (self.stage, (self.areas["stage"], self.areas["person"])),
+        ):
+            for widget in parts:
+                splitter.addWidget(widget)
+        for splitter, stretched in ((self.column, 0), (self.row, 1), (self.stage, 0)):
             splitter.setChildrenCollapsible(False)
             splitter.setStretchFactor(stretched, 1)
-        for area in self.areas.values():
+        self.row.splitterMoved.connect(self._on_row_moved)
+        self.row.installEventFilter(self)
+        self.stage.hide()
+        for area in (*self.areas.values(), rooms):
             area.close_asked.connect(self._on_close_asked)
+        rooms.open_asked.connect(self.show)
+        rooms.changed.connect(self._on_rooms_changed)
         look.theme_changed.connect(self._on_theme_changed)
 
     def add(
@@ -166,7 +270,7 @@ class Panels(QObject):
         is_shown: bool = True,
     ) -> Panel:
         """Add a panel; whether it is shown is as the person left it, else as it is said."""
-        place = self.areas[area]
+        place = self.rooms if area == "page" else self.areas[area]
         place.add_panel(widget, title)
         action = labelled(QAction(self, checkable=True), text=title)
         panel = Panel(widget, title, icon_name, place, action, is_shown, type(widget).__name__)
@@ -176,6 +280,7 @@ class Panels(QObject):
         place.show_first()
         action.toggled.connect(partial(self._on_toggled, panel))
         self._dress(panel)
+        self._show_stage()
         return panel
 
     def show(self, widget: QWidget) -> None:
@@ -184,55 +289,89 @@ class Panels(QObject):
             if panel.widget is widget:
                 panel.action.setChecked(True)
                 panel.area.setCurrentWidget(widget)
-
-    def give_room(self, panel: Panel, share: float) -> None:
-        """Let a panel of the bottom have at least this share of the height when it is opened."""
-
-        def grow(is_on: bool) -> None:
-            above, below = self.column.sizes()
-            wanted = round((above + below) * share)
-            if is_on and below < wanted:
-                self.column.setSizes([above + below - wanted, wanted])
-
-        panel.action.toggled.connect(grow)
-
-    def hide_at_first(self, area: AreaName) -> None:
-        """Hide the panels of an area that the person has not shown or hidden yet."""
-        for panel in self.all:
-            if panel.area is self.areas[area] and not self._settings.is_chosen(panel.name):
-                self._set_shown(panel, False)
+                if isinstance(panel.area, Area):
+                    panel.area.stand_back(False)
+                    self._share_width()
 
     def show_usual(self) -> None:
         """Show the panels that are shown as long as nobody has chosen."""
         for panel in self.all:
-            self._set_shown(panel, panel.is_usual)
-        for area in self.areas.values():
+            with QSignalBlocker(panel.action):  # this is not the person's choice
+                panel.action.setChecked(panel.is_usual)
+            panel.area.show_panel(panel.widget, panel.is_usual)
+        for area in (*self.areas.values(), self.rooms):
             area.show_first()
-
-    def _set_shown(self, panel: Panel, is_shown: bool) -> None:
-        with QSignalBlocker(panel.action):  # this is not the person's choice
-            panel.action.setChecked(is_shown)
-        panel.area.show_panel(panel.widget, is_shown)
+        self._show_stage()
 
     def restore(self, line: int) -> None:
         """Give the areas the sizes that they had, or good ones; ``line`` is a line of text."""
-        if not self.row.restoreState(self._settings.state("row")):
-            width = self.row.window().width()  # it may not have been shown yet
-            left = min(self.areas["left"].sizeHint().width(), width * 36 // 100)
-            right = max(min(line * 16, width * 21 // 100), self.areas["right"].tabs_width())
-            right = min(right, width * 30 // 100)
-            self.row.setSizes([left, width - left - right, right])
+        self._is_arranged = self.row.restoreState(self._settings.state("row"))
+        self._share_width()
+        height = self.row.window().height()  # it may not have been shown yet
         if not self.column.restoreState(self._settings.state("column")):
-            height = self.row.window().height()
             self.column.setSizes([height - line * 9, line * 9])
+        if not self.stage.restoreState(self._settings.state("stage")):
+            below = round(height * PERSON_SHARE)
+            self.stage.setSizes([height - below, below])
 
     def remember(self) -> None:
         """Note the sizes in the settings."""
-        self._settings.set_state("row", self.row.saveState())
+        if self._is_arranged:
+            self._settings.set_state("row", self.row.saveState())
         self._settings.set_state("column", self.column.saveState())
+        self._settings.set_state("stage", self.stage.saveState())
+
+    def fold_left(self, width: int | None) -> None:
+        """Let the area at the left be no wider than this, or as wide as it was (None).
+
+        What it does not need goes to the canvas, and comes from there.
+        """
+        area, sizes = self.areas["left"], self.row.sizes()
+        if width is not None and area.maximumWidth() > width:
+            self._unfolded = sizes[0]
+        area.setMaximumWidth(WIDEST if width is None else width)
+        if self._is_arranged and sizes[0]:
+            wanted = self._unfolded or area.sizeHint().width() if width is None else width
+            sizes[1] -= wanted - sizes[0]
+            sizes[0] = wanted
+            self.row.setSizes(sizes)
+        else:
+            self._share_width()
+
+    def _share_width(self) -> None:
+        """Share the width anew, unless somebody has chosen: the canvas keeps the larger part."""
+        if self._is_arranged:
+            return
+        area, line = self.areas["left"], self.row.fontMetrics().height()
+        whole = self.row.width() if self.row.isVisible() else self.row.window().width()
+        rest = whole - round(whole * CANVAS_SHARE)
+        stage = 0 if self.stage.isHidden() else min(round(whole * STAGE_SHARE), line * WIDEST_STAGE)
+        wanted = min(area.sizeHint().width(), area.maximumWidth())
+        left = 0 if area.isHidden() else max(min(wanted, rest - stage), area.minimumWidth())
+        right = self.areas["right"]
+        beside = 0 if right.isHidden() else max(round(whole * 0.22), right.tabs_width())
+        self.row.setSizes([left, whole - left - stage - beside, beside, stage])
+
+    def _show_stage(self) -> None:
+        is_shown = not (self.areas["stage"].isHidden() and self.areas["person"].isHidden())
+        if is_shown == self.stage.isHidden():
+            self.stage.setVisible(is_shown)
+            self._share_width()
+
+    def _on_row_moved(self) -> None:
+        self._is_arranged = True
+
+    def eventFilter(self, watched: QObject, event: QEvent) -> bool:
+        """In a window of another size the parts keep their shares."""
+        if event.type() == QEvent.Type.Resize:
+            self._share_width()
+        return super().eventFilter(watched, event)
 
     def _on_toggled(self, panel: Panel, is_on: bool) -> None:
         panel.area.show_panel(panel.widget, is_on)
+        self._show_stage()
+        if panel.area is self.areas["right"]:
+            self._share_width()
         self._settings.set_shown(panel.name, is_on)
 
     def _on_close_asked(self, widget: QWidget) -> None:
@@ -240,12 +379,19 @@ class Panels(QObject):
             if panel.widget is widget:
                 panel.action.setChecked(False)
 
+    def _on_rooms_changed(self) -> None:
+        """A room has the whole page: what tells of the canvas stands back."""
+        is_room = self.rooms.shown is not None
+        for area in (self.areas["left"], self.areas["right"], self.areas["bottom"]):
+            area.stand_back(is_room)
+        self._share_width()
+
     def _on_theme_changed(self) -> None:
         for panel in self.all:
             self._dress(panel)
 
     def _dress(self, panel: Panel) -> None:
         theme = self._look.theme
-        panel.action.setIcon(icon(panel.icon_name, theme))
-        panel.area.setTabIcon(panel.area.indexOf(panel.widget), icon(panel.icon_name, theme))
-        panel.area.close_button.setIcon(icon("x", theme))
+        sign = icon(panel.icon_name, theme)
+        panel.action.setIcon(sign)
+        panel.area.dress(panel.widget, sign, theme)

@@ -33,7 +33,7 @@ from .outline import Outline
 from .pages_bar import PagesBar
 from .palette.palette import Palette
 from .problems import ProblemBubble, ProblemsPanel
-from .side_panels import AreaName, Panel, Panels
+from .side_panels import AreaName, Panel, Panels, Rooms
 from .trash import TrashButton
 
 # What helps on the canvas: finding, inserting by typing, the minimap, the trash.
@@ -76,7 +76,6 @@ class CanvasHelpers(QObject):
 
 
 BLOCK_FONT_PIXELS = 14
-WIDEST = 16777215  # Qt's own
 LEAST_LINES = 60
 """In a window that is narrower, in lines of text, not all panels have room at first."""
 
@@ -94,7 +93,6 @@ class Workbench(QWidget):
             editor, studio.look.theme, font=block_font(studio), is_mirrored=is_right_to_left()
         )
         make_accessible(self.canvas)
-        self.pages_bar = PagesBar(editor, studio.look, self.canvas.attempt)
         self.code = CodePane(editor, studio.look, self.canvas.selection)
         self.outline = Outline(self.canvas)
         self.problems = ProblemsPanel(studio.look)
@@ -103,20 +101,22 @@ class Workbench(QWidget):
         self.bubble: ProblemBubble | None = None
         self._run_problem: Diagnostic | None = None
         self._usual_scale = usual_scale(studio)
-        middle = QFrame()
-        in_column(
-            self.pages_bar, self.helpers.find_bar, (self.canvas, 1), of=middle, margins=0, spacing=0
-        )
-        self.panels = Panels(middle, studio.look, studio.settings, self)
-        self.add_side_panel(self.helpers.palette, "Blocks", "blocks", "left")
-        self.add_side_panel(self.code, "Code", "code", "right")
+        middle, below = QFrame(), QWidget()
+        in_column(self.helpers.find_bar, (self.canvas, 1), of=below, margins=0, spacing=0)
+        self.rooms = Rooms(below)
+        self.pages_bar = PagesBar(editor, studio.look, self.canvas.attempt, self.rooms)
+        in_column(self.pages_bar, (self.rooms, 1), of=middle, margins=0, spacing=0)
+        self.panels = Panels(middle, self.rooms, studio.look, studio.settings, self)
+        self.add_side_panel(self.helpers.palette, "Blocks", "blocks", "left", is_shown=True)
+        self.add_side_panel(self.code, "Python", "code", "right")
         self.add_side_panel(self.outline, "Outline", "list-tree", "right")
-        self.add_side_panel(self.problems, "Problems", "circle-check", "bottom", is_shown=False)
+        self.add_side_panel(self.problems, "Problems", "circle-check", "bottom")
         self._connect()
 
     def _connect(self) -> None:
         canvas = self.canvas
         self.pages_bar.page_chosen.connect(canvas.show_page)
+        canvas.news.page_asked.connect(self.rooms.show_canvas)
         canvas.news.page_changed.connect(self.pages_bar.show_page)
         canvas.news.page_changed.connect(self.code.show_page)
         canvas.news.refused.connect(self._messages.refuse)
@@ -138,9 +138,9 @@ class Workbench(QWidget):
         icon_name: str,
         area: AreaName,
         *,
-        is_shown: bool = True,
+        is_shown: bool = False,
     ) -> Panel:
-        """Add a panel beside the canvas: left, right or at the bottom."""
+        """Add a panel beside the canvas."""
         return self.panels.add(widget, title, icon_name, area, is_shown=is_shown)
 
     def show_document(self, document: Document | None) -> None:
@@ -150,6 +150,7 @@ class Workbench(QWidget):
         self.canvas.set_editor(editor)
         self.pages_bar.set_editor(editor)
         self.code.set_editor(editor)
+        self.rooms.show_canvas()
         self.outline.refresh()
         self.helpers.refresh()
         # Look at the corner of the page where reading begins, at the usual size
@@ -165,10 +166,8 @@ class Workbench(QWidget):
         palette, is_small = self.helpers.palette, self.window().width() < LEAST_LINES * line
         with QSignalBlocker(palette):  # this is not the person's choice
             palette.set_narrow(self._studio.settings.is_shown(NARROW_PALETTE, default=is_small))
-        self._give_palette_room(palette.is_narrow)
-        if is_small:
-            self.panels.hide_at_first("right")
         self.panels.restore(line)
+        self._give_palette_room(palette.is_narrow)
 
     def reset(self, line: int) -> None:
         """Lay the panels out as at the first start, when the settings have forgotten them."""
@@ -263,8 +262,7 @@ class Workbench(QWidget):
         self._studio.settings.set_shown(NARROW_PALETTE, is_narrow)
 
     def _give_palette_room(self, is_narrow: bool) -> None:
-        width = self.helpers.palette.maximumWidth() if is_narrow else WIDEST
-        self.panels.areas["left"].setMaximumWidth(width)
+        self.panels.fold_left(self.helpers.palette.maximumWidth() if is_narrow else None)
 
 
 def block_font(studio: Studio) -> QFont:

@@ -10,10 +10,6 @@ from nep_studio.ui.widgets.layouts import LatePanel
 if TYPE_CHECKING:
     from .page import TrainerPage
 
-LEAST_SHARE = 0.55
-"""How much of the height beside the canvas gestures need."""
-
-
 class TrainerPanel(LatePanel["TrainerPage"]):
     """The page of the gestures, made when it is shown: numpy is slow to load."""
 
@@ -21,9 +17,9 @@ class TrainerPanel(LatePanel["TrainerPage"]):
 
 
 def make(host: Host) -> Parts:
-    """The panel below the canvas; its page is made when it is opened."""
+    """The room of the gestures, filled when it is opened."""
     panel = TrainerPanel(lambda: _page(host))
-    return Parts(NewPanel(panel, "Gestures", "hand", "bottom", least_share=LEAST_SHARE))
+    return Parts(NewPanel(panel, "Gestures", "hand", "page"))
 
 
 def _page(host: Host) -> TrainerPage:

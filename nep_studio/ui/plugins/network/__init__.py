@@ -6,12 +6,8 @@ from nep_studio.ui.host import Host, NewPanel, Parts, Plugin
 from nep_studio.ui.network_feed import feed_of
 from nep_studio.ui.widgets.questions import tell_not_saved
 
-LEAST_SHARE = 0.45
-"""How much of the height beside the canvas a graph needs to be of use."""
-
-
 def make(host: Host) -> Parts:
-    """The panel below the canvas; what is chosen in it is shown by other panels."""
+    """The room of the network; what is chosen in it is shown by other panels."""
     from .panel import NetworkPanel
 
     services, runner = host.services, host.services.runner
@@ -23,7 +19,7 @@ def make(host: Host) -> Parts:
     pane = panel.pane
     pane.saving_failed.connect(lambda path, why: tell_not_saved(services.messages, path, why))
     pane.plot_requested.connect(lambda topic, field: host.ask("sensors.plot", topic, field))
-    place = NewPanel(panel, "Network", "share-2", "bottom", least_share=LEAST_SHARE)
+    place = NewPanel(panel, "Network", "share-2", "page")
     return Parts(place, commands={"network.show_sharing": panel.show_sharing})
 
 

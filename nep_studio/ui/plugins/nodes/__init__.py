@@ -49,7 +49,7 @@ def make(host: Host) -> Parts:
         lambda path, reason: tell_not_saved(services.messages, path, reason)
     )
     services.running.plan_changed.connect(panel.refresh_plan)
-    place = NewPanel(panel, "Nodes", "network", "bottom")
+    place = NewPanel(panel, "What runs", "network", "bottom")
     return Parts(place, commands={"nodes.show_log": show_log})
 
 

@@ -5,15 +5,12 @@ from __future__ import annotations
 from nep_studio.ui.floor import floor_of
 from nep_studio.ui.host import Host, NewPanel, Parts, Plugin
 
-LEAST_SHARE = 0.4
-
-
 def make(host: Host) -> Parts:
-    """The panel below the canvas; hidden until somebody wants it."""
+    """The panel under the robots; hidden until somebody, or a program that runs, wants it."""
     from .panel import HumanPanel
 
     panel = HumanPanel(host, floor_of(host))
-    return Parts(NewPanel(panel, "Person", "user", "bottom", least_share=LEAST_SHARE))
+    return Parts(NewPanel(panel, "Person", "user", "person"))
 
 
 plugin = Plugin("person", make, order=20, modules=("senses", "panel"))

@@ -62,7 +62,9 @@ class WaitingBoard(QWidget):
         self._shown: tuple[str, list[Occurrence]] | None = None
         self.buttons: list[OccurrenceButton] = []
         self._rows = Buttons()
+        self._rows.hide()  # it takes room, although it has no buttons
         self.words = plain_label()
+        self.words.hide()
         self.words.setProperty("role", "hint")
         in_column(self._rows, self.words, of=self, margins=0)
 

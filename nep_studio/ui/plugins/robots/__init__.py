@@ -8,7 +8,7 @@ from nep_studio.ui.speech import sound_of
 
 
 def make(host: Host) -> Parts:
-    """The panel beside the canvas; it follows the Robots page."""
+    """The stage beside the canvas; it follows the Robots page."""
     from .panel import RobotsPanel
     from .participants import Starts
 
@@ -23,7 +23,7 @@ def make(host: Host) -> Parts:
     )
     services.running.plan_changed.connect(panel.refresh)
     panel.stage.tools.real.triggered.connect(lambda: host.ask("connecting.open"))
-    return Parts(NewPanel(panel, "Robots", "bot", "right"))
+    return Parts(NewPanel(panel, "Stage", "bot", "stage", is_shown=True))
 
 
 plugin = Plugin("robots", make, order=10, modules=("stage", "panel"))

@@ -106,7 +106,7 @@ class Doings:
         self._going_on.clear()
 
 
-MOST_FOR_CARDS = 0.45
+MOST_FOR_CARDS = 0.35
 """Never is more of the panel's height given to the cards by itself."""
 
 
@@ -158,6 +158,7 @@ class RobotsPanel(InLines):
         inner = QWidget()
         self._cards_box = in_column(self.hint, 1, of=inner, margins=0)
         self.area = scrolled(inner)
+        self.area.setMinimumHeight(self.fontMetrics().height() * 2)  # Qt's leaves the robot less
         self.split = QSplitter(Qt.Orientation.Vertical, childrenCollapsible=False)
         self.split.addWidget(self.stage)
         self.split.addWidget(self.area)

@@ -16,10 +16,6 @@ if TYPE_CHECKING:
 RECORDINGS = "recordings"
 """The folder of recordings, beside the project that was used last."""
 
-LEAST_SHARE = 0.4
-"""How much of the height beside the canvas plots need to be of use."""
-
-
 class SensorsPanel(LatePanel["Workspace"]):
     """Empty until it is shown for the first time: numpy and pyqtgraph are slow to load."""
 
@@ -27,7 +23,7 @@ class SensorsPanel(LatePanel["Workspace"]):
 
 
 def make(host: Host) -> Parts:
-    """The panel below the canvas; numpy and what draws the plots are loaded when it is opened."""
+    """The room of the sensors; numpy and what draws the plots are loaded when it is opened."""
     panel = SensorsPanel(lambda: _workspace(host))
 
     def plot(topic: str, field: str = "") -> None:
@@ -35,7 +31,7 @@ def make(host: Host) -> Parts:
         host.show_panel(panel)
         panel.opened().show_field(topic, field)
 
-    place = NewPanel(panel, "Sensors", "activity", "bottom", least_share=LEAST_SHARE)
+    place = NewPanel(panel, "Sensors", "activity", "page")
     return Parts(place, commands={"sensors.plot": plot})
 
 
