@@ -18,10 +18,19 @@ Keys = QKeySequence.StandardKey | str
 
 
 class Actions(QObject):
-    """The actions of one window by name; they work wherever the focus is in it."""
+    """The actions of one window by name; their keys work wherever the focus is in it.
 
-    def __init__(self, window: QWidget, look: Look) -> None:
+    On a page of the window ``context`` is another: there the page asks what a key means.
+    """
+
+    def __init__(
+        self,
+        window: QWidget,
+        look: Look,
+        context: Qt.ShortcutContext = Qt.ShortcutContext.WindowShortcut,
+    ) -> None:
         super().__init__(window)
+        self._context = context
         self._window, self._look = window, look
         self._icons: dict[str, tuple[str, str]] = {}
         self._words: dict[str, tuple[Words, Words]] = {}
@@ -51,7 +60,7 @@ class Actions(QObject):
         action = QAction(self)
         action.setObjectName(name)
         action.setShortcuts(sequences(keys))
-        action.setShortcutContext(Qt.ShortcutContext.WindowShortcut)
+        action.setShortcutContext(self._context)
         action.triggered.connect(lambda: do())
         self._window.addAction(action)
         self.by_name[name] = action

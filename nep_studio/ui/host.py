@@ -13,6 +13,7 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, Literal, Protocol, TypeVar
 
 if TYPE_CHECKING:
+    from PySide6.QtCore import SignalInstance
     from PySide6.QtWidgets import QMenu, QStatusBar, QWidget
 
     from faults import Words
@@ -84,12 +85,33 @@ class NewAction:
     before: str = ""
 
 
+class OwnHistory(Protocol):
+    """What undo and redo of the window mean while a page is shown that has steps of its own."""
+
+    history_changed: SignalInstance
+
+    @property
+    def undo_label(self) -> str:
+        """What undo would take back, "" for nothing."""
+
+    @property
+    def redo_label(self) -> str:
+        """What redo would do again, "" for nothing."""
+
+    def undo(self) -> None:
+        """Take the last step back."""
+
+    def redo(self) -> None:
+        """Do again what was taken back."""
+
+
 @dataclass(frozen=True)
 class NewPanel:
     """A panel beside the canvas, or a page in its place; ``title`` is an English template.
 
     ``icon_name`` is a picture in ``resources/icons``. The widget's property ``help_page`` is the
-    page of the help that F1 opens there. It hears nothing while it is hidden.
+    page of the help that F1 opens there. It hears nothing while it is hidden. A page with a
+    ``history`` is asked when somebody undoes something while it is shown.
     """
 
     widget: QWidget
@@ -97,6 +119,7 @@ class NewPanel:
     icon_name: str
     area: AreaName
     is_shown: bool = False
+    history: OwnHistory | None = None
 
 
 @dataclass(frozen=True)

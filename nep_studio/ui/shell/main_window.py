@@ -282,6 +282,7 @@ class MainWindow(QMainWindow):
         workbench.canvas.news.picture_requested.connect(lambda: self.host.ask("exporting.picture"))
         workbench.canvas.news.layout_changed.connect(partial(update_edit_actions, self))
         workbench.canvas.selection.changed.connect(partial(update_edit_actions, self))
+        workbench.rooms.changed.connect(partial(update_edit_actions, self))
         self.update_actions()
         self.start_page.gallery.paint_pictures()
 
@@ -323,7 +324,7 @@ class MainWindow(QMainWindow):
     def update_actions(self) -> None:
         """Let those actions be used that have something to do."""
         is_open = self.files.document is not None
-        names = ("save", "save_as", "close", "check", "zoom_in", "zoom_out", "zoom_100", "zoom_fit")
+        names = ("save", "save_as", "close", "check")
         self.actions_by_name.enable(is_open, *names)
         self.lazy.enable(is_open)
         update_edit_actions(self)

@@ -24,6 +24,7 @@ from .dialogs import show_about, show_report, show_shortcuts
 if TYPE_CHECKING:
     from nep_studio.blocks.checks.diagnostic import Diagnostic
     from nep_studio.ui.canvas.editing.commands import Commands
+    from nep_studio.ui.host import OwnHistory
     from nep_studio.ui.theme.colours import Theme
     from nep_studio.ui.workbench.find_bar import FindBar
 
@@ -35,16 +36,18 @@ if TYPE_CHECKING:
 Key = QKeySequence.StandardKey
 NEEDS_SELECTION = ("cut", "copy", "duplicate", "delete", "disable", "collapse")
 
-NEEDS_PROJECT = (
+NEEDS_CANVAS = (
     "select_all",
     "tidy",
-    "add_page",
     "find",
     "find_next",
     "find_previous",
     "insert",
     "minimap",
-    "picture",
+    "zoom_in",
+    "zoom_out",
+    "zoom_100",
+    "zoom_fit",
 )
 
 
@@ -56,8 +59,11 @@ def add_edit_menu(window: MainWindow) -> QMenu:
     def edit() -> Commands:
         return window.workbench.canvas.commands
 
-    add("undo", "Undo", lambda: edit().undo(), icon_name="undo-2", keys=Key.Undo)
-    add("redo", "Redo", lambda: edit().redo(), icon_name="redo-2", keys=(Key.Redo, "Ctrl+Y"))
+    def steps() -> Commands | OwnHistory:
+        return window.workbench.rooms.history or edit()
+
+    add("undo", "Undo", lambda: steps().undo(), icon_name="undo-2", keys=Key.Undo)
+    add("redo", "Redo", lambda: steps().redo(), icon_name="redo-2", keys=(Key.Redo, "Ctrl+Y"))
     menu.addSeparator()
     cut, copy, paste = _in_texts_too(edit)
     add("cut", "Cut", cut, icon_name="scissors", keys=Key.Cut)
@@ -122,13 +128,15 @@ def _in_texts_too(commands: Callable[[], Commands]) -> tuple[Callable[[], object
 def update_edit_actions(window: MainWindow) -> None:
     """Enable what can be done, and say what undo and redo would do."""
     actions, document = window.actions_by_name, window.files.document
-    is_open = document is not None
-    selected = len(window.workbench.canvas.selection.ids) if is_open else 0
+    rooms = window.workbench.rooms
+    is_canvas = document is not None and rooms.shown is None  # blocks that nobody sees stay
+    selected = len(window.workbench.canvas.selection.ids) if is_canvas else 0
     data = QGuiApplication.clipboard().mimeData()
     actions.enable(bool(selected), *NEEDS_SELECTION)
-    actions.enable(is_open and data is not None and bool(data.formats()), "paste")
-    actions.enable(is_open, *NEEDS_PROJECT)
-    history = document.editor.history if document else None
+    actions.enable(is_canvas and data is not None and bool(data.formats()), "paste")
+    actions.enable(document is not None, "add_page", "picture")
+    actions.enable(is_canvas, *NEEDS_CANVAS)
+    history = rooms.history or (document.editor.history if document else None)
     _label(window, "undo", history.undo_label if history else "", "Undo", "Undo “{step}”")
     _label(window, "redo", history.redo_label if history else "", "Redo", "Redo “{step}”")
 

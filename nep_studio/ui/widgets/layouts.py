@@ -120,6 +120,13 @@ class LatePanel(InLines, Generic[Page]):
             self._box.addWidget(self.page)
         return self.page
 
+    def forget(self) -> None:
+        """Let go of what is in it; it is made anew when it is shown again."""
+        if self.page is not None:
+            self.page.hide()
+            self.page.deleteLater()
+            self.page = None
+
     def showEvent(self, event: QShowEvent) -> None:
         """Open it."""
         self.opened()

@@ -189,9 +189,9 @@ class PagesBar(QWidget):
             show = partial(self.page_chosen.emit, page)
             menu.addAction(icon(KIND_ICONS[page], theme), title, show)
         menu.addSeparator()
-        for room, title in self._rooms.titles.items():
+        for room, name in self._rooms.titles.items():
             show = partial(self._rooms.open_asked.emit, room)
-            menu.addAction(self._rooms.signs[room], tr(title), show)
+            menu.addAction(self._rooms.signs[room], tr(name), show)
         return menu
 
     def menu(self, index: int) -> QMenu:

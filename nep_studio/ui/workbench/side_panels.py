@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import partial
-from typing import Literal
+from typing import TYPE_CHECKING, Literal
 
 from PySide6.QtCore import QEvent, QObject, QSignalBlocker, QSize, Qt, Signal
 from PySide6.QtGui import QAction, QIcon, QResizeEvent
@@ -18,6 +18,9 @@ from nep_studio.ui.theme.icons import icon
 from nep_studio.ui.theme.look import Look
 from nep_studio.ui.widgets.layouts import in_column
 from nep_studio.ui.words import tr
+
+if TYPE_CHECKING:
+    from nep_studio.ui.host import OwnHistory
 
 AreaName = Literal["left", "right", "bottom", "stage", "person", "page"]
 """Where a panel stands: the ``stage`` is at the far side of the canvas at all times, the ``person``
@@ -162,6 +165,8 @@ class Rooms(QStackedWidget):
         """Of all rooms, in the order of their tabs."""
         self.signs: dict[QWidget, QIcon] = {}
         self.open: list[QWidget] = []
+        self.histories: dict[QWidget, OwnHistory] = {}
+        """Of those rooms in which undo means something else than in the project."""
         self.addWidget(canvas)
         self.currentChanged.connect(self.changed)
 
@@ -169,6 +174,12 @@ class Rooms(QStackedWidget):
     def shown(self) -> QWidget | None:
         """The room that is on top; None while that is the canvas."""
         return self.currentWidget() if self.currentIndex() else None
+
+    @property
+    def history(self) -> OwnHistory | None:
+        """What undo means in the room that is shown, if that is something of its own."""
+        shown = self.shown
+        return None if shown is None else self.histories.get(shown)
 
     def add_panel(self, widget: QWidget, title: Words) -> None:
         """Add a room, behind the others."""
@@ -254,8 +265,8 @@ class Panels(QObject):
         self.row.splitterMoved.connect(self._on_row_moved)
         self.row.installEventFilter(self)
         self.stage.hide()
-        for area in (*self.areas.values(), rooms):
-            area.close_asked.connect(self._on_close_asked)
+        for place in self._places():
+            place.close_asked.connect(self._on_close_asked)
         rooms.open_asked.connect(self.show)
         rooms.changed.connect(self._on_rooms_changed)
         look.theme_changed.connect(self._on_theme_changed)
@@ -299,8 +310,8 @@ class Panels(QObject):
             with QSignalBlocker(panel.action):  # this is not the person's choice
                 panel.action.setChecked(panel.is_usual)
             panel.area.show_panel(panel.widget, panel.is_usual)
-        for area in (*self.areas.values(), self.rooms):
-            area.show_first()
+        for place in self._places():
+            place.show_first()
         self._show_stage()
 
     def restore(self, line: int) -> None:
@@ -337,6 +348,9 @@ class Panels(QObject):
             self.row.setSizes(sizes)
         else:
             self._share_width()
+
+    def _places(self) -> list[Area | Rooms]:
+        return [*self.areas.values(), self.rooms]
 
     def _share_width(self) -> None:
         """Share the width anew, unless somebody has chosen: the canvas keeps the larger part."""

@@ -11,7 +11,7 @@ from pytestqt.qtbot import QtBot
 from shiboken6 import isValid
 
 from nep_studio.ui.plugins.motion import MotionKit
-from nep_studio.ui.plugins.motion.window import MotionWindow
+from nep_studio.ui.plugins.motion.page import MotionPage
 from nep_studio.ui.shell.main_window import MainWindow
 from tests.ui.running.conftest import open_program
 from tests.ui.window.conftest import answer, chooser, home, studio, window
@@ -25,7 +25,7 @@ def kit(window: MainWindow) -> MotionKit:
 
 
 @pytest.fixture
-def motion(window: MainWindow, kit: MotionKit, qtbot: QtBot) -> Iterator[MotionWindow]:
+def motion(window: MainWindow, kit: MotionKit, qtbot: QtBot) -> Iterator[MotionPage]:
     """The window of an empty motion in a new project."""
     if window.files.document is None:
         window.files.new()

@@ -17,7 +17,7 @@ from nep_studio.ui.canvas.layout.page import Hit
 from nep_studio.ui.message_cards import QuestionDialog
 from nep_studio.ui.plugins.motion import MotionKit, editing
 from nep_studio.ui.plugins.motion.importing import ImportDialog
-from nep_studio.ui.plugins.motion.window import MotionWindow
+from nep_studio.ui.plugins.motion.page import MotionPage
 from nep_studio.ui.shell.main_window import MainWindow
 from tests.blocks.block_building import B
 from tests.ui.running.window_use import WAIT_MS, block_of
@@ -40,7 +40,7 @@ def entries(kit: MotionKit, window: MainWindow, block: str) -> dict[str, object]
 
 
 def test_the_menu_of_a_block_makes_a_motion_that_it_plays(
-    window: MainWindow, open_program, kit: MotionKit, motion: MotionWindow
+    window: MainWindow, open_program, kit: MotionKit, motion: MotionPage
 ) -> None:
     open_program([B("event.started"), B("robot.play")])
     block = block_of(window, "robot.play")
@@ -59,7 +59,7 @@ def test_the_menu_of_a_block_makes_a_motion_that_it_plays(
 
 
 def test_other_blocks_have_no_such_menu(
-    window: MainWindow, open_program, kit: MotionKit, motion: MotionWindow
+    window: MainWindow, open_program, kit: MotionKit, motion: MotionPage
 ) -> None:
     open_program([B("event.started"), B("control.wait")])
 
@@ -67,7 +67,7 @@ def test_other_blocks_have_no_such_menu(
 
 
 def test_a_motion_that_is_deleted_says_how_many_blocks_play_it(
-    window: MainWindow, open_program, kit: MotionKit, motion: MotionWindow, qtbot: QtBot
+    window: MainWindow, open_program, kit: MotionKit, motion: MotionPage, qtbot: QtBot
 ) -> None:
     open_program([B("event.started"), B("robot.play")])
     entries(kit, window, block_of(window, "robot.play"))["new_motion"]()
@@ -83,7 +83,7 @@ def test_a_motion_that_is_deleted_says_how_many_blocks_play_it(
     qtbot.waitUntil(lambda: own_animations(window.files.document.project) == {})
 
 
-def test_a_text_of_choregraphe_becomes_a_motion(motion: MotionWindow, qtbot: QtBot) -> None:
+def test_a_text_of_choregraphe_becomes_a_motion(motion: MotionPage, qtbot: QtBot) -> None:
     motion.actions_by_name["import_motion"].trigger()
     [dialog] = motion.findChildren(ImportDialog)
     assert not dialog.use_button.isEnabled()
@@ -94,10 +94,10 @@ def test_a_text_of_choregraphe_becomes_a_motion(motion: MotionWindow, qtbot: QtB
     qtbot.mouseClick(dialog.use_button, Qt.MouseButton.LeftButton)
 
     assert editing.key_times(motion.controller.motion) == [0.8, 1.6]
-    assert motion.isWindowModified()
+    assert motion.controller.is_modified
 
 
-def test_a_file_that_cannot_be_read_is_told(motion: MotionWindow, tmp_path: Path) -> None:
+def test_a_file_that_cannot_be_read_is_told(motion: MotionPage, tmp_path: Path) -> None:
     dialog = ImportDialog(motion.controller.body, motion)
     (tmp_path / "odd.py").write_bytes(b"\xff\xfe\xff")
 
@@ -110,7 +110,7 @@ def test_a_file_that_cannot_be_read_is_told(motion: MotionWindow, tmp_path: Path
 
 
 def test_the_pose_of_a_robot_that_was_moved_by_hand_becomes_a_key(
-    window: MainWindow, open_program, motion: MotionWindow, qtbot: QtBot
+    window: MainWindow, open_program, motion: MotionPage, qtbot: QtBot
 ) -> None:
     open_program([B("event.started")])
     robots, menu = motion.robots, QMenu()
@@ -135,7 +135,7 @@ def test_the_pose_of_a_robot_that_was_moved_by_hand_becomes_a_key(
 
 
 def test_a_robot_plays_a_motion_that_is_not_kept(
-    window: MainWindow, open_program, motion: MotionWindow, qtbot: QtBot
+    window: MainWindow, open_program, motion: MotionPage, qtbot: QtBot
 ) -> None:
     open_program([B("event.started")])
     robots = motion.robots
@@ -148,7 +148,7 @@ def test_a_robot_plays_a_motion_that_is_not_kept(
     qtbot.waitUntil(lambda: robots.states["NAO"].joints["HeadYaw"] > 0.6, timeout=WAIT_MS)
 
 
-def test_a_new_motion_asks_for_the_changes_of_the_old_one(motion: MotionWindow) -> None:
+def test_a_new_motion_asks_for_the_changes_of_the_old_one(motion: MotionPage) -> None:
     motion.controller.open(OwnAnimation("Old", {}), is_kept=True)
     motion.controller.set_joints({"HeadYaw": 0.5}, "pose")
 

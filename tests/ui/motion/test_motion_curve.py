@@ -10,11 +10,11 @@ from pytestqt.qtbot import QtBot
 
 from nep_studio.ui.plugins.motion import editing
 from nep_studio.ui.plugins.motion.curve import CurveView
-from nep_studio.ui.plugins.motion.window import MotionWindow
+from nep_studio.ui.plugins.motion.page import MotionPage
 
 
 @pytest.fixture
-def curve(motion: MotionWindow, qtbot: QtBot) -> CurveView:
+def curve(motion: MotionPage, qtbot: QtBot) -> CurveView:
     motion.controller.set_joints({"HeadYaw": 0.5}, "pose")
     motion.actions_by_name["show_curve"].trigger()
     qtbot.waitUntil(lambda: motion.curve.curve.isVisible())
@@ -23,7 +23,7 @@ def curve(motion: MotionWindow, qtbot: QtBot) -> CurveView:
 
 
 def test_a_key_is_dragged_in_time_and_angle_alone(
-    motion: MotionWindow, curve: CurveView, drag
+    motion: MotionPage, curve: CurveView, drag
 ) -> None:
     start, end = curve.place_of(1.0, 0.5), curve.place_of(1.5, -0.4)
 
@@ -38,7 +38,7 @@ def test_a_key_is_dragged_in_time_and_angle_alone(
 
 
 def test_a_double_click_sets_a_key_of_this_joint(
-    motion: MotionWindow, curve: CurveView, qtbot: QtBot
+    motion: MotionPage, curve: CurveView, qtbot: QtBot
 ) -> None:
     place = curve.place_of(2.0, -0.5).toPoint()
 
@@ -48,9 +48,7 @@ def test_a_double_click_sets_a_key_of_this_joint(
     assert motion.controller.motion.joints["HeadPitch"].times == (1.0,)
 
 
-def test_keys_turn_it_and_take_it_away(
-    motion: MotionWindow, curve: CurveView, qtbot: QtBot
-) -> None:
+def test_keys_turn_it_and_take_it_away(motion: MotionPage, curve: CurveView, qtbot: QtBot) -> None:
     motion.controller.show(0.0)
     curve.setFocus()
 
@@ -65,7 +63,7 @@ def test_keys_turn_it_and_take_it_away(
 
 
 def test_a_key_does_not_push_another_one_of_its_joint_away(
-    motion: MotionWindow, curve: CurveView, drag
+    motion: MotionPage, curve: CurveView, drag
 ) -> None:
     motion.controller.set_key("HeadYaw", 2.0, 0.0, "key")
 

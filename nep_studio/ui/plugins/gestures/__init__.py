@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from nep_studio.ui.host import Host, NewPanel, Parts, Plugin
+from nep_studio.ui.host import Host, NewAction, NewPanel, Parts, Plugin
 from nep_studio.ui.widgets.layouts import LatePanel
 
 if TYPE_CHECKING:
     from .page import TrainerPage
+
 
 class TrainerPanel(LatePanel["TrainerPage"]):
     """The page of the gestures, made when it is shown: numpy is slow to load."""
@@ -19,7 +20,15 @@ class TrainerPanel(LatePanel["TrainerPage"]):
 def make(host: Host) -> Parts:
     """The room of the gestures, filled when it is opened."""
     panel = TrainerPanel(lambda: _page(host))
-    return Parts(NewPanel(panel, "Gestures", "hand", "page"))
+    teach = NewAction(
+        "teach_gesture",
+        "Teach a gesture…",
+        lambda: host.show_panel(panel),
+        "hand",
+        tip="Make a movement with a watch or phone a few times: the program learns it",
+        menu="robots",
+    )
+    return Parts(NewPanel(panel, "Gestures", "hand", "page"), actions=[teach])
 
 
 def _page(host: Host) -> TrainerPage:

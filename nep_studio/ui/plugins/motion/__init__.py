@@ -3,29 +3,53 @@
 from __future__ import annotations
 
 from functools import partial
-from typing import TYPE_CHECKING, cast
+from typing import TYPE_CHECKING
 
-from PySide6.QtCore import QEvent, QObject
-from PySide6.QtWidgets import QDialog
+from PySide6.QtCore import QEvent, QObject, Signal
 
 from nep_studio.blocks.operations.animations import Use, use_of
 from nep_studio.blocks.own_animations import own_animations
 from nep_studio.ui.canvas.editing.menu import MenuEntry, MenuPlace
-from nep_studio.ui.host import Host, NewAction, Parts, Plugin
+from nep_studio.ui.host import Host, NewAction, NewPanel, Parts, Plugin
+from nep_studio.ui.widgets.layouts import LatePanel
 from nep_studio.ui.words import tr
 
 if TYPE_CHECKING:
     from nep_studio.ui.canvas.host import CanvasHost
 
+    from .page import MotionPage
     from .teleoperation import TeleoperationWindow
-    from .window import MotionWindow
 
-MOTION_WINDOW = "motion_window"
+
+class MotionRoom(LatePanel["MotionPage"]):
+    """The page on which motions are made, filled when it is opened; it has steps of its own."""
+
+    usual_lines, least_lines = (45, 30), (30, 24)
+    history_changed = Signal()
+
+    @property
+    def undo_label(self) -> str:
+        """What undo would take back."""
+        return self.page.controller.undo_label if self.page is not None else ""
+
+    @property
+    def redo_label(self) -> str:
+        """What redo would do again."""
+        return self.page.controller.redo_label if self.page is not None else ""
+
+    def undo(self) -> None:
+        """Take the last step back."""
+        self.opened().controller.undo()
+
+    def redo(self) -> None:
+        """Do again what was taken back."""
+        self.opened().controller.redo()
 
 
 def make(host: Host) -> Parts:
-    """The actions of the Robots menu, and what the menu of a block that plays a motion offers."""
-    kit = MotionKit(host)
+    """The page, the actions of the Robots menu, and what the menu of a block offers."""
+    room = MotionRoom(lambda: kit.page())
+    kit = MotionKit(host, room)
     actions = [
         NewAction(
             "make_motion",
@@ -44,25 +68,34 @@ def make(host: Host) -> Parts:
             menu="robots",
         ),
     ]
-    return Parts(actions=actions, menu_sections=[kit.section])
+    panel = NewPanel(room, "Motion", "person-standing", "page", history=room)
+    return Parts(panel, actions=actions, menu_sections=[kit.section])
 
 
 class MotionKit(QObject):
     """What the actions do; the windows are loaded when they are opened."""
 
-    def __init__(self, host: Host) -> None:
+    def __init__(self, host: Host, room: MotionRoom) -> None:
         super().__init__(host.actions)
-        self._host = host
+        self._host, self.room = host, room
 
-    def make(self) -> MotionWindow:
-        """Show the window in which motions are made; there is one."""
-        from .window import MotionWindow
+    def page(self) -> MotionPage:
+        """The page for the project's robots."""
+        from .page import MotionPage
 
-        made = self._open_motion() or MotionWindow(self._host, self._model())
+        made = MotionPage(self._host, self._model())
+        made.controller.changed.connect(self.room.history_changed)
         self._host.widget.installEventFilter(self)  # from now on there is something to ask about
-        made.show()
-        made.raise_()
-        made.activateWindow()
+        return made
+
+    def make(self) -> MotionPage:
+        """Show the page on which motions are made."""
+        page = self.room.page
+        if page is not None and page.model != self._model() and not page.has_changes:
+            self.room.forget()  # it is for robots that the project does not have any more
+        self._host.show_panel(self.room)
+        made = self.room.opened()
+        made.timeline.setFocus()
         return made
 
     def drive(self) -> TeleoperationWindow:
@@ -110,22 +143,17 @@ class MotionKit(QObject):
 
     def eventFilter(self, watched: QObject, event: QEvent) -> bool:
         """A motion that is not kept is asked about before its program is gone."""
-        motion = self._open_motion() if event.type() == QEvent.Type.Close else None
+        motion = self.room.page if event.type() == QEvent.Type.Close else None
         if motion is None or not motion.has_changes:
             return super().eventFilter(watched, event)
         event.ignore()
-        motion.raise_()
-        motion.project.guard(partial(self._close_all, motion))
+        self._host.show_panel(self.room)
+        motion.project.guard(self._close_all)
         return True
 
-    def _open_motion(self) -> MotionWindow | None:
-        """The window that is open; by its name, for its room is loaded late."""
-        dialogs = self._host.widget.findChildren(QDialog, MOTION_WINDOW)
-        found = next((dialog for dialog in dialogs if dialog.isVisible()), None)
-        return cast("MotionWindow | None", found)
-
-    def _close_all(self, motion: MotionWindow) -> None:
-        motion.close_now()
+    def _close_all(self) -> None:
+        self._host.workbench.rooms.show_canvas()
+        self.room.forget()  # it may take another question before the window is closed
         self._host.widget.close()
 
 

@@ -1,4 +1,4 @@
-"""What can be done with a motion, as actions of its window: each has words, an icon, keys."""
+"""What can be done with a motion, as actions of its page: each has words, an icon, keys."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from functools import partial
 from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QPoint, Qt
-from PySide6.QtGui import QKeySequence
+from PySide6.QtGui import QAction, QKeySequence
 from PySide6.QtWidgets import QInputDialog, QMenu
 
 from faults import FaultError
@@ -29,7 +29,7 @@ from . import editing
 from .bars import kind_words
 
 if TYPE_CHECKING:
-    from .window import MotionWindow
+    from .page import MotionPage
 
 
 PLAIN_KEYS = {
@@ -49,14 +49,11 @@ LEAST_STRETCH, MOST_STRETCH = 10, 1000
 
 
 class Commands:
-    """Adds the actions of a window, and does what they ask for."""
+    """Adds the actions of a page, and does what they ask for."""
 
-    def __init__(self, window: MotionWindow) -> None:
-        self.window, self.controller, self.player = window, window.controller, window.player
-        add, keys = self.window.actions_by_name.add, QKeySequence.StandardKey
-        controller = self.controller
-        add("undo_motion", "Undo", controller.undo, icon_name="undo-2", keys=keys.Undo)
-        add("redo_motion", "Redo", controller.redo, icon_name="redo-2", keys=(keys.Redo, "Ctrl+Y"))
+    def __init__(self, page: MotionPage) -> None:
+        self.page, self.controller, self.player = page, page.controller, page.player
+        add, keys = self.page.actions_by_name.add, QKeySequence.StandardKey
         add("add_pose", "Add a pose", self.add_pose, icon_name="plus")
         add("copy_pose", "Copy the poses to here", self.copy, icon_name="copy-plus")
         add("delete_pose", "Delete the poses", self.delete, icon_name="trash-2")
@@ -66,39 +63,30 @@ class Commands:
 
     def update(self) -> None:
         """Let those actions be used that have something to do."""
-        actions, controller = self.window.actions_by_name, self.controller
+        actions, controller = self.page.actions_by_name, self.controller
         is_there = bool(controller.motion.joints)
         actions.enable(bool(controller.chosen), "copy_pose", "delete_pose")
         names = ("first_pose", "play_motion", "mirror", "backwards", "stretch", "all_poses")
         actions.enable(is_there, *names)
-        for name, label, words in (
-            ("undo_motion", controller.undo_label, tr("Undo")),
-            ("redo_motion", controller.redo_label, tr("Redo")),
-        ):
-            actions.enable(bool(label), name)
-            actions[name].setText(f"{words}: {label}" if label else words)
         self._tell_keys()
 
     def _tell_keys(self) -> None:
         """Say in tool tips which keys are pressed without Ctrl: they are no shortcuts."""
         for key, name in reversed(PLAIN_KEYS.items()):
-            action = self.window.actions_by_name[name]
+            action = self.page.actions_by_name[name]
             keys = QKeySequence(key).toString(QKeySequence.SequenceFormat.NativeText)
             action.setToolTip(f"{action.text()} ({keys})")
 
-    def press(self, key: int) -> bool:
-        """Do what a key without Ctrl means; False when it means nothing here.
+    def plain(self, key: int) -> QAction | None:
+        """What a key without Ctrl does; None when it means nothing here.
 
         They are no shortcuts: a button that has the focus is pressed with the space bar.
         """
         name = PLAIN_KEYS.get(Qt.Key(key))
-        if name is None:
-            return False
-        self.window.actions_by_name[name].trigger()
-        return True
+        return None if name is None else self.page.actions_by_name[name]
 
     def _add_play(self) -> None:
-        add, begin = self.window.actions_by_name.add, lambda: self.controller.show(0.0)
+        add, begin = self.page.actions_by_name.add, lambda: self.controller.show(0.0)
         add("first_pose", "To the beginning", begin, icon_name="rotate-ccw")
         add("play_motion", "Play", self.player.toggle, icon_name="play")
         loop = add("loop_motion", "Again and again", lambda: None, icon_name="repeat")
@@ -107,16 +95,16 @@ class Commands:
         self.player.changed.connect(self._on_playing_changed)
         curve = add("show_curve", "The curve of one joint", lambda: None, icon_name="chart-line")
         curve.setCheckable(True)
-        curve.toggled.connect(self.window.show_curve)
+        curve.toggled.connect(self.page.show_curve)
 
     def _add_changes(self) -> None:
-        add = self.window.actions_by_name.add
+        add = self.page.actions_by_name.add
         flip, turn = editing.mirrored, editing.backwards
         add("mirror", "Mirror: left is right", lambda: self._do(tr("Mirror: left is right"), flip))
         add("backwards", "Backwards", lambda: self._do(tr("Backwards"), turn))
         add("stretch", "Slower or faster…", self.ask_stretch, icon_name="gauge")
         look = add("look_from", "Look from", lambda: None, icon_name="eye")
-        menu = QMenu(self.window)
+        menu = QMenu(self.page)
         for preset, words in LOOKS.items():
             labelled(menu.addAction("", partial(self._look_from, preset)), text=words)
         look.setMenu(menu)
@@ -155,7 +143,7 @@ class Commands:
 
     def ask_stretch(self) -> None:
         """Ask how many percent of its time the motion is to take."""
-        dialog = QInputDialog(self.window)
+        dialog = QInputDialog(self.page)
         dialog.setWindowTitle(tr("Slower or faster"))
         dialog.setLabelText(tr("How long it takes, in percent of now:"))
         dialog.setInputMode(QInputDialog.InputMode.IntInput)
@@ -173,8 +161,8 @@ class Commands:
     def show_menu(self, place: object) -> None:
         """The menu of the timeline."""
         assert isinstance(place, QPoint)
-        menu = QMenu(self.window)
-        actions = self.window.actions_by_name
+        menu = QMenu(self.page)
+        actions = self.page.actions_by_name
         menu.addActions([actions[name] for name in ("add_pose", "copy_pose", "delete_pose")])
         menu.addSeparator()
         menu.addActions([actions[name] for name in ("all_poses", "mirror", "backwards", "stretch")])
@@ -187,13 +175,13 @@ class Commands:
         self.controller.do(label, change(self.controller.motion))
 
     def _look_from(self, preset: str) -> None:
-        self.window.view.look_from(preset)
+        self.page.view.look_from(preset)
 
     def _on_loop_toggled(self, is_on: bool) -> None:
         self.player.is_looping = is_on
 
     def _on_playing_changed(self, is_playing: bool) -> None:
-        actions, theme = self.window.actions_by_name, self.window.look.theme
+        actions, theme = self.page.actions_by_name, self.page.look.theme
         actions.label("play_motion", "Pause" if is_playing else "Play")
         self._tell_keys()
         actions["play_motion"].setIcon(icon("pause" if is_playing else "play", theme))
@@ -203,14 +191,14 @@ class Commands:
 
 
 class ProjectCommands:
-    """The actions that reach beyond the window."""
+    """The actions that reach beyond the page."""
 
-    def __init__(self, window: MotionWindow) -> None:
-        self.window, self.controller, self.kept = window, window.controller, window.kept
+    def __init__(self, page: MotionPage) -> None:
+        self.page, self.controller, self.kept = page, page.controller, page.kept
         self._use: Use | None = None
-        add, keys = window.actions_by_name.add, QKeySequence.StandardKey
-        add("new_motion", "New", self.new, icon_name="file-plus", keys=keys.New)
-        add("open_motion", "Open…", self.show_open_menu, icon_name="folder-open", keys=keys.Open)
+        add, keys = page.actions_by_name.add, QKeySequence.StandardKey
+        add("new_motion", "New", self.new, icon_name="file-plus")
+        add("open_motion", "Open…", self.show_open_menu, icon_name="folder-open")
         add(
             "save_motion",
             "Keep in the project",
@@ -226,7 +214,7 @@ class ProjectCommands:
 
     def update(self) -> None:
         """Let those actions be used that have something to do."""
-        actions, is_there = self.window.actions_by_name, bool(self.controller.motion.joints)
+        actions, is_there = self.page.actions_by_name, bool(self.controller.motion.joints)
         is_kept = self.controller.name in self.kept.own()
         can_save = self.kept.editor is not None and (self.controller.is_modified or not is_kept)
         actions.enable(is_there and can_save, "save_motion")
@@ -235,7 +223,7 @@ class ProjectCommands:
 
     def _add_menus(self) -> None:
         def add_menu(name: str, words: str, icon_name: str, *entries: str) -> QMenu:
-            menu, actions = QMenu(self.window), self.window.actions_by_name
+            menu, actions = QMenu(self.page), self.page.actions_by_name
             menu.addActions([actions[entry] for entry in entries])
             actions.add(name, words, lambda: None, icon_name=icon_name).setMenu(menu)
             return menu
@@ -248,14 +236,14 @@ class ProjectCommands:
         add_menu("more_motion", "More", "ellipsis", *files)
 
     def _fill_robot_menu(self) -> None:
-        self.window.player.pause()
-        self.window.robots.fill(self.robot_menu, self.window.host.services.language)
+        self.page.player.pause()
+        self.page.robots.fill(self.robot_menu, self.page.host.services.language)
 
     # Opening
 
     def new(self, use: Use | None = None) -> None:
         """Begin a new motion; the block of ``use`` plays it once it is kept."""
-        from .window import new_motion
+        from .page import new_motion
 
         def begin() -> None:
             self._show(new_motion(), "")
@@ -265,12 +253,12 @@ class ProjectCommands:
 
     def show_open_menu(self) -> None:
         """Show the motions that there are."""
-        button = self.window.toolbar.widgetForAction(self.window.actions_by_name["open_motion"])
+        button = self.page.toolbar.widgetForAction(self.page.actions_by_name["open_motion"])
         self.open_menu().popup(button.mapToGlobal(button.rect().bottomLeft()))
 
     def open_menu(self) -> QMenu:
         """The motions of the project, then those that come with the robot."""
-        menu = QMenu(self.window)
+        menu = QMenu(self.page)
         menu.aboutToHide.connect(menu.deleteLater)
         own = self.kept.own()
         add_title(menu, tr("In this project"))
@@ -302,7 +290,7 @@ class ProjectCommands:
         return lambda: self.guard(lambda: self.open(name))
 
     def _show(self, motion: OwnAnimation, name: str) -> None:
-        self.window.player.pause()
+        self.page.player.pause()
         self._use = None
         self.controller.open(motion, name)
 
@@ -321,7 +309,7 @@ class ProjectCommands:
             return False
         self._use = None
         self.controller.saved(name)
-        announce(self.window, tr("The motion is kept. Blocks can play it."))
+        announce(self.page, tr("The motion is kept. Blocks can play it."))
         return True
 
     def guard(self, then: Callable[[], object]) -> None:
@@ -366,26 +354,26 @@ class ProjectCommands:
         """Ask for what Choregraphe has exported."""
         from .importing import ImportDialog
 
-        dialog = ImportDialog(self.controller.body, self.window)
+        dialog = ImportDialog(self.controller.body, self.page)
         dialog.read.connect(lambda joints: self.guard(lambda: self.bring_in(joints)))
         dialog.open()
 
     def bring_in(self, joints: OwnAnimation) -> None:
         """Show a motion that was read; it is not kept yet."""
-        self.window.player.pause()
+        self.page.player.pause()
         self.controller.open(joints, is_kept=False)
 
     def export(self) -> None:
         """Ask for a file, and write the motion into it."""
         text = to_toml(self.controller.motion)
         name = f"{free_name(self.controller.motion.title, ())}.toml"
-        messages = self.window.host.services.messages
-        save_text(self.window, messages, name, lambda path: write_whole(path, text))
+        messages = self.page.host.services.messages
+        save_text(self.page, messages, name, lambda path: write_whole(path, text))
 
     # Telling
 
     def tell_error(self, error: FaultError) -> None:
-        """Say what went wrong, over this window."""
+        """Say what went wrong, over this page."""
         problem = problem_of(error)
         ok = Answer(tr("OK"), lambda: None, "primary")
         checklist = tuple(map(tr, problem.checklist))
@@ -397,5 +385,5 @@ class ProjectCommands:
         self.ask(Message("warning", title, sentence, checklist=(step,), answers=(ok,)))
 
     def ask(self, message: Message) -> None:
-        """Ask, or tell what has to be read, over this window."""
-        QuestionDialog(message, self.window).open()
+        """Ask, or tell what has to be read, over this page."""
+        QuestionDialog(message, self.page).open()

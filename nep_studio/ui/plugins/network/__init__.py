@@ -6,6 +6,7 @@ from nep_studio.ui.host import Host, NewPanel, Parts, Plugin
 from nep_studio.ui.network_feed import feed_of
 from nep_studio.ui.widgets.questions import tell_not_saved
 
+
 def make(host: Host) -> Parts:
     """The room of the network; what is chosen in it is shown by other panels."""
     from .panel import NetworkPanel

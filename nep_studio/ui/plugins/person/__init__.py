@@ -5,6 +5,7 @@ from __future__ import annotations
 from nep_studio.ui.floor import floor_of
 from nep_studio.ui.host import Host, NewPanel, Parts, Plugin
 
+
 def make(host: Host) -> Parts:
     """The panel under the robots; hidden until somebody, or a program that runs, wants it."""
     from .panel import HumanPanel

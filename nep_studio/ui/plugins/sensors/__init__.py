@@ -16,6 +16,7 @@ if TYPE_CHECKING:
 RECORDINGS = "recordings"
 """The folder of recordings, beside the project that was used last."""
 
+
 class SensorsPanel(LatePanel["Workspace"]):
     """Empty until it is shown for the first time: numpy and pyqtgraph are slow to load."""
 

@@ -1,16 +1,15 @@
-"""The window in which a motion is made: the robot, its joints, and the timeline."""
+"""The page on which a motion is made: the robot, its joints, and the timeline."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, cast
 
-from PySide6.QtCore import QObject, QSize, Qt, Signal
-from PySide6.QtGui import QAction, QCloseEvent, QKeyEvent
+from PySide6.QtCore import QEvent, QObject, QSize, Qt, Signal
+from PySide6.QtGui import QAction, QHideEvent, QKeyEvent, QKeySequence
 from PySide6.QtWidgets import (
     QCheckBox,
-    QDialog,
     QDoubleSpinBox,
     QFrame,
     QGridLayout,
@@ -30,14 +29,12 @@ from nep_studio.ui.actions import Actions
 from nep_studio.ui.labels import follow_words, labelled, plain_tip
 from nep_studio.ui.robot_view.view import RobotView
 from nep_studio.ui.theme.icons import fit_icons, icon_room
-from nep_studio.ui.widgets.forms import room_around
 from nep_studio.ui.widgets.layouts import in_column
 from nep_studio.ui.words import tr
 from nodes.resources import NAO, model_folder
 from robots.body.body import Joint, load_body
 from robots.body.limbs import Limb
 
-from . import MOTION_WINDOW
 from .bars import Header, NotesBar, Transport
 from .commands import Commands, ProjectCommands
 from .curve import CurvePanel
@@ -191,15 +188,12 @@ class JointPanel(QScrollArea):
         self.controller.is_mirrored = is_on
 
 
-class MotionWindow(QDialog):
+class MotionPage(QWidget):
     """Makes one motion at a time, for a robot of a ``model``: "" is a NAO."""
 
     def __init__(self, host: Host, model: str = "") -> None:
-        super().__init__(host.widget)
-        self.host, self.look = host, host.services.look
-        self.setObjectName(MOTION_WINDOW)
-        self.setWindowFlag(Qt.WindowType.WindowMaximizeButtonHint)
-        self.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
+        super().__init__()
+        self.host, self.look, self.model = host, host.services.look, model
 
         def language() -> Language:
             return host.services.language
@@ -209,7 +203,7 @@ class MotionWindow(QDialog):
         self.controller = MotionController(body, self)
         self.player = Player(self.controller, self)
         self.kept = KeptMotions(host.services.files, folder, body)
-        self.actions_by_name = Actions(self, self.look)
+        self.actions_by_name = Actions(self, self.look, Qt.ShortcutContext.WidgetShortcut)
         self.commands = Commands(self)
         self.project = ProjectCommands(self)
         self.view = RobotView(self.look)
@@ -224,12 +218,10 @@ class MotionWindow(QDialog):
         self.notes = NotesBar(self.controller, self.look)
         self.faults = Faults(self.controller, self.stage.skeleton, language)
         self.robots = RobotPoses(host.services.runner, self.controller, self)
-        self._may_close = False
         self._lay_out()
         self._connect()
         self.controller.open(new_motion())
         follow_words(self, self._on_changed)
-        self.timeline.setFocus()
 
     def _connect(self) -> None:
         self.faults.found.connect(self.timeline.show_faults)
@@ -262,8 +254,6 @@ class MotionWindow(QDialog):
         below = self.notes, self.transport, self.time_pages
         in_column(self.toolbar, self.header, (body, 1), *below, of=self, spacing=line // 2)
         fit_icons(self)
-        room = room_around(self).size()
-        self.resize(min(line * 62, room.width()), min(line * 50, room.height()))
 
     def show_curve(self, is_shown: bool) -> None:
         """Show the curve of one joint in place of the timeline."""
@@ -281,10 +271,6 @@ class MotionWindow(QDialog):
         for name in ("new_motion", "open_motion", "save_motion"):
             bar.addAction(actions[name])
         bar.addSeparator()
-        for name in ("undo_motion", "redo_motion"):
-            bar.addAction(actions[name])
-            _button_of(bar, actions[name]).setToolButtonStyle(Qt.ToolButtonStyle.ToolButtonIconOnly)
-        bar.addSeparator()
         for name in ("change_motion", "robot_pose", "look_from", "more_motion"):
             bar.addAction(actions[name])
             mode = QToolButton.ToolButtonPopupMode.InstantPopup
@@ -294,41 +280,47 @@ class MotionWindow(QDialog):
     def _on_changed(self) -> None:
         self.commands.update()
         self.project.update()
-        title = self.controller.motion.title or tr("Motion")
-        self.setWindowTitle(tr("Make a motion: {title}", title=title) + "[*]")
-        self.setWindowModified(self.controller.is_modified)
 
     def _on_document_changed(self) -> None:
         """Another project keeps no motion of the last one: what is here is new to it."""
         self.controller.name = ""
         self._on_changed()
 
-    def keyPressEvent(self, event: QKeyEvent) -> None:
-        """Keys that no field wanted for itself; Esc does not throw a motion away."""
-        is_plain = not event.modifiers() & ~Qt.KeyboardModifier.KeypadModifier
-        if is_plain and self.commands.press(event.key()):
-            return
-        if event.key() != Qt.Key.Key_Escape:
-            event.ignore()
+    def event(self, event: QEvent) -> bool:
+        """Keys that mean something here do not reach the window, where they mean another thing."""
+        is_key = event.type() == QEvent.Type.ShortcutOverride and isinstance(event, QKeyEvent)
+        if is_key and self._meant(cast("QKeyEvent", event)) is not None:
+            event.accept()
+            return True
+        return super().event(event)
 
-    def closeEvent(self, event: QCloseEvent) -> None:
-        """Ask what is to become of a motion that is not kept."""
-        self.player.pause()
-        if self.has_changes and not self._may_close:
+    def keyPressEvent(self, event: QKeyEvent) -> None:
+        """Keys that no field wanted for itself."""
+        action = self._meant(event)
+        if action is None:
             event.ignore()
-            self.project.guard(self.close_now)
-            return
-        super().closeEvent(event)
+        else:
+            action.trigger()
+
+    def _meant(self, event: QKeyEvent) -> QAction | None:
+        """What a key does here; None where it is the window's."""
+        modifiers = event.modifiers() & ~Qt.KeyboardModifier.KeypadModifier
+        if not modifiers:
+            return self.commands.plain(event.key())
+        pressed = QKeySequence(event.keyCombination())
+        named = self.actions_by_name.by_name.values()
+        own = (one for one in named if one.isEnabled() and pressed in one.shortcuts())
+        return next(own, None)
+
+    def hideEvent(self, event: QHideEvent) -> None:
+        """What nobody sees does not play on."""
+        super().hideEvent(event)
+        self.player.pause()
 
     @property
     def has_changes(self) -> bool:
         """Whether something would be lost."""
         return self.controller.is_modified and bool(self.controller.motion.joints)
-
-    def close_now(self) -> None:
-        """Close without asking."""
-        self._may_close = True
-        self.close()
 
 
 def new_motion() -> OwnAnimation:
