@@ -40,6 +40,9 @@ python3 dev.py bench [NAME...] [--json] [--with-peers]
 python3 dev.py fuzz [TARGET...] [--minutes N] [--count N] [--seed N]
                                    feed bad input to what reads strangers' files and messages;
                                    exit code 1 when something breaks
+python3 dev.py monkey [--steps N] [--seed N] [--tell]
+                                   click and type at random in all windows;
+                                   exit code 1 when something breaks
 python3 dev.py freeze              make the program that needs no Python: dist/nep-studio
 python3 dev.py package [--quick]   freeze it, try it, and pack the installers of this system
 python3 dev.py setup               make the environment only
@@ -134,6 +137,7 @@ def modules(arguments: list[str], *, is_shown: bool) -> dict[str, list[list[str]
         "lint": [["ruff", "format", "--check", "."], ["ruff", "check", "."], ["mypy"]],
         "bench": [["benchmarks", *arguments]],
         "fuzz": [["fuzz", *arguments]],
+        "monkey": [["tools/monkey.py", *arguments]],
         "freeze": [["packaging/freeze.py"]],
         "package": [["packaging/package.py", *arguments]],
         "setup": [],
@@ -161,7 +165,7 @@ def system_needs(
     if command in ("freeze", "package"):  # what the program takes along must be here
         needed = QT_LIBRARIES | WINDOW_LIBRARIES | FREEZING
         return needed, PACKAGING if command == "package" else {}
-    if command in ("setup", "test", "bench"):
+    if command in ("setup", "test", "bench", "monkey"):
         return QT_LIBRARIES, wished | programs
     return {}, QT_LIBRARIES | wished
 

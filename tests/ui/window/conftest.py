@@ -86,8 +86,15 @@ def karate(window: MainWindow, qtbot: QtBot) -> MainWindow:
     """The window with a copy of the karate example."""
     window.files.open_example(paths.examples() / "karate_greeting.nep")
     qtbot.waitUntil(lambda: window.workbench.canvas.isVisible())
-    qtbot.waitUntil(lambda: "Impressive" in window.workbench.code.text.toPlainText())
     return window
+
+
+@pytest.fixture
+def karate_in_python(karate: MainWindow, qtbot: QtBot) -> MainWindow:
+    """The window with a copy of the karate example, and its Python beside it."""
+    karate.workbench.panels.show(karate.workbench.code)
+    qtbot.waitUntil(lambda: "Impressive" in karate.workbench.code.text.toPlainText())
+    return karate
 
 
 @pytest.fixture

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import pytest
 from PySide6.QtCore import QPoint, Qt
 from PySide6.QtGui import QGuiApplication, QTextCursor
 from pytestqt.qtbot import QtBot
@@ -10,6 +11,11 @@ from nep_studio.blocks.edits.content import SetField
 from nep_studio.blocks.edits.project import RenameProject
 from nep_studio.blocks.generate.program import generate_program
 from nep_studio.ui.shell.main_window import MainWindow
+
+
+@pytest.fixture(autouse=True)
+def shown(karate_in_python: MainWindow) -> None:
+    """The Python is closed at first."""
 
 
 def say_block(window: MainWindow, text: str = "Impressive!") -> str:

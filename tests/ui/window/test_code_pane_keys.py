@@ -100,8 +100,9 @@ def test_a_text_that_is_only_read_takes_no_keys(text, qtbot):
 
 @pytest.fixture
 def large(window: MainWindow, qtbot: QtBot) -> MainWindow:
-    """A window with a program of thousands of blocks."""
+    """A window with a program of thousands of blocks, and its Python beside it."""
     window.files.new()
+    window.workbench.panels.show(window.workbench.code)
     editor = window.files.document.editor
     rule = [B("event.started"), *(B("robot.say", {"text": f"line {n}"}) for n in range(400))]
     with editor.transaction("paste"):
