@@ -123,11 +123,12 @@ def test_a_small_screen_has_room_for_the_window_with_words_of_twice_the_size(
     studio.look.set_scale(1.0)
 
 
-def test_a_wide_window_begins_with_all(studio, chooser, qtbot: QtBot):
+def test_a_wide_window_begins_with_blocks_and_stage(studio, chooser, qtbot: QtBot):
     window = started(studio, chooser, 1300, qtbot)
 
     assert not window.workbench.helpers.palette.is_narrow
-    assert window.workbench.code.isVisible()
+    assert window.workbench.panels.areas["stage"].isVisible()
+    assert not window.workbench.code.isVisible()
     end(window)
 
 

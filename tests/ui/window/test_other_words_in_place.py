@@ -93,7 +93,7 @@ def opened(studio: Studio, qtbot: QtBot) -> MainWindow:
     made.files.open_example(KARATE)
     made.workbench.panels.show(made.workbench.code)
     made.workbench.panels.show(made.workbench.problems)
-    made.workbench.panels.row.setSizes([600, 1000, 800])
+    made.workbench.panels.row.setSizes([600, 800, 600, 400])
     qtbot.waitUntil(lambda: "Impressive" in made.workbench.code.text.toPlainText())
     return made
 
@@ -138,7 +138,7 @@ def test_all_panels_speak_the_language_when_somebody_looks(studio: Studio, qtbot
     for ours, theirs in zip(window.workbench.panels.all, fresh.workbench.panels.all, strict=True):
         for one, panel in ((window, ours), (fresh, theirs)):
             one.workbench.panels.show(panel.widget)
-            one.workbench.panels.row.setSizes([600, 1200, 600])
+            one.workbench.panels.row.setSizes([600, 800, 600, 400])
             one.workbench.panels.column.setSizes([500, 900])
         differ = settled_differences(ours.widget, theirs.widget)
         assert (ours.name, differ) == (theirs.name, ([], []))
@@ -250,14 +250,14 @@ def test_python_that_is_being_written_stays(karate: MainWindow) -> None:
 
 def test_the_blocks_are_read_from_the_right_and_from_the_left_again(karate: MainWindow) -> None:
     workbench = karate.workbench
-    areas = workbench.panels.areas
+    areas, stage = workbench.panels.areas, workbench.panels.stage
 
     karate.studio.choose_language(PSEUDO)
     QTest.qWait(20)
-    mirrored = (workbench.canvas.look.measures.is_mirrored, areas["left"].x() > areas["right"].x())
+    mirrored = (workbench.canvas.look.measures.is_mirrored, areas["left"].x() > stage.x())
     karate.studio.choose_language("en")
     QTest.qWait(20)
-    usual = (workbench.canvas.look.measures.is_mirrored, areas["left"].x() > areas["right"].x())
+    usual = (workbench.canvas.look.measures.is_mirrored, areas["left"].x() > stage.x())
 
     assert (mirrored, usual) == ((True, True), (False, False))
     assert karate.layoutDirection() == Qt.LayoutDirection.LeftToRight
@@ -268,13 +268,13 @@ def test_the_panels_are_put_back_without_being_made_anew(karate: MainWindow) -> 
     widgets = [panel.widget for panel in panels.all]
     code = next(panel for panel in panels.all if panel.widget is karate.workbench.code)
     problems = next(panel for panel in panels.all if panel.widget is karate.workbench.problems)
-    code.action.setChecked(False)
+    code.action.setChecked(True)
     problems.action.setChecked(True)
     karate.workbench.helpers.palette.set_narrow(True)
 
     karate.reset_panels()
 
-    assert code.action.isChecked() and not problems.action.isChecked()
+    assert not code.action.isChecked() and not problems.action.isChecked()
     assert not karate.workbench.helpers.palette.is_narrow
     assert [panel.widget for panel in panels.all] == widgets
     assert not karate.settings.is_chosen(code.name)

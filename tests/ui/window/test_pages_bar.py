@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import pytest
 from PySide6.QtCore import Qt
+from PySide6.QtWidgets import QApplication, QMenu, QTabBar
 from pytestqt.qtbot import QtBot
 
 from nep_studio.ui.shell.main_window import MainWindow
@@ -17,21 +18,91 @@ def bar(karate: MainWindow):
 
 
 def titles(bar) -> list[str]:
+    """Of the pages, whether they have a tab or not."""
     return [bar.tabs.tabText(index) for index in range(bar.tabs.count())]
 
 
-def test_a_project_has_three_pages(bar) -> None:
+def seen(bar) -> list[str]:
+    return [title for index, title in enumerate(titles(bar)) if bar.tabs.isTabVisible(index)]
+
+
+def choose(bar, words: str, qtbot: QtBot) -> None:
+    """Open the menu of the plus with the mouse, and choose from it."""
+    qtbot.mouseClick(bar.add_button, LEFT)
+    menu = QApplication.activePopupWidget()
+    assert isinstance(menu, QMenu)
+    action = next(one for one in menu.actions() if one.text() == words)
+    qtbot.mouseClick(menu, LEFT, pos=menu.actionGeometry(action).center())
+
+
+def close_button(bar, title: str):
+    return bar.tabs.tabButton(titles(bar).index(title), QTabBar.ButtonPosition.RightSide)
+
+
+def test_a_project_begins_with_its_behaviour_alone(bar) -> None:
     assert titles(bar) == ["Behaviour", "Robots", "Nodes"]
+    assert seen(bar) == ["Behaviour"]
+
+
+def test_a_page_for_setting_up_comes_when_somebody_wants_it_and_goes_again(
+    karate: MainWindow, bar, qtbot: QtBot
+) -> None:
+    choose(bar, "Nodes", qtbot)
+    assert seen(bar) == ["Behaviour", "Nodes"]
+    assert karate.workbench.canvas.page == "nodes"
+
+    qtbot.mouseClick(close_button(bar, "Nodes"), LEFT)
+
+    assert seen(bar) == ["Behaviour"]
+    assert karate.workbench.canvas.page == "behaviour"
+
+
+@pytest.mark.parametrize("room", ["Gestures", "Sensors", "Network", "Motion"])
+def test_a_room_has_the_whole_page_beside_the_robot(
+    karate: MainWindow, bar, qtbot: QtBot, room: str
+) -> None:
+    workbench = karate.workbench
+    choose(bar, room, qtbot)
+
+    shown = workbench.rooms.shown
+    assert shown is not None and shown.isVisible() and seen(bar) == ["Behaviour", room]
+    assert not workbench.canvas.isVisible() and not workbench.helpers.palette.isVisible()
+    assert workbench.panels.areas["stage"].isVisible()
+    assert shown.width() >= 0.7 * workbench.width()
+
+    qtbot.mouseClick(bar.tabs, LEFT, pos=bar.tabs.tabRect(0).center())
+    assert workbench.canvas.isVisible() and workbench.helpers.palette.isVisible()
+    qtbot.mouseClick(bar.tabs, LEFT, pos=bar.tabs.tabRect(3).center())
+    assert shown.isVisible()
+    qtbot.mouseClick(close_button(bar, room), LEFT)
+    assert workbench.canvas.isVisible() and seen(bar) == ["Behaviour"]
+
+
+def test_delete_in_a_room_leaves_the_blocks_alone(karate: MainWindow, bar, qtbot: QtBot) -> None:
+    canvas = karate.workbench.canvas
+    block = karate.files.document.project.pages["behaviour"][0].body[1]
+    canvas.selection.set([block])
+    choose(bar, "Network", qtbot)
+
+    qtbot.keyClick(karate.workbench.rooms.shown, Qt.Key.Key_Delete)
+
+    assert block in karate.files.document.project.blocks
+    assert not karate.actions_by_name["delete"].isEnabled()
+    canvas.show_block(block)
+    assert canvas.isVisible()
 
 
 def test_a_click_shows_a_page(karate: MainWindow, bar, qtbot: QtBot) -> None:
+    choose(bar, "Robots", qtbot)
+    qtbot.mouseClick(bar.tabs, LEFT, pos=bar.tabs.tabRect(0).center())
+    assert karate.workbench.canvas.page == "behaviour"
     qtbot.mouseClick(bar.tabs, LEFT, pos=bar.tabs.tabRect(1).center())
 
     assert karate.workbench.canvas.page == "robots"
 
 
 def test_plus_adds_a_page_for_behaviour_and_shows_it(karate: MainWindow, bar, qtbot: QtBot) -> None:
-    qtbot.mouseClick(bar.add_button, LEFT)
+    choose(bar, "New page for behaviour", qtbot)
 
     assert titles(bar) == ["Behaviour", "Behaviour 2", "Robots", "Nodes"]
     assert karate.workbench.canvas.page == list(karate.files.document.project.pages)[1]
@@ -40,7 +111,7 @@ def test_plus_adds_a_page_for_behaviour_and_shows_it(karate: MainWindow, bar, qt
 def test_undo_takes_an_added_page_away_and_shows_the_first(
     karate: MainWindow, bar, qtbot: QtBot
 ) -> None:
-    qtbot.mouseClick(bar.add_button, LEFT)
+    choose(bar, "New page for behaviour", qtbot)
 
     karate.actions_by_name["undo"].trigger()
 
@@ -76,6 +147,7 @@ def test_a_page_is_moved_and_stays_shown(karate: MainWindow, bar, qtbot: QtBot) 
 
 
 def test_a_tab_is_dragged_to_another_place(karate: MainWindow, bar, qtbot: QtBot) -> None:
+    choose(bar, "Robots", qtbot)
     start, end = bar.tabs.tabRect(0).center(), bar.tabs.tabRect(1).center()
 
     qtbot.mousePress(bar.tabs, LEFT, pos=start)
@@ -90,7 +162,7 @@ def test_deleting_a_page_takes_its_blocks_and_undo_brings_them_back(
     karate: MainWindow, bar, qtbot: QtBot
 ) -> None:
     project, editor = karate.files.document.project, karate.files.document.editor
-    qtbot.mouseClick(bar.add_button, LEFT)
+    choose(bar, "New page for behaviour", qtbot)
     page = list(project.pages)[1]
     editor.create("control.wait", editor.new_stack(page, 40, 40))
 

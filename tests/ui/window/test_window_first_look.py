@@ -124,17 +124,17 @@ def test_a_narrow_palette_shows_the_signs_of_its_categories_alone(karate: MainWi
     palette = karate.workbench.helpers.palette
     wide = palette.categories.width()
 
-    karate.workbench.panels.row.setSizes([200, 800, 280])
+    karate.workbench.panels.row.setSizes([200, 800, 0, 280])
 
     qtbot.waitUntil(lambda: palette.categories.width() < wide / 2)
     assert palette.shelf.isVisible()
-    karate.workbench.panels.row.setSizes([400, 600, 280])
+    karate.workbench.panels.row.setSizes([400, 600, 0, 280])
     qtbot.waitUntil(lambda: palette.categories.width() == wide)
 
 
 def test_larger_text_makes_the_blocks_of_the_palette_larger(karate: MainWindow) -> None:
     shelf = karate.workbench.helpers.palette.shelf
-    karate.workbench.panels.row.setSizes([800, 300, 180])
+    karate.workbench.panels.row.setSizes([800, 300, 0, 180])
     before = shelf.rect_of(1).height()
 
     karate.studio.choose_text_scale(2.0)
@@ -159,11 +159,12 @@ def test_categories_come_in_the_order_in_which_one_needs_them(karate: MainWindow
 
 def test_a_narrow_code_pane_has_signs_with_tips_instead_of_words(karate: MainWindow) -> None:
     code = karate.workbench.code
-    karate.workbench.panels.row.setSizes([400, 600, 280])
+    karate.workbench.panels.show(code)
+    karate.workbench.panels.row.setSizes([400, 600, 280, 0])
     words = code.edit_button.text()
 
     karate.studio.choose_text_scale(2.0)
-    karate.workbench.panels.row.setSizes([400, 700, 100])
+    karate.workbench.panels.row.setSizes([400, 700, 100, 80])
 
     assert words == "Edit"
     assert code.edit_button.text() == "" and code.edit_button.toolTip() == "Edit"

@@ -82,13 +82,13 @@ def test_another_language_leaves_the_panel_on_top_that_alone_is_shown(karate: Ma
     bottom = karate.workbench.panels.areas["bottom"]
     for panel in karate.workbench.panels.all:
         if panel.area is bottom:
-            panel.action.setChecked(panel.name == "HumanPanel")
+            panel.action.setChecked(panel.name == "NodesPanel")
 
     karate.studio.choose_language(PSEUDO)
 
     bottom = karate.workbench.panels.areas["bottom"]
     assert bottom.isTabVisible(bottom.currentIndex())
-    assert type(bottom.currentWidget()).__name__ == "HumanPanel"
+    assert type(bottom.currentWidget()).__name__ == "NodesPanel"
 
 
 def test_another_language_keeps_project_history_and_selection(
@@ -144,6 +144,7 @@ def test_the_settings_dialog_changes_the_size_of_the_text(karate: MainWindow, qt
 
 def test_a_hidden_panel_is_hidden_the_next_time(karate: MainWindow, qtbot: QtBot) -> None:
     area = karate.workbench.panels.areas["right"]
+    karate.workbench.panels.show(karate.workbench.code)
 
     qtbot.mouseClick(area.close_button, Qt.MouseButton.LeftButton)
 
