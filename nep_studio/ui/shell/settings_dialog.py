@@ -484,10 +484,9 @@ class SettingsDialog(QDialog):
         is_done = super().event(event)
         if event.type() in (QEvent.Type.LayoutRequest, QEvent.Type.Resize):
             width = self.pages.currentWidget().width()
-            for page in map(self.pages.widget, range(self.pages.count())):
-                layout = page.layout()
-                if layout is not None and layout.hasHeightForWidth():
-                    page.setMinimumHeight(layout.totalHeightForWidth(width))
+            for page in (self.folders, self.show_page, self.network_page, self.privacy):
+                if page.hasHeightForWidth():
+                    page.setMinimumHeight(page.heightForWidth(width))
             needed = self.pages.minimumSizeHint().height()
             if self.pages.minimumHeight() != needed:
                 self.pages.setMinimumHeight(needed)  # it tells nobody by itself
