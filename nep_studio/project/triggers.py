@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Collection, Iterable, Iterator
 from dataclasses import dataclass, field, replace
 from typing import Literal
 
@@ -313,6 +313,33 @@ def cues_of(project: Project, language: Language) -> list[Cue]:
     return list({cue.id: cue for cue in reversed(cues)}.values())[::-1]
 
 
+def cues_now(project: Project, language: Language, running: Collection[str]) -> list[Cue]:
+    """The cues of what a program waits for at this moment, as its operator has arranged them.
+
+    ``running`` are the blocks that it is in: a rule that is under way begins with nothing, and a
+    block that waits in it waits itself.
+    """
+    found: list[Occurrence] = []
+    for chain in rules(project, language):
+        inside = {block.id for block in project.within(chain, enabled=True)}
+        if inside.isdisjoint(running):
+            found += _of_block(project, project.blocks[chain[0]], language)
+        for block_id in sorted(inside.intersection(running)):
+            for block in _with_reporters(project, block_id):
+                found += _of_block(project, block, language)
+    cues = {cue.id: cue for cue in (_cue(one, language) for one in found if one.state)}
+    known = arranged(cues.values(), kept_cues(project))
+    return [cue for cue in known if cue.id in cues and not cue.is_hidden]
+
+
+def _with_reporters(project: Project, block_id: str) -> Iterator[Block]:
+    """A block and what is in its slots, without what it has inside."""
+    block = project.blocks[block_id]
+    yield block
+    for inner in block.inputs.values():
+        yield from _with_reporters(project, inner)
+
+
 def _cue(occurrence: Occurrence, language: Language) -> Cue:
     """The button for something; a rule may hear of it from one robot only."""
     kind, words = _CUE_KINDS.get(occurrence.kind, "state"), occurrence.words
@@ -338,7 +365,10 @@ _CUE_KINDS: dict[Kind, CueKind] = {
 
 
 def arranged(made: Iterable[Cue], kept: Iterable[Cue]) -> list[Cue]:
-    """The cues as the operator has arranged them, then those that nobody has arranged yet."""
+    """The cues as the operator has arranged them, then those that nobody has arranged yet.
+
+    Those are pressed by the keys that are left, the first nine of all.
+    """
     new = {cue.id: cue for cue in made}
     cues = []
     for cue in kept:
@@ -347,7 +377,9 @@ def arranged(made: Iterable[Cue], kept: Iterable[Cue]) -> list[Cue]:
             cues.append(msgspec.structs.replace(cue, kind=fresh.kind, words=fresh.words))
         elif cue.is_own:
             cues.append(cue)
-    return [*cues, *new.values()]
+    taken = {cue.key for cue in cues}
+    left = iter([key for key in KEYS if key not in taken])
+    return [*cues, *(msgspec.structs.replace(cue, key=next(left, "")) for cue in new.values())]
 
 
 def kept_cues(project: Project) -> list[Cue]:

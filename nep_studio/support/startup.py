@@ -10,7 +10,7 @@ import os
 import plistlib
 import shutil
 import sys
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -107,6 +107,22 @@ def remove(files: Sequence[StartupFile]) -> None:
     """Take the files away; raises OSError."""
     for file in files:
         file.path.unlink(missing_ok=True)
+
+
+def as_it_is(place: Place) -> Callable[[], None]:
+    """What puts the files back to what they are now, or takes them away; raises OSError."""
+    paths = [file.path for file in startup_files(place, [])]
+    before = [path.read_bytes() if path.is_file() else None for path in paths]
+
+    def put_back() -> None:
+        for path, content in zip(paths, before, strict=True):
+            if content is None:
+                path.unlink(missing_ok=True)
+            elif not path.is_file() or path.read_bytes() != content:
+                with whole_file(path) as new:
+                    new.write(content)
+
+    return put_back
 
 
 def _start_of_unit() -> list[str]:

@@ -31,7 +31,7 @@ from nep_studio.ui.theme.colours import Theme
 
 from .editing.carrying import KeyboardCarry
 from .editing.commands import Commands
-from .editing.drag_blocks import ExternalDrag, carry_in, clip_in, project_files
+from .editing.drag_blocks import ExternalDrag, carry_in, clip_in
 from .editing.keys import Keyboard
 from .editing.marks import DragMarks
 from .editing.menu import Section, menu_for
@@ -306,13 +306,10 @@ class Canvas(QAbstractScrollArea):
         """Scroll or zoom."""
         wheel(self, event)
 
-    # Blocks and project files from other windows
+    # Blocks from other windows
 
     def dragEnterEvent(self, event: QDragEnterEvent) -> None:
-        """Take project files, and the text of blocks."""
-        if project_files(event.mimeData()):
-            event.acceptProposedAction()
-            return
+        """Take the text of blocks; files are for the window."""
         clip = clip_in(self, event.mimeData())
         if clip is not None:
             carry_in(self, clip, self.viewport().mapToGlobal(event.position().toPoint()))
@@ -329,12 +326,8 @@ class Canvas(QAbstractScrollArea):
         self.pointing.cancel()
 
     def dropEvent(self, event: QDropEvent) -> None:
-        """Put the blocks where they are, or tell which file was dropped."""
-        files = project_files(event.mimeData())
-        for path in files:
-            self.news.file_dropped.emit(path)
-        if not files:
-            self.pointing.release_at(event.position())
+        """Put the blocks where they are."""
+        self.pointing.release_at(event.position())
         event.setDropAction(Qt.DropAction.CopyAction)
         event.accept()
 

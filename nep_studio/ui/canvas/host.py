@@ -56,7 +56,6 @@ class CanvasNews(QObject):
     uses_requested = Signal(object)
     help_requested = Signal(str)
     picture_requested = Signal()
-    file_dropped = Signal(str)
 
 
 class Fields(Protocol):

@@ -15,7 +15,9 @@ def open_settings(window: MainWindow) -> None:
     """Show the settings."""
     from .settings_dialog import SettingsDialog
 
-    dialog = SettingsDialog(window.studio, window)
+    document = window.files.document
+    project = document.path if document is not None else None
+    dialog = SettingsDialog(window.studio, window, project=project)
     dialog.reset_button.clicked.connect(window.reset_panels)
     dialog.open()
 

@@ -6,11 +6,28 @@ from collections.abc import Iterator, Sequence
 from functools import cached_property, partial
 from importlib import import_module
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, TypeGuard
 
-from PySide6.QtCore import QEvent, QObject, QTimer, Signal
-from PySide6.QtGui import QCloseEvent, QDragEnterEvent, QDropEvent, QResizeEvent
-from PySide6.QtWidgets import QMainWindow, QStackedWidget, QToolBar
+from PySide6.QtCore import QEvent, QObject, Qt, QTimer, Signal
+from PySide6.QtGui import (
+    QCloseEvent,
+    QDragEnterEvent,
+    QDropEvent,
+    QResizeEvent,
+    QShowEvent,
+    QWheelEvent,
+)
+from PySide6.QtWidgets import (
+    QAbstractSlider,
+    QAbstractSpinBox,
+    QComboBox,
+    QMainWindow,
+    QScrollBar,
+    QStackedWidget,
+    QTabBar,
+    QToolBar,
+    QWidget,
+)
 
 from nep_studio.ui.actions import Actions
 from nep_studio.ui.document_files import PICTURES, SUFFIX, FileChooser
@@ -184,7 +201,7 @@ class LazyInitialiser(QObject):
             workbench.restore(window.fontMetrics().height())
 
 
-# What can be dropped onto the window: a project, or a picture with one in it.
+# What holds for the pointer everywhere: projects are dropped anywhere, the wheel only scrolls.
 
 
 def project_in(event: QDropEvent) -> Path | None:
@@ -194,6 +211,56 @@ def project_in(event: QDropEvent) -> Path | None:
     if found is not None:
         event.acceptProposedAction()
     return found
+
+
+VALUES = (QAbstractSlider, QAbstractSpinBox, QComboBox, QTabBar)
+"""What Qt lets the wheel change wherever it stops."""
+
+
+HEARD = (QWheelEvent, QDragEnterEvent, QShowEvent)
+
+
+class PointerRules(QObject):
+    """Hears what goes to any widget of the program, before the widget does.
+
+    The wheel changes no value that has not the focus: what is around it scrolls. A project that
+    is dropped on a part of the window, a line to type in too, is the window's.
+    """
+
+    def __init__(self, window: MainWindow) -> None:
+        super().__init__(window)
+        self._window = window
+        window.studio.app.installEventFilter(self)
+
+    def eventFilter(self, watched: QObject, event: QEvent) -> bool:
+        """Pass on what is not for this widget to those around it."""
+        # every event comes by here: all but these few are let go at once
+        if not isinstance(event, HEARD):
+            return False
+        if isinstance(event, QShowEvent):
+            _take_no_focus_by_wheel(watched)
+            return False
+        if isinstance(event, QWheelEvent):
+            is_passed_on = _is_value(watched) and not watched.hasFocus()
+        else:
+            is_passed_on = self._is_inside(watched) and project_in(event) is not None
+        if is_passed_on:
+            event.ignore()  # then Qt asks the widget around it
+        return is_passed_on
+
+    def _is_inside(self, part: QObject) -> bool:
+        window = self._window
+        return isinstance(part, QWidget) and part.window() is window and part is not window
+
+
+def _is_value(widget: QObject) -> TypeGuard[QWidget]:
+    return isinstance(widget, VALUES) and not isinstance(widget, QScrollBar)
+
+
+def _take_no_focus_by_wheel(widget: QObject) -> None:
+    """Qt gives it before anybody hears of the wheel."""
+    if _is_value(widget) and widget.focusPolicy() == Qt.FocusPolicy.WheelFocus:
+        widget.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
 
 
 FIRST_SIZE = (1280, 800)
@@ -218,6 +285,7 @@ class MainWindow(QMainWindow):
         self._opening_message: Message | None = None
         self._may_close = False
         self._shown_problems: tuple[object, ...] = ()
+        self._pointer_rules = PointerRules(self)
         self.lazy = LazyInitialiser(self)
         self.setAcceptDrops(True)
         self.resize(*FIRST_SIZE)

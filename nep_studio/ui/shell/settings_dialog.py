@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import time
 from collections.abc import Callable
 from dataclasses import replace
@@ -9,7 +10,7 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from PySide6.QtCore import QObject, QSignalBlocker, Qt, QTimer, QUrl, Signal
+from PySide6.QtCore import QEvent, QObject, QSignalBlocker, Qt, QTimer, QUrl, Signal
 from PySide6.QtGui import QDesktopServices
 from PySide6.QtWidgets import (
     QCheckBox,
@@ -36,6 +37,8 @@ from nep_studio.settings import (
     FolderName,
     Settings,
 )
+from nep_studio.support import startup
+from nep_studio.support.startup import Place
 from nep_studio.support.updates import Newest, UpdateChoice, ask, is_usable
 from nep_studio.ui.background import Background
 from nep_studio.ui.labels import labelled, labelled_items
@@ -48,6 +51,8 @@ from nep_studio.ui.widgets.layouts import in_column, in_row
 from nep_studio.ui.widgets.questions import ask_for_path
 from nep_studio.ui.words import available_languages, tr
 
+from .show_at_start import ShowAtStart
+
 if TYPE_CHECKING:
     from .main_window import MainWindow
 
@@ -56,6 +61,8 @@ if TYPE_CHECKING:
 
 TEXT_STEP = 5
 """Percent between two sizes of the text."""
+
+PIN_LETTERS = 16
 
 FOLDERS: dict[FolderName, str] = {
     "projects": "Projects",
@@ -159,9 +166,9 @@ class FoldersPage(QWidget):
 
 
 class ShowPage(QWidget):
-    """How show mode goes, and the PIN with which it is left."""
+    """How show mode goes, the PIN with which it is left, and whether it starts by itself."""
 
-    def __init__(self, settings: Settings) -> None:
+    def __init__(self, settings: Settings, place: Place, project: Path | None) -> None:
         super().__init__()
         self._settings = settings
         chosen = settings.show_options
@@ -170,9 +177,12 @@ class ShowPage(QWidget):
         self.cues = labelled(QCheckBox(), text="Show the cue buttons, for an operator")
         self.restarts = QSpinBox(minimum=0, maximum=MOST_RESTARTS, value=chosen.restarts)
         self.pin = QLineEdit(echoMode=QLineEdit.EchoMode.Password)
+        self.pin.setMinimumWidth(self.fontMetrics().averageCharWidth() * PIN_LETTERS)
         self.pin_button = QPushButton(autoDefault=False)
         pin = in_row((self.pin, 1), self.pin_button)
-        form = _form(self)
+        rows = QWidget()
+        form = _form(rows)
+        form.setContentsMargins(0, 0, 0, 0)
         for box, is_on in (
             (self.at_once, chosen.runs_at_once),
             (self.again, chosen.again),
@@ -184,7 +194,11 @@ class ShowPage(QWidget):
         most = label_of("After errors in a row, begin again at most", self.restarts)
         form.addRow(most, self.restarts)
         form.addRow(label_of("PIN to leave", self.pin), pin)
-        form.addRow(hint("To leave a show, hold Esc or its title for two seconds."))
+        leaving = hint("To leave a show, hold Esc or the cross in its corner for two seconds.")
+        self.at_start = ShowAtStart(place, project)
+        line = self.fontMetrics().height()
+        parts = (rows, leaving, self.at_start, 1)
+        in_column(*parts, of=self, margins=line, spacing=line // 2)
         self.restarts.valueChanged.connect(self._on_chosen)
         self.pin.textChanged.connect(self._show_pin)
         self.pin_button.clicked.connect(self._on_pin)
@@ -395,15 +409,18 @@ class PrivacyPage(QWidget):
             labelled(self.state, text="This is the newest version.")
 
 
-def _as_it_was(studio: Studio) -> Callable[[], None]:
+def _as_it_was(studio: Studio, place: Place) -> Callable[[], None]:
     """What puts all settings of the dialog back to what they are now."""
     settings, updates = studio.settings, UpdateChoice(studio.settings)
     language, theme, text_scale = settings.language, settings.theme, settings.text_scale
     folders = {name: settings.chosen_folder(name) for name in FOLDERS}
     show_options, lets_join = settings.show_options, settings.lets_original_join
     is_wanted, address = updates.is_wanted, updates.address
+    put_startup_back = startup.as_it_is(place)
 
     def take_back() -> None:
+        with contextlib.suppress(OSError):  # it could not be written before either
+            put_startup_back()
         settings.show_options, settings.lets_original_join = show_options, lets_join
         updates.is_wanted, updates.address = is_wanted, address
         for name, folder in folders.items():
@@ -419,12 +436,23 @@ def _as_it_was(studio: Studio) -> Callable[[], None]:
 
 
 class SettingsDialog(QDialog):
-    """Shows what is chosen, and takes what is chosen anew."""
+    """Shows what is chosen, and takes what is chosen anew.
 
-    def __init__(self, studio: Studio, parent: QWidget) -> None:
+    ``project`` is the file of the project that is open, ``place`` the computer that it is on.
+    """
+
+    def __init__(
+        self,
+        studio: Studio,
+        parent: QWidget,
+        *,
+        project: Path | None = None,
+        place: Place | None = None,
+    ) -> None:
         super().__init__(parent)
+        place = place or Place.here()
         self._studio = studio
-        self._take_back = _as_it_was(studio)
+        self._take_back = _as_it_was(studio, place)
         self.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
         labelled(self, window_title="Settings")
         self.reset_button = labelled(QPushButton(autoDefault=False), text="Put the panels back")
@@ -442,13 +470,27 @@ class SettingsDialog(QDialog):
         self.language.activated.connect(lambda: studio.choose_language(self.language.currentData()))
         self.theme.activated.connect(lambda: studio.choose_theme(self.theme.currentData()))
         look.size_chosen.connect(self._on_size_chosen)
-        self.folders, self.show_page = FoldersPage(settings), ShowPage(settings)
+        self.folders = FoldersPage(settings)
+        self.show_page = ShowPage(settings, place, project)
         self.network_page, self.privacy = NetworkPage(settings), PrivacyPage(settings)
         for page in (look, self.folders, self.show_page, self.network_page, self.privacy):
             self.pages.addTab(page, "")
         labelled_items(self.pages, "Look", "Folders", "Show mode", "Network", "Privacy")
         self.cancel_button.clicked.connect(self.reject)
         self.close_button.clicked.connect(self.accept)
+
+    def event(self, event: QEvent) -> bool:
+        """Give each page the height that its words need: Qt forgets those that are wrapped."""
+        is_done = super().event(event)
+        if event.type() in (QEvent.Type.LayoutRequest, QEvent.Type.Resize):
+            width = self.pages.currentWidget().width()
+            for page in (self.folders, self.show_page, self.network_page, self.privacy):
+                if page.hasHeightForWidth():
+                    page.setMinimumHeight(page.heightForWidth(width))
+            needed = self.pages.minimumSizeHint().height()
+            if self.pages.minimumHeight() != needed:
+                self.pages.setMinimumHeight(needed)  # it tells nobody by itself
+        return is_done
 
     def reject(self) -> None:
         """Take back what was chosen since the dialog was opened."""

@@ -46,7 +46,7 @@ def parser() -> argparse.ArgumentParser:
     """The words of the command."""
     made = argparse.ArgumentParser(
         prog="nep-studio show",
-        description="Show a project on the whole screen; hold Esc for two seconds to leave.",
+        description="Show a project on the whole screen; hold Esc or the corner to leave.",
     )
     made.add_argument("file", metavar="FILE.nep")
     made.add_argument("--run", action="store_true", help="run it at once")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gc
 import re
 from itertools import pairwise
 from pathlib import Path
@@ -11,7 +12,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 from PySide6.QtCore import QMarginsF, QSizeF, Qt
 from PySide6.QtGui import QPageLayout, QPageSize
-from PySide6.QtPrintSupport import QPrinter
+from PySide6.QtPrintSupport import QPrintDialog, QPrinter
+from PySide6.QtWidgets import QLineEdit
 from pytestqt.qtbot import QtBot
 
 from nep_studio import paths
@@ -134,6 +136,26 @@ def test_a_range_of_pages_is_printed_alone(
 
     assert pages_in(tmp_path / "program.pdf") == 2
     dialog.close()
+
+
+def test_the_print_button_asks_for_a_printer_and_prints(
+    karate: MainWindow, tmp_path: Path, qtbot: QtBot
+) -> None:
+    dialog = ProgramPrintDialog(karate.workbench.canvas, "x = 1\n", karate)
+    dialog.open()
+    qtbot.mouseClick(dialog.print_button, Qt.MouseButton.LeftButton)
+    gc.collect()  # what only Python held would be gone now
+    [asked] = dialog.findChildren(QPrintDialog)
+    qtbot.keyClick(asked, Qt.Key.Key_Escape)
+    qtbot.waitUntil(lambda: not dialog.findChildren(QPrintDialog))
+    qtbot.mouseClick(dialog.print_button, Qt.MouseButton.LeftButton)
+    [asked] = dialog.findChildren(QPrintDialog)
+    asked.findChild(QLineEdit, "filename").setText(str(tmp_path / "program.pdf"))
+
+    asked.accept()
+
+    qtbot.waitUntil(lambda: not karate.findChildren(ProgramPrintDialog))
+    assert pages_in(tmp_path / "program.pdf") >= 1
 
 
 def test_long_lines_of_python_go_on_below_and_none_is_lost() -> None:

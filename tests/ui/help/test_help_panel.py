@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+import gc
+
 from PySide6.QtCore import QPoint, Qt
 from PySide6.QtGui import QGuiApplication, QWheelEvent
-from PySide6.QtWidgets import QApplication
+from PySide6.QtPrintSupport import QPrintDialog, QPrinter
+from PySide6.QtWidgets import QApplication, QLineEdit
 
 from nep_studio.ui.plugins.help.panel import HelpPanel, print_page
 from nep_studio.ui.theme.icons import icon_room
@@ -216,8 +219,6 @@ def test_the_page_follows_the_theme_at_the_place_where_it_is_read(panel, studio)
 
 
 def test_a_page_is_printed_dark_on_light(panel, tmp_path):
-    from PySide6.QtPrintSupport import QPrinter
-
     panel.open("block/robot.say")
     printer = QPrinter()
     printer.setOutputFormat(QPrinter.OutputFormat.PdfFormat)
@@ -226,6 +227,30 @@ def test_a_page_is_printed_dark_on_light(panel, tmp_path):
     print_page(panel.browser, printer)
 
     assert (tmp_path / "page.pdf").stat().st_size > 5000
+
+
+def test_the_print_button_asks_for_a_printer_and_prints(panel, tmp_path, qtbot):
+    panel.open("block/robot.say")
+    qtbot.mouseClick(panel.tools.print, LEFT)
+    gc.collect()  # what only Python held would be gone now
+    [dialog] = panel.findChildren(QPrintDialog)
+    dialog.findChild(QLineEdit, "filename").setText(str(tmp_path / "page.pdf"))
+
+    dialog.accept()
+
+    assert (tmp_path / "page.pdf").stat().st_size > 5000
+    qtbot.waitUntil(lambda: not panel.findChildren(QPrintDialog))
+
+
+def test_the_question_for_a_printer_is_closed_and_asked_again(panel, qtbot):
+    for _ in range(2):
+        qtbot.mouseClick(panel.tools.print, LEFT)
+        gc.collect()
+        [dialog] = panel.findChildren(QPrintDialog)
+        qtbot.keyClick(dialog, KEY.Key_Escape)
+        qtbot.waitUntil(lambda: not panel.findChildren(QPrintDialog))
+
+    assert panel.isVisible()
 
 
 def test_a_hidden_panel_reads_nothing(canvas, studio, qtbot):

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import psutil
 import pytest
-from PySide6.QtCore import QPoint, QRect, Qt
+from PySide6.QtCore import QPoint, QRect, Qt, QTimer
 from PySide6.QtGui import QGuiApplication
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QWidget
@@ -68,9 +68,7 @@ def test_run_plays_and_tells_in_large_words_what_the_robot_says(
     shown = show()
 
     press(shown.run_button, qtbot)
-    qtbot.waitUntil(
-        lambda: any("Good evening" in line for line in shown.words.lines), timeout=WAIT_MS
-    )
+    qtbot.waitUntil(lambda: "Good evening" in shown.words.lines, timeout=WAIT_MS)
     state_is(shown, qtbot, "ready")
 
     assert shown.run_button.isVisible()
@@ -203,15 +201,144 @@ def test_a_short_esc_does_nothing_and_a_long_one_leaves(
     assert [card.message.title for card in window.message_area.cards] == ["Back"]
 
 
-def test_holding_the_title_leaves_where_there_is_no_keyboard(
+def test_a_key_that_comes_as_pairs_of_press_and_release_is_held(
+    hold_less_long: None, window: MainWindow, open_program, show: Begin, qtbot: QtBot
+) -> None:
+    open_program(SAY)
+    shown = show()
+    pairs = QTimer(interval=40)  # as remote desktops repeat a key
+    pairs.timeout.connect(lambda: qtbot.keyClick(shown.run_button, Qt.Key.Key_Escape))
+
+    shown.left.connect(pairs.stop)
+    pairs.start()
+
+    qtbot.waitUntil(window.isVisible)
+
+
+def test_taps_with_pauses_between_them_are_not_held(
     hold_less_long: None, window: MainWindow, open_program, show: Begin, qtbot: QtBot
 ) -> None:
     open_program(SAY)
     shown = show()
 
-    qtbot.mousePress(shown.title, Qt.MouseButton.LeftButton)
+    for _ in range(4):
+        qtbot.keyClick(shown.run_button, Qt.Key.Key_Escape)
+        qtbot.waitUntil(lambda: not shown.holding.is_held)
+
+    assert shown.isVisible() and not window.isVisible()
+
+
+def test_at_first_it_says_how_it_is_left(
+    monkeypatch: pytest.MonkeyPatch, open_program, show: Begin, qtbot: QtBot
+) -> None:
+    told_ms = leaving.TOLD_MS
+    monkeypatch.setattr(leaving, "TOLD_MS", 200)
+    open_program(SAY)
+
+    shown = show()
+
+    assert told_ms == 5000
+    assert shown.hold_bar.isVisible() and "hold Esc" in shown.hold_bar.words.text()
+    qtbot.waitUntil(lambda: not shown.hold_bar.isVisible())
+
+
+def point(shown: ShowWindow, target: QWidget) -> QPoint:
+    """Move the mouse there, as the system tells the window; where that is in the window."""
+    place = target.mapTo(shown, target.rect().center())
+    QTest.mouseMove(shown.windowHandle(), place + QPoint(3, 3))
+    QTest.mouseMove(shown.windowHandle(), place)
+    return place
+
+
+def test_a_corner_that_comes_with_the_pointer_is_held_to_leave(
+    hold_less_long: None,
+    monkeypatch: pytest.MonkeyPatch,
+    window: MainWindow,
+    open_program,
+    show: Begin,
+    qtbot: QtBot,
+) -> None:
+    monkeypatch.setattr(leaving, "RESTS_MS", 300)
+    open_program(SAY)
+    shown = show()
+    qtbot.waitUntil(lambda: not shown.corner.isVisible())
+    place = point(shown, shown.words)
+    qtbot.waitUntil(shown.corner.isVisible)
+    place = point(shown, shown.corner)
+
+    QTest.mousePress(shown.windowHandle(), Qt.MouseButton.LeftButton, pos=place)
+    QTest.mouseRelease(shown.windowHandle(), Qt.MouseButton.LeftButton, pos=place)
+    after_a_click = shown.isVisible(), shown.hold_bar.isVisible()
+    QTest.mousePress(shown.windowHandle(), Qt.MouseButton.LeftButton, pos=place)
+    qtbot.waitUntil(window.isVisible)
+
+    assert after_a_click == (True, True)
+
+
+def test_a_finger_leaves_too(
+    hold_less_long: None, window: MainWindow, open_program, show: Begin, qtbot: QtBot
+) -> None:
+    open_program(SAY)
+    shown = show()
+    screen, place = QTest.createTouchDevice(), shown.corner.rect().center()
+    place = shown.corner.mapTo(shown, place)
+
+    touch = QTest.touchEvent(shown.windowHandle(), screen)
+    touch.press(0, place, shown.windowHandle())
+    touch.commit()
 
     qtbot.waitUntil(window.isVisible)
+
+
+def test_while_it_plays_only_speech_and_what_somebody_can_do_are_shown(
+    monkeypatch: pytest.MonkeyPatch, open_program, show: Begin, qtbot: QtBot
+) -> None:
+    monkeypatch.setattr(leaving, "RESTS_MS", 300)
+    open_program(
+        WAITS,
+        [B("robot_events.touched", {"part": "head"}), B("robot.say", {"text": "Oh"})],
+        [B("event.started"), B("robot.say", {"text": "Welcome"})],
+    )
+    shown = show(runs_at_once=True)
+    state_is(shown, qtbot, "playing")
+
+    qtbot.waitUntil(lambda: shown.words.lines == ["Welcome"], timeout=WAIT_MS)
+    qtbot.waitUntil(lambda: not shown.corner.isVisible())
+
+    assert len(shown.invitations.lines) == 2
+    assert "karate" in shown.invitations.lines[0].lower()
+    assert "head" in shown.invitations.lines[1]
+    hidden = (shown.title, shown.state_words, shown.cues, shown.cues_button, shown.run_button)
+    assert [part for part in hidden if part.isVisible()] == []
+    assert shown.stop_button.isVisible()
+    qtbot.waitUntil(lambda: shown.words.lines == [], timeout=WAIT_MS)
+
+
+def test_what_a_rule_does_is_no_time_to_begin_it_again(
+    open_program, show: Begin, qtbot: QtBot
+) -> None:
+    hears = [B("event.gesture", {"gesture": "karate"}), B("control.wait", {"seconds": 30})]
+    open_program(hears)
+    shown = show(runs_at_once=True)
+    state_is(shown, qtbot, "playing")
+    qtbot.waitUntil(lambda: len(shown.invitations.lines) == 1, timeout=WAIT_MS)
+
+    qtbot.keyClick(shown.stop_button, "1")
+
+    qtbot.waitUntil(lambda: shown.invitations.lines == [], timeout=WAIT_MS)
+
+
+def test_cues_stand_ready_without_being_seen(open_program, show: Begin, qtbot: QtBot) -> None:
+    open_program(WAITS)
+    shown = show(runs_at_once=True)
+    state_is(shown, qtbot, "playing")
+
+    qtbot.keyClick(shown.stop_button, "1")
+    qtbot.waitUntil(lambda: "Ha" in shown.words.lines, timeout=WAIT_MS)
+
+    place = point(shown, shown.cues_button)
+    QTest.mouseClick(shown.windowHandle(), Qt.MouseButton.LeftButton, pos=place)
+    qtbot.waitUntil(lambda: shown.cues.isVisible() and bool(shown.cues.board.buttons))
 
 
 def test_with_a_pin_only_the_pin_leaves(

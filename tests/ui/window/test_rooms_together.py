@@ -25,6 +25,6 @@ def test_the_palette_finds_what_the_plugins_brought(karate: MainWindow, qtbot: Q
 
     palette = next(w for w in karate.children() if w.objectName() == "command_palette")
     ids = {row.command.id for row in palette.rows}
-    names = ("save_python", "copy_python", "print", "show_mode", "show_at_start")
+    names = ("save_python", "copy_python", "print", "show_mode")
     assert {f"action:{name}" for name in names} <= ids
     assert "panel:CuePanel" in ids

@@ -265,8 +265,6 @@ def _stack_of(canvas: CanvasHost, owner: str) -> str:
 
 # New blocks that are dragged in from elsewhere: from the palette, or from another window.
 
-PROJECT_SUFFIX = ".nep"
-
 
 class ExternalDrag(QObject):
     """Watches the mouse of the widget where the press was, until its button comes up.
@@ -329,12 +327,6 @@ def clip_in(canvas: CanvasHost, data: QMimeData) -> Clip | None:
     except ProjectFileError:
         return None
     return clip if clip.stacks else None
-
-
-def project_files(data: QMimeData) -> list[str]:
-    """The project files in what is dragged over the canvas."""
-    paths = [url.toLocalFile() for url in data.urls() if url.isLocalFile()]
-    return [path for path in paths if path.lower().endswith(PROJECT_SUFFIX)]
 
 
 def _in_view(canvas: CanvasHost, place: QPoint) -> QPointF:

@@ -32,7 +32,8 @@ from PySide6.QtWidgets import (
 )
 
 from nep_studio.blocks.errors import EditRefused
-from nep_studio.project.triggers import KEYS, SOURCE, Cue, CueKind, own_cue
+from nep_studio.project.triggers import KEYS, Cue, own_cue
+from nep_studio.ui.cue_style import ICONS, cue_words
 from nep_studio.ui.labels import follow_words, labelled, plain_tip
 from nep_studio.ui.theme.colours import Theme
 from nep_studio.ui.theme.icons import icon, paint_icon
@@ -41,17 +42,7 @@ from nep_studio.ui.widgets.forms import hint
 from nep_studio.ui.widgets.layouts import in_column, in_row
 from nep_studio.ui.words import tr
 
-# How cues look: their words, their icons, their colours.
-
-ICONS: dict[CueKind, str] = {
-    "state": "flag",
-    "word": "ear",
-    "gesture": "watch",
-    "touch": "hand",
-    "sight": "eye",
-    "emotion": "user",
-    "person": "users",
-}
+# The colours of cues.
 
 COLOURS = {
     "": "Usual colour",
@@ -64,30 +55,6 @@ COLOURS = {
     "#2a6b3c": "Green",
 }
 """What a person can choose, and what it is called; "" is the theme's own."""
-
-
-def cue_words(cue: Cue) -> str:
-    """What a button says: what a person called it, else what it tells of."""
-    if cue.label:
-        return cue.label
-    words = _words(cue)
-    return words if cue.source == SOURCE else f"{words} ({cue.source})"
-
-
-def _words(cue: Cue) -> str:
-    about = cue.words or cue.state.replace("_", " ")
-    match cue.kind:
-        case "word":
-            return f"“{about}”"
-        case "touch":
-            return tr("Touch {part}", part=about)
-        case "sight":
-            return tr("Sees {thing}", thing=about)
-        case "emotion":
-            return tr("Looks {emotion}", emotion=about)
-        case "person":
-            return tr("Somebody is {distance}", distance=about)
-    return about[:1].upper() + about[1:]
 
 
 def ink_on(colour: QColor) -> QColor:

@@ -26,6 +26,7 @@ from nep_studio.blocks.edits.content import SetExtra
 from nep_studio.blocks.errors import EditRefused
 from nep_studio.project.triggers import KEY, Cue, arranged, cues_of, kept_cues, own_cue, to_keep
 from nep_studio.run.plan import VIRTUAL_WATCH
+from nep_studio.ui.cue_style import cue_words
 from nep_studio.ui.edits import OpenProject
 from nep_studio.ui.labels import follow_words, labelled
 from nep_studio.ui.messages import announce
@@ -35,7 +36,7 @@ from nep_studio.ui.widgets.forms import hint, plain_label, styled
 from nep_studio.ui.widgets.layouts import in_column, in_row
 from nep_studio.ui.words import tr
 
-from .arranging import ArrangeDialog, CueBoard, cue_words
+from .arranging import ArrangeDialog, CueBoard
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -187,6 +188,16 @@ class CuePanel(QWidget):
         if is_sent:
             self.board.flash(cue)
         return is_sent
+
+    def press(self, key: str) -> bool:
+        """Send the cue of a key, also while the buttons are hidden; whether there is one."""
+        if self.isVisible():
+            return self.board.press(key)
+        cues = [cue for cue in self.cues.cues() if not cue.is_hidden]
+        found = next((cue for cue in cues if key and cue.key == key), None)
+        if found is not None:
+            self.send(found)
+        return found is not None
 
     def showEvent(self, event: QShowEvent) -> None:
         """Nothing was followed while nobody looked."""

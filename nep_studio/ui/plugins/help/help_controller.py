@@ -53,7 +53,7 @@ PAGES_OF_ACTIONS = {
     f"{RUN}#pause": "pause step",
     f"{RUN}#breakpoint": "breakpoint clear_breakpoints",
     f"{RUN}#needs": "needs",
-    "howto/museum": "show_mode show_at_start startup",
+    "howto/museum": "show_mode",
     "howto/cue-panel": "cues",
     "howto/connect-watch": "connect_watch",
 }
@@ -80,7 +80,7 @@ PAGES_OF_WIDGETS = {
     f"{RUN}#needs": "NeedsDialog",
     "howto/keyboard#window": "ShortcutsDialog CommandPalette",
     "howto/own-blocks": "MakeBlockDialog Making",
-    "howto/museum": "ShowWindow StartupDialog",
+    "howto/museum": "ShowWindow ShowAtStart",
     "howto/cue-panel": "CuePanel CueBoard ArrangeDialog",
     "howto/first-steps": "StartPage",
     "howto/teach-gestures": "TrainerPanel",

@@ -562,8 +562,9 @@ class HelpPanel(InLines):
 
 def ask_to_print(browser: HelpBrowser, parent: QWidget) -> None:
     """Let the person choose a printer, then print."""
-    dialog = QPrintDialog(QPrinter(), parent)
-    dialog.accepted.connect(lambda: print_page(browser, dialog.printer()))
+    printer = QPrinter()  # Qt's dialog only points at it: what is connected keeps it
+    dialog = QPrintDialog(printer, parent)
+    dialog.accepted.connect(lambda: print_page(browser, printer))
     dialog.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
     QDialog.open(dialog)
 

@@ -75,25 +75,10 @@ class ShowMode(QObject):
 
 
 def make(host: Host) -> Parts:
-    """The actions of the View menu; ``nep-studio show`` begins a show at once."""
+    """The action of the View menu; ``nep-studio show`` begins a show at once."""
     mode = ShowMode(host)
-    actions = [
-        NewAction("show_mode", "Show mode", mode.begin, "monitor", "F11", menu="view"),
-        NewAction(
-            "show_at_start",
-            "Start with the computer…",
-            lambda: _open_startup(host),
-            "power",
-            menu="view",
-        ),
-    ]
-    return Parts(actions=actions, commands={"show.begin": mode.begin})
-
-
-def _open_startup(host: Host) -> None:
-    from .window import StartupDialog
-
-    StartupDialog(host).open()
+    action = NewAction("show_mode", "Show mode", mode.begin, "monitor", "F11", menu="view")
+    return Parts(actions=[action], commands={"show.begin": mode.begin})
 
 
 plugin = Plugin("show", make, order=100, needs_project=True)

@@ -1,4 +1,4 @@
-"""How show mode is left: by holding Esc, or the title, and with the PIN if there is one."""
+"""How show mode is left: by holding Esc, or the corner, and with the PIN if there is one."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QEvent, QObject, Qt, QTimer, Signal
-from PySide6.QtGui import QKeyEvent, QMouseEvent
+from PySide6.QtGui import QKeyEvent, QMouseEvent, QTouchEvent, QWindow
 from PySide6.QtWidgets import (
     QFrame,
     QGridLayout,
@@ -36,6 +36,12 @@ log = logging.getLogger(__name__)
 
 HOLD_MS = 2000
 STEP_MS = 50
+GAP_MS = 100
+"""Remote desktops send a held key as presses and releases in turn, at most so long apart."""
+TOLD_MS = 5000
+"""How long a show says at its beginning how it is left."""
+RESTS_MS = 4000
+"""After so long without the pointer what belongs to it goes."""
 PIN_STAYS_MS = 30_000
 """After so long without a key the question for the PIN goes: a visitor may have found it."""
 
@@ -52,62 +58,134 @@ class Holding(QObject):
         self._elapsed_ms = 0
         self._timer = QTimer(self, interval=STEP_MS)
         self._timer.timeout.connect(self._on_step)
+        self._letting_go = QTimer(self, singleShot=True, interval=GAP_MS)
+        self._letting_go.timeout.connect(self._end)
         keys_of.installEventFilter(self)
         handle.installEventFilter(self)
+
+    @property
+    def is_held(self) -> bool:
+        """Whether somebody holds it now."""
+        return self._timer.isActive()
 
     def eventFilter(self, watched: QObject, event: QEvent) -> bool:
         """Begin when it is pressed, end when it is let go."""
         kind = event.type()
         if isinstance(event, QKeyEvent) and event.key() == Qt.Key.Key_Escape:
-            if not event.isAutoRepeat():
-                self._hold(kind == QEvent.Type.KeyPress)
+            if kind == QEvent.Type.KeyPress:
+                self._begin()
+            elif kind == QEvent.Type.KeyRelease and self.is_held and not event.isAutoRepeat():
+                self._letting_go.start()  # perhaps it is the next pair of a key that is held
             return True
         if watched is self._handle and isinstance(event, QMouseEvent):
-            if kind in (QEvent.Type.MouseButtonPress, QEvent.Type.MouseButtonRelease):
-                self._hold(kind == QEvent.Type.MouseButtonPress)
-                return True
+            if kind in (QEvent.Type.MouseButtonPress, QEvent.Type.MouseButtonDblClick):
+                self._begin()
+            elif kind == QEvent.Type.MouseButtonRelease:
+                self._end()
         elif kind in (QEvent.Type.WindowDeactivate, QEvent.Type.FocusOut):
-            self._hold(False)
+            self._end()
         return False
 
-    def _hold(self, is_down: bool) -> None:
-        self._elapsed_ms = 0
-        if is_down:
+    def _begin(self) -> None:
+        self._letting_go.stop()
+        if not self.is_held:
+            self._elapsed_ms = 0
             self._timer.start()
-        else:
-            self._timer.stop()
+
+    def _end(self) -> None:
+        self._letting_go.stop()
+        self._timer.stop()
         self.progress.emit(0.0)
 
     def _on_step(self) -> None:
         self._elapsed_ms += STEP_MS
         self.progress.emit(min(1.0, self._elapsed_ms / HOLD_MS))
         if self._elapsed_ms >= HOLD_MS:
-            self._timer.stop()
-            self.progress.emit(0.0)
+            self._end()
             self.held.emit()
 
 
 class HoldBar(QFrame):
-    """Says while somebody holds Esc what that will do."""
+    """Says how the show is left: at its beginning, after a click, and while somebody holds."""
 
     def __init__(self, parent: QWidget) -> None:
         super().__init__(parent)
         self._over = parent
         self.bar = QProgressBar(textVisible=False)
-        words = QLabel(tr("Keep holding to leave the show"))
-        in_row(words, (self.bar, 1), of=styled(self, kind="card"))
+        self.words = QLabel(wordWrap=True, alignment=Qt.AlignmentFlag.AlignCenter)
+        in_column(self.words, self.bar, of=styled(self, kind="card"))
+        self._going = QTimer(self, singleShot=True)
+        self._going.timeout.connect(self.hide)
         self.hide()
+
+    def say_how(self) -> None:
+        """Say for a while what is to be done to leave."""
+        self.bar.hide()
+        words = tr("To leave the show, hold Esc or the cross in the corner for two seconds.")
+        self._show(words)
+        self._going.start(TOLD_MS)
+        announce(self, words)
 
     def show_progress(self, progress: float) -> None:
         """Show how far it is; nothing for a short touch."""
         self.bar.setValue(round(100 * progress))
-        self.setVisible(progress > 0.1)
-        if self.isVisible():
-            parent = self._over
-            self.setFixedWidth(min(parent.width(), self.fontMetrics().height() * 30))
-            self.adjustSize()
-            self.move((parent.width() - self.width()) // 2, self.fontMetrics().height())
-            self.raise_()
+        if progress > 0.1:
+            self._going.stop()
+            self.bar.show()
+            self._show(tr("Keep holding to leave the show"))
+        elif not self._going.isActive():
+            self.hide()
+
+    def fit(self, pixels: int) -> None:
+        """Be as large as the screen is, with words of this height, below what is in its corners."""
+        self.words.setStyleSheet(f"font-size: {pixels}px;")
+        parent = self._over
+        self.setFixedWidth(min(parent.width(), pixels * 26))
+        self.adjustSize()
+        self.move((parent.width() - self.width()) // 2, round(parent.height() * 0.15))
+
+    def _show(self, words: str) -> None:
+        self.words.setText(words)
+        self.adjustSize()
+        self.show()
+        self.raise_()
+
+
+class Pointing(QObject):
+    """Tells when somebody moves the mouse or touches the screen, and when nobody did for a while.
+
+    The window of the system hears of it wherever in the window that is.
+    """
+
+    changed = Signal(bool)
+
+    def __init__(self, parent: QObject) -> None:
+        super().__init__(parent)
+        self._resting = QTimer(self, singleShot=True, interval=RESTS_MS)
+        self._resting.timeout.connect(lambda: self.changed.emit(False))
+
+    @property
+    def is_there(self) -> bool:
+        """Whether somebody did lately."""
+        return self._resting.isActive()
+
+    def follow(self, window: QWindow | None) -> None:
+        """Listen to the window."""
+        if window is not None:
+            window.installEventFilter(self)
+
+    def seen(self) -> None:
+        """Somebody is there."""
+        was_there = self.is_there
+        self._resting.start()
+        if not was_there:
+            self.changed.emit(True)
+
+    def eventFilter(self, watched: QObject, event: QEvent) -> bool:
+        """Hear of it, and take nothing."""
+        if isinstance(event, QMouseEvent | QTouchEvent):
+            self.seen()
+        return False
 
 
 class PinQuestion(QFrame):

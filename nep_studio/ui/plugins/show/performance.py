@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 import time
-from collections import deque
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING, Any, Literal
 
 import msgspec
 from PySide6.QtCore import QObject, QTimer, Signal
@@ -17,11 +16,12 @@ from nep_core.wire import messages as m
 from nep_studio.blocks.errors import BlocksError
 from nep_studio.blocks.generate.program import generate_program
 from nep_studio.problems import Problem, problem_of
+from nep_studio.project.triggers import Cue, cues_now
 from nep_studio.run.controller import Request, Subject
 from nep_studio.run.session import Ending
-from nep_studio.run.timeline import Line, Timeline
 from nep_studio.settings import ShowOptions
 from nep_studio.ui.messages import LoggedMessage
+from nep_studio.ui.running.stage import Marks
 from nep_studio.ui.words import tr
 
 if TYPE_CHECKING:
@@ -78,9 +78,60 @@ class Restarts:
         return PAUSE_S
 
 
+# What the robots say at this moment; no Qt in here.
+
+SPEECHES = ("say", "ask")
+LINGER_S = 3.0
+"""What was said stays for so long: who stands far away reads slowly."""
+MOST_SPEECHES = 50
+
+
+class Speeches:
+    """Hears what robots are asked and how it goes, in whichever order that comes."""
+
+    def __init__(self) -> None:
+        self._texts: dict[str, str] = {}
+        self._begun: dict[tuple[str, str], None] = {}
+        self._ended_s: dict[tuple[str, str], float] = {}
+
+    def hear(self, message: msgspec.Struct, now_s: float) -> bool:
+        """Take a message in; whether it may have changed what is said."""
+        if isinstance(message, m.ActionRequest) and message.action in SPEECHES:
+            self._texts[message.id] = str(message.args.get("text", ""))
+            _keep_the_last(self._texts)
+            return True
+        if not isinstance(message, m.ActionResult):
+            return False
+        speech = message.robot, message.id
+        if message.state == "started":
+            self._begun.setdefault(speech)
+            _keep_the_last(self._begun)
+        elif message.state in ("done", "failed", "cancelled"):
+            self._ended_s.setdefault(speech, now_s)
+            _keep_the_last(self._ended_s)
+        return True
+
+    def now(self, now_s: float) -> list[str]:
+        """What each robot says, or has just said; who says it where several do."""
+        said = {}
+        for robot, action in self._begun:
+            text, ended_s = self._texts.get(action), self._ended_s.get((robot, action), now_s)
+            if text and now_s - ended_s < LINGER_S:
+                said[robot] = text
+        if len(said) < 2:
+            return list(said.values())
+        return [f"{robot}: {text}" for robot, text in said.items()]
+
+
+def _keep_the_last(entries: dict[Any, Any]) -> None:
+    while len(entries) > MOST_SPEECHES:
+        del entries[next(iter(entries))]
+
+
 State = Literal["ready", "opening", "starting", "playing", "stopping", "waiting", "attention"]
-MOST_LINES = 4
 TICK_MS = 1000
+LOOK_MS = 250
+"""How often at most the public is told something else."""
 _STATES: dict[str, State] = {
     "starting": "starting",
     "running": "playing",
@@ -90,7 +141,8 @@ _STATES: dict[str, State] = {
 
 
 class Performance(QObject):
-    """The show of one window. ``changed`` tells of its state, ``told`` of a new line.
+    """The show of one window. ``changed`` tells of its state, ``told`` of what the public is told:
+    ``said`` by the robots, and ``invited``, what somebody can do now.
 
     A project that is named by ``path`` is opened when it is needed, and again when that failed:
     the disk that it is on may come later than the show.
@@ -112,10 +164,14 @@ class Performance(QObject):
         self.state: State = "ready"
         self.problem: Problem | None = None
         self.restarts = Restarts(options.restarts, options.again)
-        self.lines: deque[Line] = deque(maxlen=MOST_LINES)
+        self.said: list[str] = []
+        self.invited: list[Cue] = []
         self.seconds_left = 0
         self._was_stopped = False
-        self._timeline: Timeline | None = None
+        self._speeches = Speeches()
+        self._marks: Marks | None = None
+        self._look = QTimer(self, singleShot=True, interval=LOOK_MS)
+        self._look.timeout.connect(self._on_look)
         self._clock = QTimer(self, interval=TICK_MS)
         self._clock.timeout.connect(self._on_tick)
         self._runner.state_changed.connect(self._on_state_changed)
@@ -125,6 +181,7 @@ class Performance(QObject):
         host.services.messages.told.connect(self._on_told)
         if self._runner.state in _STATES:
             self.state = _STATES[self._runner.state]
+            self._look.start()
 
     @property
     def title(self) -> str:
@@ -157,6 +214,7 @@ class Performance(QObject):
     def retire(self) -> None:
         """Follow the window no more; what runs goes on."""
         self._clock.stop()
+        self._look.stop()
         self._runner.state_changed.disconnect(self._on_state_changed)
         self._runner.arrived.disconnect(self._on_arrived)
         self._runner.ended.disconnect(self._on_ended)
@@ -181,14 +239,14 @@ class Performance(QObject):
             self._fail(Problem(tr("There is no project to play"), "", steps))
 
     def _play(self, document: Document) -> None:
-        self.lines.clear()
-        self._timeline = Timeline(document.editor.language, tr)
+        self._speeches = Speeches()
         try:
             code = generate_program(document.project, document.editor.language)
             nodes = self._host.services.running.planned()
         except (BlocksError, NepError) as error:
             self._fail(problem_of(error))
             return
+        self._marks = Marks(code)
         subject = Subject(document.project, document.editor.language, document.folder)
         if not self._runner.begin(subject, Request(code, tuple(nodes), is_watched=False)):
             steps = (tr("Press Run, and look at what it brings."),)
@@ -210,6 +268,7 @@ class Performance(QObject):
     def _set_state(self, state: State) -> None:
         self.state = state
         self.changed.emit()
+        self._look_soon()
 
     def _on_tick(self) -> None:
         self.seconds_left -= 1
@@ -243,17 +302,31 @@ class Performance(QObject):
             self._wait(self.restarts.ended(), "ready")
 
     def _on_arrived(self, batch: list[tuple[str, msgspec.Struct]]) -> None:
-        if self._timeline is None:
-            document = self._host.services.document
-            if document is None:
-                return
-            self._timeline = Timeline(document.editor.language, tr)
-        new = [
-            line
-            for _, message in batch
-            if not isinstance(message, m.NodeState)  # the public came for the robots
-            for line in self._timeline.lines(message)
-        ]
-        if new:
-            self.lines.extend(new)
+        for _, message in batch:
+            if isinstance(message, m.ProgramState):
+                if self._marks is not None:
+                    self._marks.take(message)
+                self._look_soon()
+            elif self._speeches.hear(message, self._now()):
+                self._look_soon()
+
+    def _look_soon(self) -> None:
+        if not self._look.isActive():
+            self._look.start()
+
+    def _on_look(self) -> None:
+        """See what is said and waited for now; what was said goes after a while."""
+        said, invited = self._speeches.now(self._now()), self._waited_for()
+        if (said, invited) != (self.said, self.invited):
+            self.said, self.invited = said, invited
             self.told.emit()
+        if said:
+            self._look.start()
+
+    def _waited_for(self) -> list[Cue]:
+        document = self._host.services.document
+        if document is None or self.state != "playing":
+            return []
+        marks = self._marks or Marks()
+        running = marks.glowing | marks.around
+        return cues_now(document.project, document.editor.language, running)

@@ -1,12 +1,10 @@
-"""The full screen of a show: what is played, what happens now, Run and Stop, and nothing else."""
+"""The full screen of a show: what is said, what somebody can do now, Run or Stop, nothing else."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from pathlib import Path
 from typing import TYPE_CHECKING
 
-from PySide6.QtCore import QRect, QSize, Qt, QTimer, Signal
+from PySide6.QtCore import QRect, QRectF, QSize, Qt, QTimer, Signal
 from PySide6.QtGui import (
     QCloseEvent,
     QFont,
@@ -16,34 +14,33 @@ from PySide6.QtGui import (
     QPainter,
     QPaintEvent,
     QPalette,
+    QPen,
     QResizeEvent,
     QScreen,
 )
 from PySide6.QtWidgets import (
-    QCheckBox,
-    QDialog,
     QLabel,
-    QPlainTextEdit,
     QPushButton,
     QScrollArea,
     QSizePolicy,
     QStackedWidget,
+    QToolButton,
     QWidget,
 )
 
-from nep_core.processes.process import program_command
 from nep_studio.problems import Problem
+from nep_studio.project.triggers import Cue
 from nep_studio.settings import ShowOptions
-from nep_studio.support import startup
-from nep_studio.support.startup import Place, StartupFile, startup_files
+from nep_studio.ui.cue_style import ICONS, invitation
+from nep_studio.ui.labels import explained
 from nep_studio.ui.messages import announce
-from nep_studio.ui.theme.icons import icon
-from nep_studio.ui.theme.look import code_font
-from nep_studio.ui.widgets.forms import ElidedLabel, plain_label, screen_around, styled
+from nep_studio.ui.theme.icons import icon, paint_icon
+from nep_studio.ui.theme.look import Look
+from nep_studio.ui.widgets.forms import ElidedLabel, screen_around, styled
 from nep_studio.ui.widgets.layouts import InLines, in_column, in_row
 from nep_studio.ui.words import count_words, tr
 
-from .leaving import HoldBar, Holding, PinQuestion, StayingAwake
+from .leaving import HoldBar, Holding, PinQuestion, Pointing, StayingAwake
 from .performance import Performance
 
 if TYPE_CHECKING:
@@ -52,13 +49,14 @@ if TYPE_CHECKING:
 
 # Words that are as large as the room allows, for people who stand far away.
 
+MOST_INVITATIONS = 6
 _FLAGS = Qt.TextFlag.TextWordWrap.value | Qt.AlignmentFlag.AlignCenter.value
 
 
 class StageWords(InLines):
-    """A text that fills its room, with the lines before it, smaller, above."""
+    """Lines that fill their room together, as large as they can be."""
 
-    usual_lines = (20, 8)
+    usual_lines = (20, 6)
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
@@ -66,48 +64,104 @@ class StageWords(InLines):
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Expanding)
 
     def show_lines(self, lines: list[str]) -> None:
-        """Show these, the last one large."""
+        """Show these."""
         self.lines = lines
-        self.setAccessibleName(lines[-1] if lines else "")
+        self.setAccessibleName(" ".join(lines))
         self.update()
 
     def paintEvent(self, event: QPaintEvent) -> None:
         """Paint the lines."""
         if not self.lines:
             return
-        *before, now = self.lines
+        text = "\n".join(self.lines)
         with QPainter(self) as painter:
-            room = self.rect()
-            small = self._font(room.height() / 14)
-            height = QFontMetrics(small).lineSpacing()
-            painter.setFont(small)
-            painter.setPen(self.palette().color(QPalette.ColorRole.PlaceholderText))
-            metrics = QFontMetrics(small)
-            for number, line in enumerate(before):
-                row = QRect(room.left(), room.top() + number * height, room.width(), height)
-                shown = metrics.elidedText(line, Qt.TextElideMode.ElideRight, row.width())
-                painter.drawText(row, Qt.AlignmentFlag.AlignCenter, shown)
-            large = room.adjusted(0, len(before) * height, 0, 0)
-            painter.setFont(self._fitting(now, large))
+            painter.setFont(self._fitting(text, self.rect()))
             painter.setPen(self.palette().color(QPalette.ColorRole.WindowText))
-            painter.drawText(large, _FLAGS, now)
+            painter.drawText(self.rect(), _FLAGS, text)
 
     def _fitting(self, text: str, room: QRect) -> QFont:
         """The largest font in which the text fits."""
         least, most = 8, max(9, room.height() // 3)
         while least < most:
             middle = (least + most + 1) // 2
-            metrics = QFontMetrics(self._font(middle))
+            metrics = QFontMetrics(_large_font(self, middle))
             needed = metrics.boundingRect(room, _FLAGS, text)
             fits = needed.height() <= room.height() and needed.width() <= room.width()
             least, most = (middle, most) if fits else (least, middle - 1)
-        return self._font(least)
+        return _large_font(self, least)
 
-    def _font(self, pixels: float) -> QFont:
-        font = QFont(self.font())
-        font.setPixelSize(max(8, round(pixels)))
-        font.setWeight(QFont.Weight.DemiBold)
-        return font
+
+class Invitations(InLines):
+    """What somebody who stands before the robot can do now: a sign and words for each."""
+
+    usual_lines = (20, 4)
+
+    def __init__(self, look: Look, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self._look = look
+        self.cues: list[Cue] = []
+        self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Expanding)
+
+    @property
+    def lines(self) -> list[str]:
+        """The words of all that is shown."""
+        return [invitation(cue) for cue in self.cues[:MOST_INVITATIONS]]
+
+    def show_cues(self, cues: list[Cue]) -> None:
+        """Show these, the first ones where there are too many to be read."""
+        self.cues = cues
+        self.setAccessibleName(", ".join(self.lines))
+        self.update()
+
+    def paintEvent(self, event: QPaintEvent) -> None:
+        """Paint a card for each, beside each other while there is room."""
+        cues, lines = self.cues[:MOST_INVITATIONS], self.lines
+        if not cues:
+            return
+        columns = min(len(cues), 3 if self.width() > self.height() else 1)
+        rows = -(-len(cues) // columns)
+        gap = max(4, self.height() // 30)
+        wide, high = self.width() / columns, self.height() / rows
+        theme = self._look.theme
+        with QPainter(self) as painter:
+            painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+            for number, (cue, words) in enumerate(zip(cues, lines, strict=True)):
+                row, column = divmod(number, columns)
+                there = min(columns, len(cues) - row * columns)
+                left = (self.width() - there * wide) / 2 + column * wide
+                if self.isRightToLeft():
+                    left = self.width() - left - wide
+                card = QRectF(left, row * high, wide, high).adjusted(gap, gap, -gap, -gap)
+                painter.setPen(QPen(theme.colour("field_line"), max(1, gap // 4)))
+                painter.setBrush(theme.colour("panel"))
+                painter.drawRoundedRect(card, 2 * gap, 2 * gap)
+                self._paint_words(painter, card.adjusted(3 * gap, gap, -2 * gap, -gap), cue, words)
+
+    def _paint_words(self, painter: QPainter, room: QRectF, cue: Cue, words: str) -> None:
+        side = min(room.height() * 0.5, room.width() * 0.2)
+        is_mirrored = self.isRightToLeft()
+        start = room.right() - side if is_mirrored else room.left()
+        sign = QRectF(start, room.center().y() - side / 2, side, side)
+        paint_icon(painter, sign, ICONS[cue.kind], self._look.theme.colour("accent"))
+        beside = side * 1.3
+        text = room.adjusted(0 if is_mirrored else beside, 0, -beside if is_mirrored else 0, 0)
+        size, flags = room.height() * 0.34, _FLAGS
+        while size > 9:
+            metrics = QFontMetrics(_large_font(self, size))
+            needed = metrics.boundingRect(text.toRect(), flags, words)
+            if needed.height() <= text.height() and needed.width() <= text.width():
+                break
+            size *= 0.9
+        painter.setFont(_large_font(self, size))
+        painter.setPen(self.palette().color(QPalette.ColorRole.WindowText))
+        painter.drawText(text, flags, words)
+
+
+def _large_font(widget: QWidget, pixels: float) -> QFont:
+    font = QFont(widget.font())
+    font.setPixelSize(max(8, round(pixels)))
+    font.setWeight(QFont.Weight.DemiBold)
+    return font
 
 
 # The calm page of a show that somebody must look after: what happened, and what to try.
@@ -180,22 +234,37 @@ class ShowWindow(QWidget):
         self.title.setAlignment(Qt.AlignmentFlag.AlignCenter)
         self.title.setTextFormat(Qt.TextFormat.PlainText)
         self.state_sign, self.state_words = QLabel(), QLabel(textFormat=Qt.TextFormat.PlainText)
+        self.corner = explained(_corner_button(), "Leave: hold it for two seconds")
+        self.cues_button = explained(_corner_button(), "Cues")
+        self.cues_button.setCheckable(True)
+        self.cues_button.setChecked(options.has_cues)
         self.words = StageWords()
+        self.invitations = Invitations(host.services.look)
         self.attention = AttentionPage(self)
         self.middle = QStackedWidget()
-        self.middle.addWidget(self.words)
+        stage = QWidget()
+        in_column((self.words, 3), (self.invitations, 2), of=stage, margins=0)
+        self.middle.addWidget(stage)
         self.middle.addWidget(self.attention)
         self.run_button = _large_button(tr("Run"), "run")
         self.stop_button = _large_button(tr("Stop"), "stop")
-        self.cues = host.ask("cues.make_large", self) if options.has_cues else None
+        self.cues = host.ask("cues.make_large", self)
+        self.cues.setVisible(options.has_cues)
         self.awake = StayingAwake()
-        self.holding = Holding(self, self.title)
+        self.holding = Holding(self, self.corner)
+        self.pointing = Pointing(self)
         self.hold_bar = HoldBar(self)
         self.pin = PinQuestion(host.services.settings.is_pin, self)
-        head = in_row(1, self.state_sign, self.state_words, 1)
+        self.head = QWidget()
+        state = in_row(1, self.state_sign, self.state_words, 1)
+        in_column(self.title, state, of=self.head, margins=0)
+        for part in (self.head, self.corner, self.cues_button):
+            policy = part.sizePolicy()
+            policy.setRetainSizeWhenHidden(True)  # what is read stays where it is
+            part.setSizePolicy(policy)
+        top = in_row(self.cues_button, (self.head, 1), self.corner)
         buttons = in_row(1, (self.run_button, 2), (self.stop_button, 2), 1)
-        cues = [(self.cues, 5)] if self.cues is not None else []
-        self._box = in_column(self.title, head, (self.middle, 3), *cues, buttons, of=self)
+        self._box = in_column(top, (self.middle, 4), (self.cues, 5), buttons, of=self)
         self._connect()
         self._dress()
         self.refresh()
@@ -206,6 +275,9 @@ class ShowWindow(QWidget):
         self.showFullScreen()
         self.activateWindow()
         self.run_button.setFocus()
+        self.pointing.follow(self.windowHandle())
+        self.pointing.seen()
+        self.hold_bar.say_how()
         self.awake.begin()
 
     def leave(self) -> None:
@@ -221,7 +293,7 @@ class ShowWindow(QWidget):
         self.title.set_words(show.title)
         self.setWindowTitle(show.title or tr("Show"))
         needs_somebody = show.state == "attention"
-        self.middle.setCurrentWidget(self.attention if needs_somebody else self.words)
+        self.middle.setCurrentIndex(1 if needs_somebody else 0)
         self.attention.show_problem(show.problem if needs_somebody else None, show.restarts.total)
         self.run_button.setVisible(not show.is_running)
         self.run_button.setEnabled(show.state in ("ready", "attention"))
@@ -232,6 +304,7 @@ class ShowWindow(QWidget):
             announce(self, words)
         self._show_sign()
         self._show_lines()
+        self._show_what_the_pointer_needs()
 
     def closeEvent(self, event: QCloseEvent) -> None:
         """Keys that close windows do not close a show; the end of the session does."""
@@ -242,7 +315,7 @@ class ShowWindow(QWidget):
 
     def keyPressEvent(self, event: QKeyEvent) -> None:
         """The keys of the cues work everywhere."""
-        if self.cues is None or not self.cues.board.press(event.text()):
+        if event.isAutoRepeat() or not self.cues.press(event.text()):
             super().keyPressEvent(event)
 
     def resizeEvent(self, event: QResizeEvent) -> None:
@@ -257,6 +330,9 @@ class ShowWindow(QWidget):
         self.stop_button.clicked.connect(self.performance.stop)
         self.holding.progress.connect(self.hold_bar.show_progress)
         self.holding.held.connect(self._on_held)
+        self.corner.clicked.connect(self._on_corner_clicked)
+        self.cues_button.toggled.connect(self.cues.setVisible)
+        self.pointing.changed.connect(self._show_what_the_pointer_needs)
         self.pin.right.connect(self.leave)
         self._host.services.look.theme_changed.connect(self._dress)
         application = _application()
@@ -285,10 +361,23 @@ class ShowWindow(QWidget):
 
     def _show_lines(self) -> None:
         show = self.performance
-        lines = [f"{who} {what}" for who, what in show.lines]
+        lines = show.said
         if not lines and show.state == "ready":
             lines = [tr("Press Run to begin.")]
         self.words.show_lines(lines)
+        self.invitations.show_cues(show.invited)
+
+    def _show_what_the_pointer_needs(self) -> None:
+        """A public sees only the play; who moves the mouse, or touches, how to lead it too."""
+        is_there = self.pointing.is_there or self.holding.is_held
+        self.head.setVisible(is_there or self.performance.state != "playing")
+        self.corner.setVisible(is_there)
+        self.cues_button.setVisible(is_there)
+
+    def _on_corner_clicked(self) -> None:
+        """Somebody did not know that it is to be held."""
+        if not self.pin.isVisible():
+            self.hold_bar.say_how()
 
     def _on_held(self) -> None:
         if self._host.services.settings.has_pin:
@@ -315,6 +404,11 @@ class ShowWindow(QWidget):
         self.setPalette(palette)
         _size(self.title, height * TITLE_PART)
         _size(self.state_words, height * STATE_PART)
+        self.hold_bar.fit(max(11, round(height * STATE_PART)))
+        side = round(height * TITLE_PART * 1.2)
+        for corner, name in ((self.corner, "x"), (self.cues_button, "flag")):
+            corner.setIcon(icon(name, theme))
+            corner.setIconSize(QSize(side, side))
         gap = round(height * 0.02)
         self._box.setContentsMargins(2 * gap, gap, 2 * gap, 2 * gap)
         self._box.setSpacing(gap)
@@ -343,86 +437,12 @@ def _large_button(words: str, kind: str) -> QPushButton:
     return button
 
 
+def _corner_button() -> QToolButton:
+    button = QToolButton(autoRaise=True)
+    button.setFocusPolicy(Qt.FocusPolicy.NoFocus)
+    return button
+
+
 def _size(widget: QWidget, pixels: float) -> None:
     """Give a widget words of this height; a style sheet of the window sets the font otherwise."""
     widget.setStyleSheet(f"font-size: {max(9, round(pixels))}px; font-weight: 600;")
-
-
-# The dialog that lets a show start with the computer; it shows what is written, and where.
-
-
-class StartupDialog(QDialog):
-    """Writes nothing until its button is pressed, and takes away what it wrote."""
-
-    def __init__(self, host: Host, place: Place | None = None) -> None:
-        super().__init__(host.widget)
-        self.setWindowTitle(tr("Start with the computer"))
-        self.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
-        self._host, self._place = host, place or Place.here()
-        document = host.services.document
-        self.project: Path | None = document.path if document is not None else None
-        self.runs_at_once = QCheckBox(tr("Run at once, without anybody pressing Run"))
-        self.runs_at_once.setChecked(True)
-        self.has_cues = QCheckBox(tr("With the cue buttons, for an operator"))
-        self.state = plain_label()
-        self.text = QPlainTextEdit(readOnly=True, lineWrapMode=QPlainTextEdit.LineWrapMode.NoWrap)
-        self.text.setAccessibleName(tr("What is written, and where"))
-        self.text.setFont(code_font(self.font().pointSizeF()))
-        self.text.setLayoutDirection(Qt.LayoutDirection.LeftToRight)
-        self.write_button = QPushButton(tr("Write these files"))
-        self.remove_button = QPushButton(tr("Remove these files"))
-        self.close_button = QPushButton(tr("Close"))
-        self._lay_out()
-        self.runs_at_once.toggled.connect(self.refresh)
-        self.has_cues.toggled.connect(self.refresh)
-        self.write_button.clicked.connect(lambda: self._attempt(startup.write))
-        self.remove_button.clicked.connect(lambda: self._attempt(startup.remove))
-        self.close_button.clicked.connect(self.accept)
-        self.refresh()
-
-    @property
-    def files(self) -> list[StartupFile]:
-        """What would be written now."""
-        words = ["show", str(self.project or "PROJECT.nep")]
-        words += ["--run"] if self.runs_at_once.isChecked() else []
-        words += ["--cues"] if self.has_cues.isChecked() else []
-        return startup_files(self._place, program_command(*words))
-
-    def refresh(self) -> None:
-        """Show what would be written, and what is there."""
-        files = self.files
-        self.text.setPlainText("\n\n".join(f"{file.path}\n\n{file.text}" for file in files))
-        is_there = any(file.is_there for file in files)
-        is_same = all(file.is_as_written for file in files)
-        self.write_button.setEnabled(self.project is not None and not is_same)
-        self.remove_button.setEnabled(is_there)
-        if self.project is None:
-            words = tr("Save the project first: the computer has to find it.")
-        elif is_same:
-            words = tr("The show starts with the computer, as it is written here.")
-        elif is_there:
-            words = tr("Another show starts with the computer now. These files would replace it.")
-        else:
-            words = tr("Nothing starts with the computer yet. These files would be written:")
-        self.state.setText(words)
-
-    def _lay_out(self) -> None:
-        line = self.fontMetrics().height()
-        about = tr(
-            "The show starts when somebody logs in to this computer, and starts again if it "
-            "ends by accident. To end it, leave the show and quit NEP Studio."
-        )
-        chosen = (QLabel(about, wordWrap=True), self.runs_at_once, self.has_cues, self.state)
-        buttons = in_row(self.remove_button, 1, self.close_button, self.write_button)
-        in_column(*chosen, (self.text, 1), buttons, of=self, margins=line)
-        self.resize(line * 42, line * 34)
-
-    def _attempt(self, do: Callable[[list[StartupFile]], None]) -> None:
-        try:
-            do(self.files)
-        except OSError as error:
-            self.refresh()
-            reason = tr((error.strerror or str(error)).lower())
-            self.state.setText(tr("That did not work. The computer says: {reason}.", reason=reason))
-            return
-        self.refresh()
