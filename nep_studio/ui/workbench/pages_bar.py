@@ -129,7 +129,7 @@ class PagesBar(QWidget):
             tabs.show_tab(index, page_title(project, page), sign)
             tabs.setTabData(index, page)
             tabs.setTabVisible(index, self._has_tab(page))
-            close = partial(self.close_page, page) if page in PAGES[1:] else None
+            close = partial(self.close_page, page) if page in self._wanted else None
             tabs.let_close(index, close, theme)
         for index, room in enumerate(rooms, len(pages)):
             sign = self._rooms.signs.get(room, QIcon())

@@ -107,7 +107,7 @@ def test_the_canvas_is_the_widest_part_of_the_window(karate: MainWindow, size) -
     karate.workbench.panels.restore(karate.fontMetrics().height())
 
     workbench = karate.workbench
-    others = (workbench.helpers.palette.width(), workbench.code.width())
+    others = (workbench.helpers.palette.width(), workbench.panels.areas["stage"].width())
     assert workbench.canvas.width() > max(others)
 
 

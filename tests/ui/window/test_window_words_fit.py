@@ -121,6 +121,7 @@ def open_karate_with_problems(window: MainWindow, qtbot: QtBot) -> None:
     workbench.panels.restore(window.fontMetrics().height())
     window.show_problems()
     qtbot.waitUntil(workbench.problems.isVisible)
+    qtbot.wait(50)  # until what was shown has found its place
 
 
 def test_the_canvas_has_the_most_room_of_all(karate) -> None:

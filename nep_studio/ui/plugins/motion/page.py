@@ -221,7 +221,7 @@ class MotionPage(QWidget):
         self._lay_out()
         self._connect()
         self.controller.open(new_motion())
-        follow_words(self, self._on_changed)
+        follow_words(self, self._say)
 
     def _connect(self) -> None:
         self.faults.found.connect(self.timeline.show_faults)
@@ -276,6 +276,12 @@ class MotionPage(QWidget):
             mode = QToolButton.ToolButtonPopupMode.InstantPopup
             _button_of(bar, actions[name]).setPopupMode(mode)
         return bar
+
+    def _say(self) -> None:
+        """Call a motion that nobody has begun yet by the name that it has in this language."""
+        if not self.controller.motion.joints and not self.controller.is_modified:
+            self.controller.open(new_motion())
+        self._on_changed()
 
     def _on_changed(self) -> None:
         self.commands.update()

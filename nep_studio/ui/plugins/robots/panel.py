@@ -157,6 +157,7 @@ class RobotsPanel(InLines):
         self.elsewhere.hide()
         inner = QWidget()
         self._cards_box = in_column(self.hint, 1, of=inner, margins=0)
+        inner.installEventFilter(self)
         self.area = scrolled(inner)
         self.area.setMinimumHeight(self.fontMetrics().height() * 2)  # Qt's leaves the robot less
         self.split = QSplitter(Qt.Orientation.Vertical, childrenCollapsible=False)
@@ -296,8 +297,11 @@ class RobotsPanel(InLines):
     # Listening
 
     def eventFilter(self, watched: QObject, event: QEvent) -> bool:
-        """Follow whether the large window is seen."""
-        if event.type() in (QEvent.Type.Show, QEvent.Type.Hide):
+        """Follow whether the large window is seen, and how much room the cards need."""
+        if watched is not self.large:
+            if event.type() == QEvent.Type.LayoutRequest:
+                self._give_room()
+        elif event.type() in (QEvent.Type.Show, QEvent.Type.Hide):
             self._listen()
         return super().eventFilter(watched, event)
 

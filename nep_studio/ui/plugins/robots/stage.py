@@ -171,7 +171,7 @@ class RobotStage(InLines):
         self._shown: dict[str, tuple[RobotState | None, Base]] = {}
         self.tools = StageTools(look)
         self.thing_bar = ThingBar(look)
-        self.invitation = labelled(QPushButton(), text="Place a person before the robots")
+        self.invitation = labelled(QPushButton(), text="Place a person here")
         line = self.fontMetrics().height()
         self.invitation.setProperty("kind", "quiet")
         self.invitation.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Fixed)
