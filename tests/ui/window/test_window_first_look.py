@@ -145,7 +145,7 @@ def test_larger_text_makes_the_blocks_of_the_palette_larger(karate: MainWindow) 
 def test_every_category_of_the_page_has_a_sign_of_its_own(karate: MainWindow) -> None:
     categories = [c for c in karate.studio.language.categories if c.page == "behaviour"]
 
-    signs = [category_icon_name(category.colour, category.id) for category in categories]
+    signs = [category_icon_name(category.colour) for category in categories]
 
     assert len(set(signs)) == len(signs)
 
