@@ -226,6 +226,14 @@ class Panels(QObject):
             height = self.row.window().height()
             self.column.setSizes([height - line * 9, line * 9])
 
+    def widen(self, area: AreaName, width: int) -> None:
+        """Make an area at the side so wide, or so narrow; the middle takes or gives the room."""
+        place, sizes = self.row.indexOf(self.areas[area]), self.row.sizes()
+        middle = self.row.indexOf(self.column)
+        sizes[middle] += sizes[place] - width
+        sizes[place] = width
+        self.row.setSizes(sizes)
+
     def remember(self) -> None:
         """Note the sizes in the settings."""
         self._settings.set_state("row", self.row.saveState())

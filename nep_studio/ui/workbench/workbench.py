@@ -130,6 +130,7 @@ class Workbench(QWidget):
         self._studio.look.theme_changed.connect(self._on_theme_changed)
         self._studio.words_changed.connect(self._on_words_changed)
         self.helpers.palette.narrowed.connect(self._on_palette_narrowed)
+        self.helpers.palette.room_asked.connect(self._give_palette_room)
 
     def add_side_panel(
         self,
@@ -165,10 +166,11 @@ class Workbench(QWidget):
         palette, is_small = self.helpers.palette, self.window().width() < LEAST_LINES * line
         with QSignalBlocker(palette):  # this is not the person's choice
             palette.set_narrow(self._studio.settings.is_shown(NARROW_PALETTE, default=is_small))
-        self._give_palette_room(palette.is_narrow)
         if is_small:
             self.panels.hide_at_first("right")
         self.panels.restore(line)
+        if palette.is_narrow:
+            self._give_palette_room()
 
     def reset(self, line: int) -> None:
         """Lay the panels out as at the first start, when the settings have forgotten them."""
@@ -259,12 +261,13 @@ class Workbench(QWidget):
         self.checks.begin_again()
 
     def _on_palette_narrowed(self, is_narrow: bool) -> None:
-        self._give_palette_room(is_narrow)
         self._studio.settings.set_shown(NARROW_PALETTE, is_narrow)
 
-    def _give_palette_room(self, is_narrow: bool) -> None:
-        width = self.helpers.palette.maximumWidth() if is_narrow else WIDEST
-        self.panels.areas["left"].setMaximumWidth(width)
+    def _give_palette_room(self) -> None:
+        """Let the palette be as wide as it wants; the canvas has the rest."""
+        palette, area = self.helpers.palette, self.panels.areas["left"]
+        area.setMaximumWidth(palette.maximumWidth() if palette.is_narrow else WIDEST)
+        self.panels.widen("left", palette.sizeHint().width())
 
 
 def block_font(studio: Studio) -> QFont:
