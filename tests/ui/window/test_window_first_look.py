@@ -122,6 +122,9 @@ def test_the_trash_is_where_lines_end_and_the_minimap_above_it(karate: MainWindo
 
 def test_a_narrow_palette_shows_the_signs_of_its_categories_alone(karate: MainWindow, qtbot):
     palette = karate.workbench.helpers.palette
+    QTest.mouseClick(palette.levels.buttons["all"], Qt.MouseButton.LeftButton)
+    qtbot.waitUntil(lambda: palette.categories.isVisible())
+    karate.workbench.panels.row.setSizes([400, 600, 280])
     wide = palette.categories.width()
 
     karate.workbench.panels.row.setSizes([200, 800, 280])

@@ -381,8 +381,7 @@ class Palette(QWidget):
     @property
     def _has_categories(self) -> bool:
         """Whether the categories stand beside the list: the first blocks need no way to them."""
-        is_behaviour = self.canvas.editor.project.kind_of_page(self.canvas.page) == "behaviour"
-        return self.is_narrow or self.level != "first" or not is_behaviour
+        return self.is_narrow or self.level != "first"
 
     # What it does
 
@@ -475,12 +474,13 @@ class Palette(QWidget):
 
     def _is_at_hand(self) -> bool:
         """Whether a hand is at the palette: then nothing in it may move."""
-        is_dragged = QApplication.mouseButtons() != Qt.MouseButton.NoButton
-        return self.underMouse() or self.shelf.hasFocus() or is_dragged
+        return self.underMouse() or self.shelf.hasFocus() or _is_pressed()
 
     def leaveEvent(self, event: QEvent) -> None:
         """List what was used last, now that the pointer is elsewhere."""
         super().leaveEvent(event)
+        if not _is_pressed():
+            self._recent = None
         self._later.start()
 
     def _on_page_changed(self, page: str) -> None:
@@ -513,3 +513,8 @@ class Palette(QWidget):
         else:
             return super().eventFilter(watched, event)
         return True
+
+
+def _is_pressed() -> bool:
+    """Whether something is being dragged."""
+    return QApplication.mouseButtons() != Qt.MouseButton.NoButton
