@@ -63,7 +63,9 @@ def run() -> list[Row]:
 
 
 def _settings() -> Settings:
-    return Settings(Path(tempfile.mkdtemp(prefix="nep-bench-")))
+    settings = Settings(Path(tempfile.mkdtemp(prefix="nep-bench-")))
+    settings.palette_level = "all"
+    return settings
 
 
 def _fill(palette: Palette) -> None:

@@ -174,6 +174,8 @@ class Settings(SettingsFile):
     """The name of a theme, or "system"."""
     language = Kept("look/language", SYSTEM)
     """The code of a language, or "system"."""
+    palette_level = Kept("palette/level", "first")
+    """How many blocks the palette shows: "first", "more" or "all"."""
     recent_blocks = Kept[list[str]]("palette/recent", [])
     """The types of blocks that were used last, the newest first."""
     recent_commands = Kept[list[str]]("commands/recent", [])

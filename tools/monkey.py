@@ -53,7 +53,6 @@ from PySide6.QtWidgets import (
     QAbstractSpinBox,
     QApplication,
     QComboBox,
-    QDialog,
     QFileDialog,
     QLineEdit,
     QMenu,
@@ -345,7 +344,7 @@ class Monkey(QObject):
     def _drop(self, top: QWidget) -> None:
         """Drop a project onto whatever is there."""
         place = self._place(top, top)
-        target = top.childAt(place) or top
+        target: QWidget | None = top.childAt(place) or top
         self._note(f"drop a project on {type(target).__name__}")
         mime = QMimeData()
         mime.setUrls([QUrl.fromLocalFile(str(self.random.choice(self._examples())))])
@@ -514,7 +513,7 @@ def play(seed: int, steps: int, folder: Path, *, is_told: bool) -> int:
     app = make_application()
     nowhere = Nowhere()
     for scheme in schemes():
-        QDesktopServices.setUrlHandler(scheme, nowhere, "open")
+        QDesktopServices.setUrlHandler(scheme, nowhere, b"open")
     began = time.monotonic()
     monkey = Monkey(seed, steps, folder, is_told=is_told)
     watch(monkey)

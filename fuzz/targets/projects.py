@@ -36,6 +36,7 @@ def _looked_at(project: Project, language: Language, folder: Path) -> None:
     own_recordings(project)
     recogniser_file(project)
     take_files(project)
+    assert all(isinstance(block_type, str) for block_type in project.first_blocks)
     saved = to_bytes(project)
     again = from_bytes(saved, "again.nep", language)
     assert to_bytes(again) == saved, "saved and opened again, it is another project"

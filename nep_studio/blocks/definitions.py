@@ -75,6 +75,25 @@ class Group:
     parts: tuple[str | Slot, ...]
     maximum: int
 
+    @property
+    def unfolds(self) -> bool:
+        """Whether it is words and fields that a block has once or not at all."""
+        typed = (isinstance(part, str) or part.kind.typed for part in self.parts)
+        return self.maximum == 1 and all(typed)
+
+    @property
+    def in_words(self) -> str:
+        """What it says, with … for each slot but those of blocks below; empty for slots alone."""
+        said = [part for part in self.parts if isinstance(part, str) and part.strip(" ,、")]
+        if not said:
+            return ""
+        shown = [
+            part if isinstance(part, str) else "…"
+            for part in self.parts
+            if isinstance(part, str) or part.kind.name != "body"
+        ]
+        return " ".join(word for word in shown if word).strip(" ,、")
+
 
 Part = str | Slot | Group
 
@@ -352,8 +371,9 @@ class Definition:
 
     @property
     def in_words(self) -> str:
-        """The block in words, for messages: its sentence with … for each slot."""
-        words = [part if isinstance(part, str) else "…" for part in self.parts]
+        """The block in words, for messages: its sentence with … for each slot that it has new."""
+        shown = [p for p in self.parts if not (isinstance(p, Group) and p.unfolds)]
+        words = [part if isinstance(part, str) else "…" for part in shown]
         return " ".join(word for word in words if word).replace(" ,", ",")
 
     def slot(self, key: str, groups: Mapping[str, int]) -> Slot | None:

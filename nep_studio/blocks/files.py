@@ -15,6 +15,7 @@ from faults import Text, reason_of
 from faults.files import whole_file
 
 from .code_text import trim_python
+from .definitions import Definition
 from .edit_rules import (
     MOST_NOTES,
     MOST_PAGES,
@@ -275,11 +276,27 @@ def _read_block(project: Project, entry: dict[str, Any], language: Language) -> 
             raise Flaw("groups are nested too deep in it.", block_id)
     if block.bodies:
         block.bodies = {slot: chain for slot, chain in block.bodies.items() if chain}
-    if definition is not None and definition.minimum:
+    if definition is not None and definition.groups:
+        unfold_values(block, definition)
         block.groups = {**definition.minimum, **block.groups}
     if definition is not None and definition.holds_python:
         trim_python(block, definition)
     project.blocks[block_id] = block
+
+
+def unfold_values(block: Block, definition: Definition) -> None:
+    """Put values where they are now that a part of the sentence unfolds.
+
+    In older files they stand beside the part; one that says nothing new leaves it folded.
+    """
+    for key in list(block.fields):
+        slot = definition.slots.get(key)
+        if slot is None or not slot.group or definition.groups[slot.group].maximum > 1:
+            continue
+        value = block.fields.pop(key)
+        if value != definition.defaults.get(key):
+            block.groups.setdefault(slot.group, 1)
+            block.fields.setdefault(f"{key}.1", value)
 
 
 def _new_id(project: Project, some_id: str, taken: Container[str]) -> None:

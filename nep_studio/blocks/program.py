@@ -32,6 +32,10 @@ ALL_ROBOTS = "*"
 ON_ERROR = "on_error"
 """Under which key of the file a project keeps that an error of one rule shall "end" them all."""
 
+FIRST_BLOCKS = "first_blocks"
+"""Under which key of the file a project keeps the types of its first blocks: a list of texts."""
+MOST_FIRST = 60
+
 
 class Block(msgspec.Struct, omit_defaults=True):
     """One block.
@@ -188,6 +192,16 @@ class Project:
         """The code of the language in which the program tells values; English when not known."""
         code = self.extra.get(LANGUAGE)
         return code if isinstance(code, str) and code in LANGUAGES else LANGUAGES[0]
+
+    @property
+    def first_blocks(self) -> tuple[str, ...]:
+        """The types of blocks that the project wants to be offered first; empty: the usual ones.
+
+        They may be of blocks that there are not, as a stranger may have written them.
+        """
+        kept = self.extra.get(FIRST_BLOCKS)
+        types = kept[:MOST_FIRST] if isinstance(kept, list) else []
+        return tuple(dict.fromkeys(one for one in types if isinstance(one, str)))
 
     def new_id(self, prefix: str) -> str:
         """An id that nothing in this project has had: prefix and number."""

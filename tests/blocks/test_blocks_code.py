@@ -115,7 +115,11 @@ def test_control_flow_reads_like_python(language):
     heard = B("sensing.human_state_is", {"state": "heard_hello"})
     lights = B("robot.leds", {"robot": "*", "colour": "#ff0000"})
     stack = [
-        B("event.human_state", {"state": "touched head", "again": "restart"}),
+        B(
+            "event.human_state",
+            {"state": "touched head", "again.1": "restart"},
+            groups={"repeated": 1},
+        ),
         B(
             "control.repeat",
             inputs={"times": B("math.random_integer")},

@@ -33,6 +33,26 @@ def test_a_project_is_loaded_as_it_was_saved(language, tmp_path):
     assert os.listdir(tmp_path) == ["karate.nep"]
 
 
+@pytest.mark.parametrize(
+    ("again", "groups", "fields"),
+    [
+        ("ignore", {"repeated": 0}, {"gesture": "karate"}),
+        ("queue", {"repeated": 1}, {"gesture": "karate", "again.1": "queue"}),
+    ],
+)
+def test_a_value_from_before_its_part_could_be_folded_unfolds_it_unless_it_is_usual(
+    language, again, groups, fields
+):
+    hat = build(language, [B("event.gesture")]).project
+    old = to_bytes(hat).replace(b'{"gesture":', b'{"again":"%s","gesture":' % again.encode())
+
+    project = from_bytes(old, "old.nep", language)
+
+    [block] = project.blocks.values()
+    assert block.groups == groups and block.fields == fields
+    assert from_bytes(to_bytes(project), "new.nep", language).blocks == project.blocks
+
+
 def test_a_small_change_changes_one_line(language):
     editor = karate(language)
     before = to_bytes(editor.project).splitlines()

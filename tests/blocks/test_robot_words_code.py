@@ -73,7 +73,7 @@ def test_a_question_has_branches_for_its_answers(language: Language) -> None:
          ['@behavior.when("touched_head", source="NAO")', "def when_touched_head():"]),
         (B("robot_events.heard", {"word": "Good morning!"}),
          ['@behavior.when_heard("Good morning!")', "def when_heard_Good_morning():"]),
-        (B("robot_events.sees_face_of", {"again": "restart"}),
+        (B("robot_events.sees_face_of", {"again.1": "restart"}, groups={"repeated": 1}),
          ['@behavior.when_noticed("face", "Anna", again="restart", source="NAO")',
           "def when_face_Anna():"]),
         (B("robot_events.sensor"),

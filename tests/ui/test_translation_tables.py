@@ -49,6 +49,7 @@ NAMED = {
     "blocks/operations/wrapping.py": "LABELS",
     "run/timeline.py": "EVENT_WORDS",
     "ui/workbench/problems.py": "SEVERITIES",
+    "ui/workbench/palette/levels.py": "LEVELS",
     "ui/shell/commands.py": "NOT_NOW",
     "ui/shell/gallery.py": "NEEDS DIFFICULTIES TAGS",
     "ui/running/actions.py": "PACES RUN_WORDS STATE_WORDS",

@@ -17,7 +17,9 @@ from nep_studio.blocks.code_text import CodeTextRefused, read_outside
 from nep_studio.blocks.deployment import OUTSIDE_BLOCK, chains, names_used, robot_entries
 from nep_studio.blocks.editor import Editor
 from nep_studio.blocks.edits.content import (
+    AddGroup,
     ChangeProcedure,
+    RemoveGroup,
     RemoveProcedure,
     SetComment,
     SetField,
@@ -132,6 +134,11 @@ class ChainUpdater:
         """Give a block other fields, plugged blocks, comment, and what is in its bodies."""
         editor = self._editor
         definition = editor.language.definitions[block.type]
+        for name, group in definition.groups.items():
+            is_there, slots = bool(block.groups.get(name)), definition.group_slots(name)
+            if group.unfolds and is_there != bool(made.groups.get(name)):
+                remove = RemoveGroup(block.id, name, 1, slots)
+                editor.apply(remove if is_there else AddGroup(block.id, name, 1, slots, {}))
         if block.comment != made.comment and not definition.is_value:  # a value's is in no Python
             editor.apply(SetComment(block.id, made.comment))
         for key, slot in list(definition.keys(block.groups)):
@@ -159,12 +166,22 @@ class ChainUpdater:
         self._change(plugged, made)
         return True
 
-    @staticmethod
-    def _is_such(block: Block, made: Made) -> bool:
-        """Whether a block is of the wanted type and has as many of all its parts."""
-        groups = {name: count for name, count in block.groups.items() if count}
-        wanted = {name: count for name, count in made.groups.items() if count}
-        return block.type == made.type and groups == wanted
+    def _is_such(self, block: Block, made: Made) -> bool:
+        """Whether a block is of the wanted type and has as many of all its parts.
+
+        Parts that unfold count only where blocks are plugged in.
+        """
+        if block.type != made.type:
+            return False
+        definition = self._editor.language.definitions[block.type]
+        return all(
+            block.groups.get(name, 0) == made.groups.get(name, 0)
+            or (
+                group.unfolds
+                and not any(f"{slot}.1" in block.inputs for slot in definition.group_slots(name))
+            )
+            for name, group in definition.groups.items()
+        )
 
     def _create(self, chain: Sequence[Made], place: Place) -> None:
         roots, blocks = blocks_of(self._editor.project, self._editor.language, chain)

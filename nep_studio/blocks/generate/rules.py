@@ -79,8 +79,10 @@ def _hat(name: str, method: str, *arguments: ast.expr, **options: ast.expr) -> H
 
 
 def _again(code: Expressions, block: Block) -> dict[str, ast.expr]:
-    again = code.choice(block, "again")
-    return {} if again == "ignore" else {"again": ast.Constant(again)}
+    """What to do when it comes again: said where the hat says it, also when that is the usual."""
+    if not block.groups.get("repeated"):
+        return {}
+    return {"again": ast.Constant(code.choice(block, "again.1"))}
 
 
 def _with_source(code: Expressions, block: Block) -> dict[str, ast.expr]:

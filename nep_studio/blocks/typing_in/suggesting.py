@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 
-from nep_studio.blocks.definitions import Definition, Slot
+from nep_studio.blocks.definitions import Definition, Group, Slot
 from nep_studio.blocks.editor import Editor
 from nep_studio.blocks.edits.placing import CreateBlocks
 from nep_studio.blocks.edits.project import AddVariable
@@ -83,6 +83,8 @@ BEHIND, RIGHT_BEHIND = 0.5, 1.5
 """A place behind the word before it: likelier than one in front, the very next one more."""
 UNTYPED_WORD = 0.5
 """Taken off for each word of a sentence that nobody typed: the shorter sentence was meant."""
+UNFOLDING = 4.0
+"""Taken off for a value of a part that a new block does not have, when no word of it was typed."""
 SLOT = 0.1
 """Taken off for each slot: of sentences that fit alike the simpler block comes first."""
 LITERAL, EXPRESSION = 9.0, 14.0
@@ -147,6 +149,8 @@ class _Try:
     used: set[int] = field(default_factory=set)
     matched: list[str] = field(default_factory=list)
     fillings: dict[str, Filling] = field(default_factory=dict)
+    unfolded: set[str] = field(default_factory=set)
+    """The groups of the sentence that were meant."""
 
 
 def _sentences(
@@ -211,7 +215,10 @@ def _attempt(
     for after, run in runs:
         if not _place_run(attempt, run, after, filler):
             return None
-    attempt.score -= UNTYPED_WORD * (len(entry.words) - len(attempt.used))
+    unfolded = {entry.words[index][1] for index in attempt.used} & entry.folded.keys()
+    attempt.unfolded |= {entry.folded[place] for place in unfolded}
+    there = sum(1 for _, place in entry.words if place not in entry.folded or place in unfolded)
+    attempt.score -= UNTYPED_WORD * (there - len(attempt.used))
     attempt.score -= SLOT * len(entry.definition.slots)
     return attempt
 
@@ -240,30 +247,47 @@ def _place_run(attempt: _Try, run: list[str], after: int, filler: Filler) -> boo
 
 def _fill(attempt: _Try, text: str, after: int, filler: Filler) -> bool:
     best: tuple[float, Slot, Filling] | None = None
-    for place, part in enumerate(attempt.entry.definition.parts):
-        if not isinstance(part, Slot) or part.name in attempt.fillings:
-            continue
-        filling = filler.fill(attempt.entry, part, text)
+    for place, slot in _open_slots(attempt):
+        filling = filler.fill(attempt.entry, slot, text)
         if filling is None:
             continue
-        near = RIGHT_BEHIND if place == after + 1 else BEHIND if place > after else 0.0
-        quality = filling.quality + near
+        is_right_behind = place == after + 1 or (bool(slot.group) and place == after)
+        near = RIGHT_BEHIND if is_right_behind else BEHIND if place > after else 0.0
+        is_said = any(attempt.entry.words[index][1] == place for index in attempt.used)
+        is_away = place in attempt.entry.folded and not is_said
+        quality = filling.quality + near - (UNFOLDING if is_away else 0.0)
         if best is None or quality > best[0]:
-            best = (quality, part, filling)
+            best = (quality, slot, filling)
     if best is None:
         return False
     attempt.fillings[best[1].name] = best[2]
+    if best[1].group:
+        attempt.unfolded.add(best[1].group)
     attempt.score += best[0]
     if not isinstance(best[2].value, Made):
         attempt.matched.append(text.strip("\"'“”"))
     return True
 
 
+def _open_slots(attempt: _Try) -> Iterator[tuple[int, Slot]]:
+    """The slots that nothing was typed for yet, with their places; those that unfold are last."""
+    entry = attempt.entry
+    for place, part in enumerate(entry.definition.parts):
+        if isinstance(part, Slot) and part.name not in attempt.fillings:
+            yield place, part
+    for place in entry.folded:
+        group = entry.definition.parts[place]
+        for part in group.parts if isinstance(group, Group) else ():
+            if isinstance(part, Slot) and part.name not in attempt.fillings:
+                yield place, part
+
+
 def _suggestion(attempt: _Try, filler: Filler, recents: Sequence[str]) -> Suggestion:
     definition = attempt.entry.definition
-    made = Made(definition.id)
+    made = Made(definition.id, groups=dict.fromkeys(attempt.unfolded, 1))
     new_variables = {}
-    for slot, filling in attempt.fillings.items():
+    for name, filling in attempt.fillings.items():
+        slot = f"{name}.1" if definition.slots[name].group else name
         if filling.new_variable:
             made.fields[slot] = f"new_{slot}"
             new_variables[f"new_{slot}"] = filling.new_variable

@@ -111,8 +111,11 @@ class Entry:
 
     definition: Definition
     words: tuple[tuple[str, int], ...]
+    """Also those of parts that unfold."""
     choices: Mapping[str, tuple[tuple[str, str], ...]]
     """By slot, the values that can be chosen: the label without case and accents, and the value."""
+    folded: Mapping[int, str]
+    """The groups that are not there in a new block, by their places in the sentence."""
 
 
 @dataclass(slots=True)
@@ -169,12 +172,18 @@ def is_near(typed: str, word: str) -> bool:
 def _made(language: Language) -> Vocabulary:
     found = Vocabulary()
     for number, definition in enumerate(language.definitions.values()):
-        # The words of a sentence that are there when the block is new, with the part of each
+        # The words of a sentence, with the part of each; of what is repeated only what a new
+        # block has
         words: list[tuple[str, int]] = []
         for place, part in enumerate(definition.parts):
             for text in _texts(part, definition):
                 words += [(word, place) for word in split_words(text)]
-        entry = Entry(definition, tuple(words), _choices(definition, language))
+        away = {
+            place: part.name
+            for place, part in enumerate(definition.parts)
+            if isinstance(part, Group) and part.unfolds
+        }
+        entry = Entry(definition, tuple(words), _choices(definition, language), away)
         found.entries.append(entry)
         for word, _ in entry.words:
             found.by_word[word].add(number)
@@ -197,15 +206,17 @@ def split_words(text: str) -> list[str]:
 def _texts(part: Part, definition: Definition) -> list[str]:
     if isinstance(part, str):
         return [part]
-    if isinstance(part, Group) and definition.minimum.get(part.name, 0):
+    if isinstance(part, Group) and (definition.minimum.get(part.name, 0) or part.unfolds):
         return [inner for inner in part.parts if isinstance(inner, str)]
     return []
 
 
 def _choices(definition: Definition, language: Language) -> dict[str, tuple[tuple[str, str], ...]]:
     tables = {}
+    repeated = {group.name for group in definition.groups.values() if not group.unfolds}
     for slot in definition.slots.values():
-        if (slot.kind.table or slot.kind.name == "choice") and not slot.group and not slot.master:
+        has_table = slot.kind.table or slot.kind.name == "choice"
+        if has_table and slot.group not in repeated and not slot.master:
             offered = language.choices_of(slot).items()
             labels = ((f"{label} {value}".replace("_", " "), value) for value, label in offered)
             tables[slot.name] = tuple((folded(label), value) for label, value in labels)

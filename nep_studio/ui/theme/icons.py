@@ -30,19 +30,14 @@ CATEGORY_ICONS = {
     "goals": "target",
     "nodes": "network",
     "robots": "plug",
+    "robot_events": "hand",
+    "speech": "message-square-text",
+    "moves": "footprints",
+    "lights": "lightbulb",
+    "senses": "ear",
+    "camera": "camera",
 }
 """A category's icon, by the category's ``colour``: so that colour never speaks alone."""
-
-DRAWER_ICONS = {
-    "robot_events": "hand",
-    "robot_speech": "message-square-text",
-    "robot_moves": "footprints",
-    "robot_lights": "lightbulb",
-    "robot_senses": "ear",
-    "robot_camera": "camera",
-    "robots": "plug",
-}
-"""The icon of a category that shares its colour with others, by the category's id."""
 
 APPLICATION_ICON = "nep-studio"
 
@@ -59,9 +54,9 @@ def icon_path(name: str) -> Path:
     return path
 
 
-def category_icon_name(category_colour: str, category_id: str = "") -> str:
+def category_icon_name(category_colour: str) -> str:
     """Return the icon of a category, or of blocks in general for one that has none."""
-    return DRAWER_ICONS.get(category_id) or CATEGORY_ICONS.get(category_colour, "blocks")
+    return CATEGORY_ICONS.get(category_colour, "blocks")
 
 
 def icon(name: str, colour: Theme | QColor, of_theme: str = "text") -> QIcon:

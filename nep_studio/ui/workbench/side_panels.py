@@ -247,8 +247,6 @@ class Panels(QObject):
         self.row = QSplitter(Qt.Orientation.Horizontal)
         self._is_arranged = False
         """Whether somebody has moved a border of the row: then it is left as it is."""
-        self._unfolded = 0
-        """How wide the area at the left was before it was folded."""
         # the outer ones first: a widget is dressed anew in each parent
         in_column(self.row, of=parent, margins=0)
         for beside in (self.areas["left"], self.column, self.areas["right"], self.stage):
@@ -332,20 +330,15 @@ class Panels(QObject):
         self._settings.set_state("column", self.column.saveState())
         self._settings.set_state("stage", self.stage.saveState())
 
-    def fold_left(self, width: int | None) -> None:
-        """Let the area at the left be no wider than this, or as wide as it was (None).
+    def give_left(self, width: int, *, is_fixed: bool) -> None:
+        """Let the area at the left be so wide, and no wider if it ``is_fixed``.
 
         What it does not need goes to the canvas, and comes from there.
         """
         area, sizes = self.areas["left"], self.row.sizes()
-        if width is not None and area.maximumWidth() > width:
-            self._unfolded = sizes[0]
-        area.setMaximumWidth(WIDEST if width is None else width)
+        area.setMaximumWidth(width if is_fixed else WIDEST)
         if self._is_arranged and sizes[0]:
-            wanted = self._unfolded or area.sizeHint().width() if width is None else width
-            sizes[1] -= wanted - sizes[0]
-            sizes[0] = wanted
-            self.row.setSizes(sizes)
+            self.row.setSizes([width, sizes[1] + sizes[0] - width, *sizes[2:]])
         else:
             self._share_width()
 

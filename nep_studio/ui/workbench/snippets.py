@@ -38,6 +38,11 @@ class Snippets:
     def __init__(self, folder: Path | None = None) -> None:
         self.folder = folder or user_folder() / "snippets"
 
+    @property
+    def are_any(self) -> bool:
+        """Whether there is a file of one."""
+        return any(self.folder.glob(f"*{ENDING}"))
+
     def all(self, language: Language) -> list[Snippet]:
         """Every snippet that can be read, by name; what cannot be read is left alone."""
         found = []

@@ -130,6 +130,7 @@ class Workbench(QWidget):
         self._studio.look.theme_changed.connect(self._on_theme_changed)
         self._studio.words_changed.connect(self._on_words_changed)
         self.helpers.palette.narrowed.connect(self._on_palette_narrowed)
+        self.helpers.palette.room_asked.connect(self._give_palette_room)
 
     def add_side_panel(
         self,
@@ -167,7 +168,8 @@ class Workbench(QWidget):
         with QSignalBlocker(palette):  # this is not the person's choice
             palette.set_narrow(self._studio.settings.is_shown(NARROW_PALETTE, default=is_small))
         self.panels.restore(line)
-        self._give_palette_room(palette.is_narrow)
+        if palette.is_narrow:
+            self._give_palette_room()
 
     def reset(self, line: int) -> None:
         """Lay the panels out as at the first start, when the settings have forgotten them."""
@@ -258,11 +260,14 @@ class Workbench(QWidget):
         self.checks.begin_again()
 
     def _on_palette_narrowed(self, is_narrow: bool) -> None:
-        self._give_palette_room(is_narrow)
         self._studio.settings.set_shown(NARROW_PALETTE, is_narrow)
 
-    def _give_palette_room(self, is_narrow: bool) -> None:
-        self.panels.fold_left(self.helpers.palette.maximumWidth() if is_narrow else None)
+    def _give_palette_room(self) -> None:
+        """Let the palette be as wide as it wants; the canvas has the rest."""
+        palette = self.helpers.palette
+        is_fixed = palette.is_narrow
+        width = palette.maximumWidth() if is_fixed else palette.sizeHint().width()
+        self.panels.give_left(width, is_fixed=is_fixed)
 
 
 def block_font(studio: Studio) -> QFont:

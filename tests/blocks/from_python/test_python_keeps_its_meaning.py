@@ -84,7 +84,11 @@ def test_what_is_taken_out_of_the_text_is_as_in_a_new_block(language):
     editor = build(
         language,
         [
-            B("event.human_state", {"state": "touched_head", "again": "queue"}),
+            B(
+                "event.human_state",
+                {"state": "touched_head", "again.1": "queue"},
+                groups={"repeated": 1},
+            ),
             B("robot.say", {"text": "hi", "gesture": "explain"}),
         ],
     )
@@ -97,7 +101,8 @@ def test_what_is_taken_out_of_the_text_is_as_in_a_new_block(language):
 
     assert editor.project.pages["behaviour"][0].body == [hat, say]
     assert editor.project.blocks[say].fields["gesture"] == "no_gesture"
-    assert editor.project.blocks[hat].fields["again"] == "ignore"
+    assert editor.project.blocks[hat].groups == {"repeated": 0}
+    assert "again.1" not in editor.project.blocks[hat].fields
 
 
 def test_rules_of_two_pages_stay_on_their_pages_in_whatever_order_they_are_written(language):

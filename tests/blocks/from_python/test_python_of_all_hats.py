@@ -27,18 +27,24 @@ def code_of(editor):
     return generate_program(editor.project, editor.language).text
 
 
-@pytest.mark.parametrize("again", ["ignore", "queue"])
+@pytest.mark.parametrize("again", ["", "ignore", "queue"])
 @pytest.mark.parametrize("robot", ["NAO", "Zora 2", ALL_ROBOTS])
 @pytest.mark.parametrize("hat", HATS)
 def test_a_rule_about_any_robot_is_read_back(language, hat, robot, again):
-    fields = {"again": again}
+    fields = {"again.1": again} if again else {}
+    groups = {"repeated": 1} if again else {}
     if "robot" in language.definitions[hat].slots:
         fields["robot"] = robot
-    editor = build(language, [B(hat, fields), B("control.wait")])
+    editor = build(language, [B(hat, fields, groups=groups), B("control.wait")])
     text = code_of(editor)
 
     read = read_program(text, language)
 
+    assert (f'again="{again}"' in text) is bool(again)
+    hats = [
+        block for block in read.blocks.values() if language.definitions[block.type].shape == "hat"
+    ]
+    assert [one.groups for one in hats] == [{"repeated": bool(again)}]
     assert generate_program(read, language).text == text
 
 

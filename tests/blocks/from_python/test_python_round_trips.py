@@ -153,7 +153,7 @@ def branches(condition: B, do: list, also: list, otherwise: list) -> B:
 HATS = st.sampled_from(
     [
         B("event.started"),
-        B("event.gesture", {"gesture": "karate", "again": "queue"}),
+        B("event.gesture", {"gesture": "karate", "again.1": "queue"}, groups={"repeated": 1}),
         B("event.human_state", {"state": "touched_head"}),
     ]
 )

@@ -62,6 +62,30 @@ def test_a_typed_sentence_suggests_its_block_with_its_values(editor, text, block
     assert dict(found.fields) == fields
 
 
+@pytest.mark.parametrize(
+    ("text", "fields"),
+    [
+        ("when the gesture karate is made if it comes again start again", {"again.1": "restart"}),
+        ("when karate if it comes again do it again after", {"again.1": "queue"}),
+        ("when the gesture karate is made if it comes again", {}),
+    ],
+)
+def test_what_unfolds_in_a_sentence_can_be_typed_with_it(editor, text, fields):
+    found = best(text, editor)
+
+    assert found.block_type == "event.gesture"
+    assert dict(found.fields) == {"gesture": "karate", **fields}
+    assert found.made.groups == {"repeated": 1}
+    assert "if it comes again" in found.label
+
+
+def test_what_is_not_typed_stays_folded(editor):
+    found = best("when the gesture karate is made", editor)
+
+    assert found.block_type == "event.gesture" and not found.made.groups
+    assert found.label == "when the gesture karate is made"
+
+
 def test_words_may_come_in_any_order_and_only_begin(editor):
     assert best("seconds wait 3", editor).fields == {"seconds": 3}
     assert best("rep 4", editor).block_type == "control.repeat"

@@ -19,7 +19,8 @@ __all__ = ["home", "studio"]
 
 @pytest.fixture
 def window(studio: Studio, qtbot: QtBot) -> MainWindow:
-    """The window as it is at the first start, large enough to work in."""
+    """The window as it is at the first start, large enough to work in, with all blocks."""
+    studio.settings.palette_level = "all"
     made = MainWindow(studio)
     qtbot.addWidget(made, before_close_func=put_away)
     made.resize(1700, 950)

@@ -194,6 +194,7 @@ def test_recently_used_blocks_come_first(person: Person) -> None:
     """Recently used / suggested blocks."""
     person.from_palette("control.wait", QPoint(200, 200))
     person.from_palette("robot.say", QPoint(200, 400))
+    QTest.mouseMove(person.canvas.viewport(), QPoint(300, 500))
 
     person.qtbot.waitUntil(lambda: listed(person)[:2] == ["robot.say", "control.wait"])
     assert person.palette.shelf.entries[0].text == "Recently used"

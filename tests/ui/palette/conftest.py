@@ -19,7 +19,10 @@ LANGUAGE = studio_language()
 
 @pytest.fixture
 def settings(tmp_path: Path) -> Settings:
-    return Settings(tmp_path)
+    """Those of a person who wants all blocks; test_palette_levels.py has a new person's."""
+    settings = Settings(tmp_path)
+    settings.palette_level = "all"
+    return settings
 
 
 @pytest.fixture

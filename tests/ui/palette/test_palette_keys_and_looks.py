@@ -3,26 +3,80 @@
 from __future__ import annotations
 
 import pytest
-from PySide6.QtCore import Qt
+from PySide6.QtCore import QPoint, Qt
 from PySide6.QtGui import QAccessible
+from PySide6.QtTest import QTest
 
 from nep_studio.ui.theme.colours import load_theme
 from nep_studio.ui.workbench.palette.entries import tip
+from nep_studio.ui.workbench.palette.palette import remember_types
 from tests.ui.palette.palette_use import (
     LEFT,
     click,
+    drop,
+    listed,
     number_of,
+    press_and_drag,
     type_of,
     types,
 )
 
 
+def leave(palette) -> None:
+    """Bring the pointer from the palette to the canvas."""
+    canvas = palette.canvas.viewport()
+    QTest.mouseMove(palette.shelf.viewport(), QPoint(30, 30))
+    QTest.mouseMove(canvas, canvas.rect().center())
+    palette.canvas.setFocus()
+
+
 def test_what_was_used_last_comes_first_and_is_remembered(palette, qtbot, settings):
     click(palette, "control.wait")
+    leave(palette)
 
     qtbot.waitUntil(lambda: palette.shelf.entries[0].drawer.id == "recent")
     assert type_of(palette, 1) == "control.wait"
     assert settings.recent_blocks[0] == "control.wait"
+
+
+def test_nothing_moves_under_the_pointer_when_blocks_are_used(palette, qtbot):
+    remember_types(palette.settings, ["logic.truth", "control.wait"])
+    palette.refresh()
+    before = listed(palette)
+    place = palette.shelf.rect_of(number_of(palette, "control.wait")).center()
+    viewport = palette.shelf.viewport()
+
+    for _ in range(2):
+        QTest.mouseMove(viewport, place)
+        QTest.mouseClick(viewport, LEFT, pos=place)
+        qtbot.wait(30)
+
+    assert palette.settings.recent_blocks[0] == "control.wait"
+    assert listed(palette) == before
+    assert types(palette).count("control.wait") == 2
+
+
+def test_a_dragged_block_changes_the_list_only_after_the_pointer_has_gone(palette, qtbot):
+    before = listed(palette)
+    press_and_drag(palette, "control.wait", QPoint(450, 60))
+    qtbot.wait(30)
+    while_dragged = listed(palette)
+    drop(palette, QPoint(450, 60))
+
+    leave(palette)
+
+    assert while_dragged == before
+    qtbot.waitUntil(lambda: palette.shelf.entries[0].drawer.id == "recent")
+
+
+def test_opening_the_drawer_shows_what_was_used_since(palette, qtbot):
+    remember_types(palette.settings, ["logic.truth"])
+    palette.refresh()
+    click(palette, "control.wait")
+
+    qtbot.mouseClick(palette.categories.buttons["recent"], LEFT)
+
+    assert [type_of(palette, 1), type_of(palette, 2)] == ["control.wait", "logic.truth"]
 
 
 def test_the_list_stays_where_it_is_when_something_is_used(palette, qtbot):
@@ -34,6 +88,7 @@ def test_the_list_stays_where_it_is_when_something_is_used(palette, qtbot):
 
     click(palette, "math.number")
     before = place()
+    leave(palette)
 
     qtbot.waitUntil(lambda: palette.shelf.entries[0].drawer.id == "recent")
 
@@ -49,6 +104,7 @@ def test_the_column_of_categories_is_as_wide_before_anything_was_used(
     before = palette.categories.width()
 
     click(palette, "math.number")
+    leave(palette)
     qtbot.waitUntil(lambda: palette.shelf.entries[0].drawer.id == "recent")
 
     assert palette.categories.width() == before

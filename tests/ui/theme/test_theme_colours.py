@@ -92,6 +92,15 @@ def test_every_category_of_the_shipped_blocks_has_colours_and_an_icon(theme: The
     assert used <= theme.blocks.keys() & CATEGORY_ICONS.keys()
 
 
+def test_no_two_categories_share_a_colour() -> None:
+    used = [
+        tomllib.loads(path.read_text(encoding="utf-8"))["category"]["colour"]
+        for path in (paths.resources() / "blocks").glob("*.toml")
+    ]
+
+    assert len(used) == len(set(used))
+
+
 def test_words_can_be_read_on_what_they_stand_on(theme: Theme) -> None:
     least = 7.0 if theme.name == HIGH_CONTRAST else 4.5
 

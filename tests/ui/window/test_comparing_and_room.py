@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
-from PySide6.QtCore import Qt
+from PySide6.QtCore import QPoint, Qt
 from pytestqt.qtbot import QtBot
 
 from nep_studio.blocks.edits.content import SetField
@@ -143,3 +143,51 @@ def test_what_a_person_chose_is_there_again_in_a_narrow_window(studio, chooser, 
     assert not second.workbench.helpers.palette.is_narrow
     assert second.workbench.code.isVisible()
     end(second)
+
+
+def right_of_palette(window: MainWindow) -> int:
+    """Where the page begins, from where the palette ends."""
+    canvas, palette = window.workbench.canvas, window.workbench.helpers.palette
+    end_of_palette = palette.mapTo(window, QPoint(palette.width(), 0)).x()
+    return canvas.mapTo(window, QPoint()).x() - end_of_palette
+
+
+def test_a_folded_palette_gives_its_room_to_the_page_also_after_a_restart(
+    studio, chooser, qtbot: QtBot
+):
+    first = started(studio, chooser, 1280, qtbot)
+    before = first.workbench.canvas.width()
+    palette = first.workbench.helpers.palette
+    freed = palette.width()
+    qtbot.mouseClick(palette.fold, LEFT)
+    qtbot.waitUntil(lambda: right_of_palette(first) < 10)
+    freed -= palette.width()
+    gained = first.workbench.canvas.width() - before
+    first.workbench.panels.remember()
+    end(first)
+
+    second = started(studio, chooser, 1280, qtbot)
+
+    assert abs(gained - freed) < 5 and freed > 150
+    assert second.workbench.helpers.palette.is_narrow
+    qtbot.waitUntil(lambda: right_of_palette(second) < 10)
+    qtbot.mouseClick(second.workbench.helpers.palette.fold, LEFT)
+    qtbot.waitUntil(lambda: second.workbench.helpers.palette.width() > 200)
+    assert right_of_palette(second) < 10
+    end(second)
+
+
+def test_the_first_blocks_leave_more_than_half_of_a_small_screen_to_the_page(
+    studio, chooser, qtbot: QtBot
+):
+    window = started(studio, chooser, 1280, qtbot)
+    palette = window.workbench.helpers.palette
+    few = palette.width()
+    qtbot.mouseClick(palette.levels.buttons["all"], LEFT)
+    many = palette.width()
+    qtbot.mouseClick(palette.levels.buttons["first"], LEFT)
+
+    assert few < 260 < many
+    assert abs(palette.width() - few) < 10
+    assert window.width() - few - 270 >= 0.55 * window.width()
+    end(window)

@@ -122,6 +122,9 @@ def test_the_trash_is_where_lines_end_and_the_minimap_above_it(karate: MainWindo
 
 def test_a_narrow_palette_shows_the_signs_of_its_categories_alone(karate: MainWindow, qtbot):
     palette = karate.workbench.helpers.palette
+    QTest.mouseClick(palette.levels.buttons["all"], Qt.MouseButton.LeftButton)
+    qtbot.waitUntil(lambda: palette.categories.isVisible())
+    karate.workbench.panels.row.setSizes([400, 600, 280])
     wide = palette.categories.width()
 
     karate.workbench.panels.row.setSizes([200, 800, 0, 280])
@@ -145,7 +148,7 @@ def test_larger_text_makes_the_blocks_of_the_palette_larger(karate: MainWindow) 
 def test_every_category_of_the_page_has_a_sign_of_its_own(karate: MainWindow) -> None:
     categories = [c for c in karate.studio.language.categories if c.page == "behaviour"]
 
-    signs = [category_icon_name(category.colour, category.id) for category in categories]
+    signs = [category_icon_name(category.colour) for category in categories]
 
     assert len(set(signs)) == len(signs)
 

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 from PySide6.QtCore import QPointF
 from PySide6.QtWidgets import QMenu
 
-from nep_studio.blocks.definitions import Slot
+from nep_studio.blocks.definitions import Definition, Slot
 from nep_studio.blocks.operations.copying import delete
 from nep_studio.blocks.operations.finding import definition_of, subjects_of
 from nep_studio.blocks.operations.moving import set_aside, why_not_enclose
@@ -90,6 +90,24 @@ def structure(canvas: CanvasHost, place: MenuPlace) -> list[MenuEntry]:
                 "unwrap", tr("Remove, keep what is inside"), lambda: _unwrap(canvas, block.id)
             )
         )
+    return [*entries, *(_unfolding(canvas, block, definition) if definition is not None else ())]
+
+
+def _unfolding(canvas: CanvasHost, block: Block, definition: Definition) -> list[MenuEntry]:
+    """What the plus and the minus inside the block do, also without a mouse."""
+    press, entries = canvas.fields.press_button, []
+    for group in definition.groups.values():
+        count, words = block.groups.get(group.name, 0), group.in_words
+        if block.collapsed or not words:
+            continue
+        if count < group.maximum:
+            add = partial(press, block.id, "add", group.name, count + 1)
+            label = tr("Add “{words}”", words=words)
+            entries.append(MenuEntry(f"add.{group.name}", label, add, "plus"))
+        elif group.maximum == 1:
+            leave = partial(press, block.id, "remove", group.name, 1)
+            label = tr("Leave out “{words}”", words=words)
+            entries.append(MenuEntry(f"remove.{group.name}", label, leave, "minus"))
     return entries
 
 

@@ -373,9 +373,11 @@ class FieldEditors(QObject):
             return False
         slot = definition.slot(hit.piece.key, block.groups)
         words = hint_of(slot) if slot is not None else _BUTTON_TIPS.get(hit.piece.kind, "")
-        QToolTip.showText(
-            event.globalPos(), tr(words) if words else "", self.canvas.area.viewport()
-        )
+        group = definition.groups.get(hit.piece.key) if hit.piece.kind == "add" else None
+        told = tr(words) if words else ""
+        if group is not None and group.in_words:
+            told = tr("Add “{words}”", words=group.in_words)
+        QToolTip.showText(event.globalPos(), told, self.canvas.area.viewport())
         return True
 
 

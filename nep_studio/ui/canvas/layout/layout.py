@@ -71,7 +71,9 @@ class SectionWriter:
             count = block.groups.get(group.name, 0)
             if count < group.maximum:
                 label = next((p for p in group.parts if isinstance(p, str) and p), "")
-                label = label.strip(" ,") if _has_body(group) or group.maximum == 1 else ""
+                has_room = definition.shape != "hat"  # what begins a rule stays short
+                is_said = has_room and (_has_body(group) or group.maximum == 1)
+                label = label.strip(" ,") if is_said else ""
                 sections[-1].items.append(self._button("add", group.name, count + 1, label))
         return sections
 

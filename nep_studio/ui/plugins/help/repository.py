@@ -457,7 +457,7 @@ class Book:
                 Content(BLOCK + definition.id, self.titles[BLOCK + definition.id], "")
                 for definition in self._blocks_of(category.id)
             )
-            icon = category_icon_name(category.colour, category.id)
+            icon = category_icon_name(category.colour)
             yield Content(CATEGORY + category.id, category.title, icon, inside)
 
     def _nodes(self) -> Iterator[Content]:

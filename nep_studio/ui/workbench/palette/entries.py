@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from html import escape
 from typing import Literal
 
-from nep_studio.blocks.definitions import Definition
+from nep_studio.blocks.definitions import Category, Definition
 from nep_studio.blocks.editor import Editor
 from nep_studio.blocks.edits.content import AddProcedure
 from nep_studio.blocks.edits.placing import CreateBlocks
@@ -24,6 +24,8 @@ from nep_studio.help.texts import BlockText, block_texts
 from nep_studio.ui.theme.icons import category_icon_name
 from nep_studio.ui.words import language_code, tr
 from nep_studio.ui.workbench.snippets import Snippet
+
+from .levels import LEVELS, Level, first_by_heading, is_within, level_of, offer
 
 # One sample of every block that the palette offers, in a small project of its own.
 
@@ -43,6 +45,7 @@ class Stock:
             AddVariable(variable.id, variable.name, number).apply(self.project)
         for number, procedure in enumerate(editor.project.procedures.values()):
             AddProcedure(procedure, number).apply(self.project)
+        self.project.extra = editor.project.extra
         self._ids: dict[tuple[object, ...], str] = {}
 
     def sample(self, block_type: str, **fields: FieldValue) -> str:
@@ -66,6 +69,17 @@ class Stock:
             is_here = definition.category.id == category and not is_own
             if is_here and definition.id != READ_VARIABLE:
                 yield self.sample(definition.id)
+
+    def shown(self, category: str, level: Level) -> Iterable[str]:
+        """The samples of a drawer at a level; at the first one it has blocks of several."""
+        if level == "first":
+            if category == "my":
+                return [self.sample(CALL + procedure) for procedure in self.project.procedures]
+            first = first_by_heading(self.project, self.language).get(category, [])
+            return [self.sample(block_type) for block_type in first]
+        samples = self.offered(category)
+        is_all = level == "all"
+        return [one for one in samples if is_all or not offer().is_rare(self.definition(one))]
 
     def clip(self, sample: str) -> Clip:
         """A sample as blocks to be put into a program."""
@@ -113,7 +127,7 @@ class Entry:
     """One thing in the list.
 
     ``text`` is its label, and what a screen reader says; ``sample`` the block of the stock;
-    ``action`` what a button does.
+    ``action`` what a button does, ``note`` what stands below a block.
     """
 
     kind: EntryKind
@@ -122,6 +136,7 @@ class Entry:
     sample: str = ""
     action: str = ""
     snippet: Snippet | None = None
+    note: str = ""
 
     @property
     def is_choosable(self) -> bool:
@@ -134,18 +149,37 @@ def recent_drawer() -> Drawer:
     return Drawer(RECENT, tr("Recently used"), "history")
 
 
-def drawers_of(editor: Editor, kind: str, *, has_recent: bool) -> list[Drawer]:
-    """The drawers for a kind of page: what was used last, the categories, the snippets."""
+def drawers_of(
+    editor: Editor, kind: str, level: Level, *, has_recent: bool, has_snippets: bool
+) -> list[Drawer]:
+    """The drawers for a kind of page: what was used last, the categories, the snippets.
+
+    First blocks are shown without what was used last: each block is there once.
+    """
+    known = {category.id: category for category in editor.language.categories}
+    snippets = Drawer(SNIPPETS, tr("My snippets"), "star")
+    if level == "first":
+        first = list(first_by_heading(editor.project, editor.language))
+        own = ["my"] if editor.project.procedures else []
+        drawers = [_drawer(known[one]) for one in dict.fromkeys([*first, *own])]
+        return [*drawers, snippets] if has_snippets else drawers
     drawers = [recent_drawer()] if has_recent else []
-    for category in editor.language.categories:
-        if category.page == kind:
-            icon = category_icon_name(category.colour, category.id)
-            drawers.append(Drawer(category.id, category.title, icon, category.colour))
-    return [*drawers, Drawer(SNIPPETS, tr("My snippets"), "star")]
+    rare = offer().rare_categories if level == "more" else ()
+    shown = (one for one in known.values() if one.page == kind and one.id not in rare)
+    return [*drawers, *map(_drawer, shown), snippets]
+
+
+def _drawer(category: Category) -> Drawer:
+    icon = category_icon_name(category.colour)
+    return Drawer(category.id, category.title, icon, category.colour)
 
 
 def entries_of(
-    stock: Stock, drawers: Iterable[Drawer], recent: Sequence[str], snippets: Sequence[Snippet]
+    stock: Stock,
+    drawers: Iterable[Drawer],
+    level: Level,
+    recent: Sequence[str],
+    snippets: Sequence[Snippet],
 ) -> list[Entry]:
     """The whole list: for each drawer its title and what is in it; empty categories are left out.
 
@@ -153,41 +187,56 @@ def entries_of(
     """
     entries: list[Entry] = []
     for drawer in drawers:
-        inside = list(_inside(stock, drawer, recent, snippets))
+        inside = list(_inside(stock, drawer, level, recent, snippets))
         if inside:
             entries += [Entry("heading", drawer, drawer.title), *inside]
     return entries
 
 
-def found_entries(stock: Stock, samples: Iterable[str], typed: str) -> list[Entry]:
-    """The list of a search: what was found, or that there is nothing."""
+def found_entries(stock: Stock, samples: Iterable[str], typed: str, level: Level) -> list[Entry]:
+    """The list of a search: what was found, or that there is nothing.
+
+    What is not shown at this level says where it is from.
+    """
     drawer = Drawer("found", tr("Found"), "search")
-    found = [_block(stock, drawer, sample) for sample in samples]
+    found = [replace(_block(stock, drawer, s), note=_from(stock, s, level)) for s in samples]
     if found:
         return found
     words = tr("No block says “{typed}”. Try another word.", typed=typed)
     return [Entry("words", drawer, words)]
 
 
+def _from(stock: Stock, sample: str, level: Level) -> str:
+    definition = stock.definition(sample)
+    at = level_of(stock.project, stock.language, definition.id)
+    if definition.page != "behaviour" or is_within(at, level):
+        return ""
+    return tr("In “{level}”: {title}", level=tr(LEVELS[at]), title=definition.category.title)
+
+
 def _inside(
-    stock: Stock, drawer: Drawer, recent: Sequence[str], snippets: Sequence[Snippet]
+    stock: Stock,
+    drawer: Drawer,
+    level: Level,
+    recent: Sequence[str],
+    snippets: Sequence[Snippet],
 ) -> Iterator[Entry]:
     if drawer.id == RECENT:
         for block_type in recent:
             yield _block(stock, drawer, stock.sample(block_type))
         return
     if drawer.id == SNIPPETS:
-        yield from _snippets(drawer, snippets)
+        yield from _snippets(drawer, level, snippets)
         return
-    if drawer.id == "my":
+    if drawer.id == "my" and level != "first":
         yield Entry("button", drawer, tr("Make a block…"), action=MAKE_BLOCK)
-    if drawer.id == "variable":
+    if drawer.id == "variable" and level != "first":
         yield Entry("button", drawer, tr("New variable…"), action=NEW_VARIABLE)
-    for sample in stock.offered(drawer.id):
+    for sample in stock.shown(drawer.id, level):
         yield _block(stock, drawer, sample)
 
 
-def _snippets(drawer: Drawer, snippets: Sequence[Snippet]) -> Iterator[Entry]:
+def _snippets(drawer: Drawer, level: Level, snippets: Sequence[Snippet]) -> Iterator[Entry]:
     if not snippets:
         words = tr(
             "Keep blocks here to use them in any project: select some, then press the button below."
@@ -195,6 +244,8 @@ def _snippets(drawer: Drawer, snippets: Sequence[Snippet]) -> Iterator[Entry]:
         yield Entry("words", drawer, words)
     for snippet in snippets:
         yield Entry("snippet", drawer, snippet.name, snippet=snippet)
+    if level == "first":
+        return
     yield Entry("button", drawer, tr("Keep the selection…"), action=KEEP_SNIPPET)
     yield Entry("button", drawer, tr("Import a snippet…"), action=IMPORT_SNIPPET)
 

@@ -1,4 +1,4 @@
-"""The palette: a search box, a column of categories, and the list of blocks beside it."""
+"""The palette: a search box, how many blocks are shown, their categories, and their list."""
 
 from __future__ import annotations
 
@@ -8,15 +8,16 @@ from pathlib import Path
 
 from PySide6.QtCore import QEvent, QObject, QPoint, QSize, Qt, QTimer, Signal
 from PySide6.QtGui import QAction, QKeyEvent, QResizeEvent
-from PySide6.QtWidgets import QFileDialog, QLineEdit, QMenu, QToolButton, QWidget
+from PySide6.QtWidgets import QApplication, QFileDialog, QLineEdit, QMenu, QToolButton, QWidget
 
 from nep_studio.blocks.editor import Editor, History
 from nep_studio.blocks.edits import Edit
+from nep_studio.blocks.edits.content import SetExtra
 from nep_studio.blocks.edits.placing import CreateBlocks
 from nep_studio.blocks.language import Language
 from nep_studio.blocks.operations.copying import copy
 from nep_studio.blocks.operations.finding import folded
-from nep_studio.blocks.program import Changes, Project
+from nep_studio.blocks.program import FIRST_BLOCKS, Changes, Project
 from nep_studio.blocks.typing_in.suggesting import suggestions
 from nep_studio.settings import Settings
 from nep_studio.ui.canvas.canvas import Canvas
@@ -33,6 +34,7 @@ from nep_studio.ui.workbench.snippets import ENDING, Snippet, Snippets, file_ste
 from . import entries
 from .categories import CategoryColumn, add_delete_area, is_taking
 from .entries import Drawer, Entry, Stock
+from .levels import Level, LevelBar, can_be_first, changed_first, chosen_level, first_types
 from .make_block import Making
 from .shelf import Shelf
 
@@ -91,11 +93,12 @@ def _said(stock: Stock, sample: str) -> str:
     return folded(f"{stock.words(sample)} {stock.definition(sample).category.title}")
 
 
-# What a person does with snippets in the palette: keep, rename, delete, export, import.
+# What a person does with what is in the palette: choose the first blocks; keep, rename, delete,
+# export and import snippets.
 
 
-class SnippetMenu(QObject):
-    """The menu of a snippet, and the questions that go with it."""
+class EntryMenu(QObject):
+    """The menu of a block or a snippet, and the questions that go with it."""
 
     def __init__(self, palette: Palette) -> None:
         super().__init__(palette)
@@ -105,9 +108,9 @@ class SnippetMenu(QObject):
         palette.canvas.menu_sections.append(self._section)
 
     def open(self, entry: Entry, place: QPoint) -> None:
-        """Open the menu of an entry, when it is a snippet."""
+        """Open the menu of an entry, when it is a block or a snippet."""
         snippet = entry.snippet
-        if snippet is None:
+        if snippet is None and not entry.sample:
             return
         palette, theme = self._palette, self._palette.canvas.look.theme
         if self.menu is not None:
@@ -115,11 +118,39 @@ class SnippetMenu(QObject):
         self.menu = QMenu(palette)
         add = self.menu.addAction
         add(icon("plus", theme), tr("Insert"), lambda: palette.use(entry))
+        if snippet is None:
+            self._add_of_first(self.menu, palette.shelf.type_of(entry))
+            self.menu.popup(place)
+            return
         add(icon("pencil", theme), tr("Rename…"), lambda: self.ask_to_rename(snippet))
         add(icon("upload", theme), tr("Export…"), lambda: self.ask_to_export(snippet))
         self.menu.addSeparator()
         add(icon("trash-2", theme), tr("Delete…"), lambda: self.ask_to_delete(snippet))
         self.menu.popup(place)
+
+    def _add_of_first(self, menu: QMenu, block_type: str) -> None:
+        """What makes the first blocks of this project others; it is kept with the project."""
+        canvas = self._palette.canvas
+        editor, theme = canvas.editor, canvas.look.theme
+        project, language = editor.project, editor.language
+        if not can_be_first(language, block_type):
+            return
+
+        def keep(edit: SetExtra) -> None:
+            canvas.attempt(lambda: editor.apply(edit, "choose the first blocks"))
+
+        change = changed_first(project, language, block_type)
+        is_first = block_type in first_types(project, language)
+        words = (
+            tr("Take away from the first blocks") if is_first else tr("Put among the first blocks")
+        )
+        sign = icon("minus" if is_first else "blocks", theme)
+        menu.addSeparator()
+        act = menu.addAction(sign, words, lambda: keep(change) if change is not None else None)
+        act.setEnabled(change is not None)
+        if FIRST_BLOCKS in project.extra:
+            usual = SetExtra(FIRST_BLOCKS, None)
+            menu.addAction(icon("undo-2", theme), tr("The usual first blocks"), lambda: keep(usual))
 
     def _section(self, canvas: CanvasHost, place: MenuPlace) -> list[MenuEntry]:
         """What the menu of a block offers besides."""
@@ -212,12 +243,14 @@ LEAST_SHELF_LINES = 8.5
 
 
 class Palette(QWidget):
-    """All blocks that belong on the page of a canvas.
+    """The blocks that belong on the page of a canvas: the first ones, more of them, or all.
 
-    ``narrowed`` says that it became a narrow column of signs, or wide again.
+    ``narrowed`` says that it became a narrow column of signs, or wide again; ``room_asked`` that
+    it wants another width, for that or because it shows more blocks or fewer.
     """
 
     narrowed = Signal(bool)
+    room_asked = Signal()
 
     def __init__(
         self,
@@ -236,8 +269,12 @@ class Palette(QWidget):
         self.categories = CategoryColumn(self)
         self.shelf = labelled(Shelf(canvas, self), name="Blocks to use")
         self.making = Making(self)
-        self.snippet_menu = SnippetMenu(self)
+        self.snippet_menu = EntryMenu(self)
         self.is_narrow = False
+        self.level = chosen_level(settings)
+        self.levels = LevelBar(self.level, self)
+        self._recent: list[str] | None = None
+        """What is listed as used last: it may be older than what was, so that nothing moves."""
         self._drawers: list[Drawer] = []
         self._history: History | None = None
         self._goes_to_top = False
@@ -246,8 +283,9 @@ class Palette(QWidget):
         self.search.setClearButtonEnabled(True)
         self.search.addAction(self._sign, QLineEdit.ActionPosition.LeadingPosition)
         top = in_row(self.fold, (self.search, 1), margins=(4, 4, 4, 2))
+        switch = in_row((self.levels, 1), margins=(4, 0, 4, 4))
         below = in_row(self.categories, (self.shelf, 1), spacing=0)
-        in_column(top, (below, 1), of=self, margins=0, spacing=0)
+        in_column(top, switch, (below, 1), of=self, margins=0, spacing=0)
         self._connect()
         add_delete_area(canvas, self)
         labelled(self, name="Palette")
@@ -259,6 +297,7 @@ class Palette(QWidget):
     def refresh(self) -> None:
         """Take the theme, the direction and the project of the canvas."""
         self._sign.setIcon(icon("search", self.canvas.look.theme))
+        self._recent = None
         self._listen()
         self.shelf.refresh()
         self._say()
@@ -271,34 +310,52 @@ class Palette(QWidget):
         """Show the blocks for the page, or those that are searched for, when somebody looks."""
         editor = self.canvas.editor
         kind = editor.project.kind_of_page(self.canvas.page)
-        recent = recent_types(self.settings, editor.language, kind)
-        self._drawers = entries.drawers_of(editor, kind, has_recent=bool(recent))
+        if self._recent is None or not self._is_at_hand():
+            self._recent = recent_types(self.settings, editor.language, kind)
+        recent = self._recent
+        level = self.level if kind == "behaviour" else "all"  # other pages have few blocks
+        self._drawers = entries.drawers_of(
+            editor, kind, level, has_recent=bool(recent), has_snippets=self.snippets.are_any
+        )
         self.categories.show_drawers(self._drawers, self.canvas.look.theme)
         self._fit()
         self._goes_to_top |= to_top
-        self.shelf.fill_later(partial(self._fill_shelf, editor, recent))
+        self.shelf.fill_later(partial(self._fill_shelf, editor, kind, level, recent))
 
-    def _fill_shelf(self, editor: Editor, recent: Sequence[str]) -> None:
+    def _fill_shelf(self, editor: Editor, kind: str, level: Level, recent: Sequence[str]) -> None:
         stock = Stock(editor)
         typed = self.search.text().strip()
         if typed:
-            samples = [s for drawer in self._drawers for s in stock.offered(drawer.id)]
-            shown = entries.found_entries(
-                stock, found_samples(stock, samples, typed, editor.project), typed
-            )
+            of_page = (one.id for one in editor.language.categories if one.page == kind)
+            samples = [sample for category in of_page for sample in stock.offered(category)]
+            found = found_samples(stock, samples, typed, editor.project)
+            shown = entries.found_entries(stock, found, typed, level)
         else:
             kept = self.snippets.all(editor.language)
-            shown = entries.entries_of(stock, self._drawers, recent, kept)
+            shown = entries.entries_of(stock, self._drawers, level, recent, kept)
         self.shelf.show_entries(stock, shown, to_top=self._goes_to_top or bool(typed))
         self._goes_to_top = False
 
     def open_drawer(self, drawer: str) -> None:
         """Show a category; a narrow palette becomes wide."""
         self.set_narrow(False)
+        if drawer == entries.RECENT:
+            self._recent = None
+            self.fill()
         if self.search.text():
             self.search.clear()
         self.shelf.show_drawer(drawer)
         self.categories.mark(drawer)
+
+    def set_level(self, level: Level) -> None:
+        """Show the first blocks, more of them, or all; that is how it is at the next start, too."""
+        if level == self.level:
+            return
+        self.level = self.settings.palette_level = level
+        self.levels.show_level(level)
+        self._recent = None
+        self.fill(to_top=True)
+        self.room_asked.emit()
 
     def set_narrow(self, is_narrow: bool) -> None:
         """Become a narrow column of signs, or wide again."""
@@ -306,17 +363,25 @@ class Palette(QWidget):
             return
         self.is_narrow = is_narrow
         self.search.setVisible(not is_narrow)
+        self.levels.setVisible(not is_narrow)
         self.shelf.setVisible(not is_narrow)
         self._fit()
         self._show_fold()
         self.narrowed.emit(is_narrow)
+        self.room_asked.emit()
 
     def sizeHint(self) -> QSize:
         """Room for the categories and most blocks."""
         line = self.fontMetrics().height()
         if self.is_narrow:
-            return QSize(self.categories.maximumWidth(), 30 * line)
-        return QSize(self.categories.wide_width + round(SHELF_LINES * line), 30 * line)
+            return QSize(self.maximumWidth(), 30 * line)
+        signs = self.categories.wide_width if self._has_categories else 0
+        return QSize(signs + round(SHELF_LINES * line), 30 * line)
+
+    @property
+    def _has_categories(self) -> bool:
+        """Whether the categories stand beside the list: the first blocks need no way to them."""
+        return self.is_narrow or self.level != "first"
 
     # What it does
 
@@ -355,6 +420,7 @@ class Palette(QWidget):
         self.search.textChanged.connect(lambda: self.fill(to_top=True))
         self.search.installEventFilter(self)
         self.fold.clicked.connect(lambda: self.set_narrow(not self.is_narrow))
+        self.levels.chosen.connect(self.set_level)
         self.categories.opened.connect(self.open_drawer)
         self.shelf.chosen.connect(self.use)
         self.shelf.typed.connect(self.start_search)
@@ -367,9 +433,14 @@ class Palette(QWidget):
 
     def _fit(self) -> None:
         """Be no wider than the signs while the palette is narrow; give the list its room."""
+        self.categories.setVisible(self._has_categories)
         least = self.categories.wide_width + LEAST_SHELF_LINES * self.fontMetrics().height()
         self.categories.set_narrow(self.is_narrow or self.width() < least)
-        self.setMaximumWidth(self.categories.maximumWidth() + 4 if self.is_narrow else WIDEST)
+        widest = self.categories.maximumWidth() + 4 if self.is_narrow else WIDEST
+        if widest != self.maximumWidth():
+            self.setMaximumWidth(widest)
+            if self.is_narrow:  # the signs have another size: a new font, the first look
+                self.room_asked.emit()
 
     def _show_fold(self) -> None:
         is_wide = not self.is_narrow
@@ -401,7 +472,19 @@ class Palette(QWidget):
         if types and remember_types(self.settings, types):
             self._later.start()
 
+    def _is_at_hand(self) -> bool:
+        """Whether a hand is at the palette: then nothing in it may move."""
+        return self.underMouse() or self.shelf.hasFocus() or _is_pressed()
+
+    def leaveEvent(self, event: QEvent) -> None:
+        """List what was used last, now that the pointer is elsewhere."""
+        super().leaveEvent(event)
+        if not _is_pressed():
+            self._recent = None
+        self._later.start()
+
     def _on_page_changed(self, page: str) -> None:
+        self._recent = None
         self._listen()
         self.fill(to_top=True)
 
@@ -430,3 +513,8 @@ class Palette(QWidget):
         else:
             return super().eventFilter(watched, event)
         return True
+
+
+def _is_pressed() -> bool:
+    """Whether something is being dragged."""
+    return QApplication.mouseButtons() != Qt.MouseButton.NoButton

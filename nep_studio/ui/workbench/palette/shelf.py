@@ -257,7 +257,7 @@ class ShelfView(QAbstractScrollArea):
             return tr("Category {title}", title=entry.text)
         if entry.kind == "snippet":
             return tr("Snippet {title}", title=entry.text)
-        return entry.text
+        return f"{entry.text}. {entry.note}" if entry.note else entry.text
 
     def item_rect(self, number: int) -> QRect:
         """Where an entry is on the screen."""
@@ -316,8 +316,11 @@ class Shelf(ShelfView):
         """The type of the block under the mouse, or else at the keyboard; empty when none."""
         entries = self.entries  # first: with them comes which one it is
         number = self._hovered if self._hovered >= 0 else self._current
-        sample = entries[number].sample if number >= 0 else ""
-        return self._stock.project.blocks[sample].type if sample else ""
+        return self.type_of(entries[number]) if number >= 0 else ""
+
+    def type_of(self, entry: Entry) -> str:
+        """The type of the block of an entry; empty for what is none."""
+        return self._stock.project.blocks[entry.sample].type if entry.sample else ""
 
     # Mouse
 

@@ -27,6 +27,8 @@ SCALE = 0.8
 NARROWEST = 160.0
 HIGHEST_SNIPPET = 200.0
 """How much of a snippet is shown, in units of the measures."""
+NOTE_LINES = 1.1
+"""How high the words below a block are, in lines."""
 ROUNDING = 1.0
 """A list that begins at a place may be scrolled so much less: to whole pixels."""
 
@@ -143,7 +145,9 @@ class ShelfLayout:
     def _spot(self, entry: Entry, y: float, layout: Layout) -> Spot:
         line = self.line
         if entry.kind == "block":
-            return self._blocks(entry, y, layout.chain([entry.sample]))
+            spot = self._blocks(entry, y, layout.chain([entry.sample]))
+            spot.height += NOTE_LINES * line if entry.note else 0.0
+            return spot
         if entry.snippet is not None:
             project = entry.snippet.clip.project
             language = self._canvas.editor.language.of(project)
@@ -183,6 +187,8 @@ class ShelfPainter:
         self._layout = layout
         self._font = QFont(canvas.look.block_font)
         self._font.setPointSizeF(self._font.pointSizeF() * layout.size)
+        self._small = QFont(self._font)
+        self._small.setPointSizeF(self._small.pointSizeF() * 0.85)
         self._bold = QFont(self._font)
         self._bold.setBold(True)
         self._blocks = BlockPainter(
@@ -271,6 +277,12 @@ class ShelfPainter:
         shown = Rect(-1e5, -1.0, 2e5, highest)
         (spot.painter or self._blocks).paint(painter, boxes_of(chain, shown), spot.scale)
         painter.restore()
+        if spot.entry.note:
+            high, margin = NOTE_LINES * self._layout.line, self._layout.margin
+            row = QRectF(margin, spot.bottom - high, self._layout.width - 2 * margin, high)
+            painter.setFont(self._small)
+            painter.setPen(self._theme.colour("muted"))
+            self._text(painter, row, spot.entry.note)
 
     def _at_start(self, rect: QRectF, side: float) -> QRectF:
         """A square where reading begins, in the middle of a row."""

@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 from PySide6.QtCore import QPoint, Qt
+from PySide6.QtGui import QContextMenuEvent
 from PySide6.QtTest import QTest
+from PySide6.QtWidgets import QApplication
 
 from nep_studio.blocks.edits.content import SetComment, SetFlag
 from nep_studio.blocks.places import InInput
+from nep_studio.blocks.text import sentence
 
 PLAIN = Qt.KeyboardModifier.NoModifier
 LEFT = Qt.MouseButton.LeftButton
@@ -150,3 +153,53 @@ def test_a_mirrored_comment_is_at_the_left(controller_of) -> None:
 
     bubble = desk.fields.comments.bubble.geometry()
     assert bubble.right() < desk.canvas.sight.view_rect_of(desk.block).left()
+
+
+def test_a_hat_is_short_until_its_plus_unfolds_what_happens_when_it_comes_again(
+    controller_of,
+) -> None:
+    desk = controller_of("event.gesture")
+    block = desk.editor.project.blocks[desk.block]
+    before = sentence(desk.editor.project, desk.editor.language, desk.block)
+
+    press(desk, "add", "repeated")
+    unfolded = sentence(desk.editor.project, desk.editor.language, desk.block)
+    was_steps, was_field = desk.new_steps(), dict(block.fields)
+    press(desk, "remove", "repeated", number=1)
+
+    assert before == "when the gesture karate is made"
+    assert unfolded == "when the gesture karate is made, if it comes again carry on"
+    assert was_steps == 1 and was_field["again.1"] == "ignore"
+    assert sentence(desk.editor.project, desk.editor.language, desk.block) == before
+    assert "again.1" not in block.fields
+
+
+def test_the_plus_of_a_hat_takes_no_more_room_than_its_sign(controller_of) -> None:
+    desk = controller_of("event.gesture")
+
+    box = desk.canvas.page_layout.placed(desk.block).box
+    [plus] = [piece for piece in box.pieces if piece.kind == "add"]
+
+    assert not plus.text and plus.width == plus.height
+
+
+def test_what_unfolds_is_in_the_menu_of_the_block_for_who_has_no_mouse(controller_of) -> None:
+    desk = controller_of("event.gesture")
+    desk.canvas.selection.set([desk.block])
+    desk.canvas.setFocus()
+
+    def choose(name: str) -> None:
+        place = desk.canvas.sight.view_rect_of(desk.block).center().toPoint()
+        keys = QContextMenuEvent.Reason.Keyboard
+        QApplication.sendEvent(desk.canvas.viewport(), QContextMenuEvent(keys, place, place))
+        menu = desk.canvas.menu
+        action = next(a for a in menu.actions() if a.objectName() == name)
+        menu.setActiveAction(action)
+        QTest.keyClick(menu, Qt.Key.Key_Return)
+
+    choose("add.repeated")
+    added = dict(desk.editor.project.blocks[desk.block].groups)
+    choose("remove.repeated")
+
+    assert added == {"repeated": 1}
+    assert desk.editor.project.blocks[desk.block].groups == {"repeated": 0}
