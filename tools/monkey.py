@@ -56,7 +56,6 @@ from PySide6.QtWidgets import (
     QFileDialog,
     QLineEdit,
     QMenu,
-    QPlainTextEdit,
     QSlider,
     QTabBar,
     QWidget,
@@ -465,9 +464,9 @@ def watch(monkey: Monkey) -> None:
         monkey.faults.append("".join(traceback.format_exception(kind, error, trace)))
 
     def on_message(kind: QtMsgType, _context: object, text: str) -> None:
-        if kind in (QtMsgType.QtCriticalMsg, QtMsgType.QtFatalMsg):
-            monkey.faults.append(f"Qt: {text}")
-        elif kind is QtMsgType.QtWarningMsg and not any(word in text for word in HARMLESS):
+        is_bad = kind in (QtMsgType.QtCriticalMsg, QtMsgType.QtFatalMsg)
+        is_warning = kind is QtMsgType.QtWarningMsg
+        if is_bad or (is_warning and not any(word in text for word in HARMLESS)):
             monkey.faults.append(f"Qt: {text}")
 
     sys.excepthook = on_error

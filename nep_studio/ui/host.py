@@ -13,14 +13,13 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, Literal, Protocol, TypeVar
 
 if TYPE_CHECKING:
-    from PySide6.QtCore import SignalInstance
     from PySide6.QtWidgets import QMenu, QStatusBar, QWidget
 
     from faults import Words
     from nep_studio.ui.actions import Actions, Keys
     from nep_studio.ui.canvas.editing.menu import Section
     from nep_studio.ui.services import Services
-    from nep_studio.ui.workbench.side_panels import AreaName
+    from nep_studio.ui.workbench.side_panels import AreaName, OwnHistory
     from nep_studio.ui.workbench.workbench import Workbench
 
 Shared = TypeVar("Shared")
@@ -83,26 +82,6 @@ class NewAction:
     menu: MenuName | Literal[""] = ""
     after: str = ""
     before: str = ""
-
-
-class OwnHistory(Protocol):
-    """What undo and redo of the window mean while a page is shown that has steps of its own."""
-
-    history_changed: SignalInstance
-
-    @property
-    def undo_label(self) -> str:
-        """What undo would take back, "" for nothing."""
-
-    @property
-    def redo_label(self) -> str:
-        """What redo would do again, "" for nothing."""
-
-    def undo(self) -> None:
-        """Take the last step back."""
-
-    def redo(self) -> None:
-        """Do again what was taken back."""
 
 
 @dataclass(frozen=True)

@@ -24,9 +24,9 @@ from .dialogs import show_about, show_report, show_shortcuts
 if TYPE_CHECKING:
     from nep_studio.blocks.checks.diagnostic import Diagnostic
     from nep_studio.ui.canvas.editing.commands import Commands
-    from nep_studio.ui.host import OwnHistory
     from nep_studio.ui.theme.colours import Theme
     from nep_studio.ui.workbench.find_bar import FindBar
+    from nep_studio.ui.workbench.side_panels import OwnHistory
 
     from .main_window import MainWindow
 

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import partial
-from typing import TYPE_CHECKING, Literal
+from typing import Literal, Protocol
 
-from PySide6.QtCore import QEvent, QObject, QSignalBlocker, QSize, Qt, Signal
+from PySide6.QtCore import QEvent, QObject, QSignalBlocker, QSize, Qt, Signal, SignalInstance
 from PySide6.QtGui import QAction, QIcon, QResizeEvent
 from PySide6.QtWidgets import QSplitter, QStackedWidget, QTabWidget, QToolButton, QWidget
 
@@ -18,9 +18,6 @@ from nep_studio.ui.theme.icons import icon
 from nep_studio.ui.theme.look import Look
 from nep_studio.ui.widgets.layouts import in_column
 from nep_studio.ui.words import tr
-
-if TYPE_CHECKING:
-    from nep_studio.ui.host import OwnHistory
 
 AreaName = Literal["left", "right", "bottom", "stage", "person", "page"]
 """Where a panel stands: the ``stage`` is at the far side of the canvas at all times, the ``person``
@@ -148,6 +145,26 @@ class Area(QTabWidget):
         """Let the first of the panels that are shown be on top."""
         shown = [index for index in range(self.count()) if self.isTabVisible(index)]
         self.setCurrentIndex(shown[0] if shown else 0)
+
+
+class OwnHistory(Protocol):
+    """What undo and redo of the window mean while a page is shown that has steps of its own."""
+
+    history_changed: SignalInstance
+
+    @property
+    def undo_label(self) -> str:
+        """What undo would take back, "" for nothing."""
+
+    @property
+    def redo_label(self) -> str:
+        """What redo would do again, "" for nothing."""
+
+    def undo(self) -> None:
+        """Take the last step back."""
+
+    def redo(self) -> None:
+        """Do again what was taken back."""
 
 
 class Rooms(QStackedWidget):
