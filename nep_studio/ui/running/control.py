@@ -210,7 +210,8 @@ class RunControl(QObject):
         self.runner.run()
 
     def show_needs(self) -> None:
-        """List what the program needs, and what is there of it."""
+        """List what the program needs of the person."""
+        self._host.workbench.checks.ask()
         NeedsDialog(self._host, self).open()
 
     def stop(self) -> None:
@@ -286,6 +287,7 @@ class RunControl(QObject):
                 # Nothing is known of the program yet, and nothing of the last one counts any more
                 messages = self._host.services.messages
                 self._host.workbench.show_run_problem(None)
+                self._host.workbench.checks.ask()
                 messages.clear_passing()
                 while self._troubles:
                     messages.withdraw(self._troubles.popitem()[1])

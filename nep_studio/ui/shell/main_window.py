@@ -317,6 +317,7 @@ class MainWindow(QMainWindow):
 
     def show_problems(self) -> None:
         """Check now, and show the problems."""
+        self.workbench.checks.ask()
         self.workbench.checks.start()
         self.workbench.panels.show(self.workbench.problems)
 
@@ -352,8 +353,6 @@ class MainWindow(QMainWindow):
     def _on_problems_found(self, problems: Sequence[Diagnostic]) -> None:
         document = self.files.document
         is_open = document is not None
-        if document is not None and not document.project.blocks:
-            problems = []  # that nothing happens yet is no news to somebody who begins
         worst = problems[0].severity if problems else ""
         shown = (len(problems), worst, is_open, self.look.theme)
         if shown == self._shown_problems:

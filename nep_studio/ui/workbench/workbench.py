@@ -98,7 +98,7 @@ class Workbench(QWidget):
         self.code = CodePane(editor, studio.look, self.canvas.selection)
         self.outline = Outline(self.canvas)
         self.problems = ProblemsPanel(studio.look)
-        self.checks = LiveChecks(self)
+        self.checks = LiveChecks(self.canvas.selection, self)
         self.helpers = CanvasHelpers(self.canvas, studio.settings)
         self.bubble: ProblemBubble | None = None
         self._run_problem: Diagnostic | None = None
