@@ -18,6 +18,7 @@ from nep_studio.blocks.errors import CodeRefused
 from nep_studio.blocks.generate.source_map import Code
 from nep_studio.blocks.program import ON_ERROR, Changes, Project
 from nep_studio.problems import Problem
+from nep_studio.project.triggers import Kind, Occurrence, occurrences_of
 from nep_studio.project.trust import Concern
 from nep_studio.run.controller import (
     BecameStale,
@@ -27,12 +28,11 @@ from nep_studio.run.controller import (
     Event,
     NeedsApproval,
     Refused,
-    StateChanged,
     Subject,
     Troubled,
 )
 from nep_studio.run.gate import concerns_of
-from nep_studio.run.plan import Choices, PlannedNode
+from nep_studio.run.plan import VIRTUAL_WATCH, WATCHES, Choices, PlannedNode
 from nep_studio.ui.edits import edits_of
 from nep_studio.ui.messages import Answer, Message
 from nep_studio.ui.words import tr
@@ -175,9 +175,8 @@ class RunControl(QObject):
         document = self._host.services.document
         if document is None:
             return []
-        choices = Choices(virtual=self._virtual)
         language = self._host.services.language
-        subject = Subject(document.project, language, document.folder, choices)
+        subject = Subject(document.project, language, document.folder, self._choices())
         if self._plan is None or self._plan[0] != subject or not self._is_settled:
             self._plan = subject, subject.nodes()
         return list(self._plan[1])
@@ -229,12 +228,24 @@ class RunControl(QObject):
             return None
         self._keep_own()
         workbench, language = self._host.workbench, self._host.services.language
-        choices = Choices(virtual=self._virtual)
-        subject = Subject(document.project, language, document.folder, choices)
+        subject = Subject(document.project, language, document.folder, self._choices())
         is_in_order, code = workbench.checks.is_in_order, workbench.code.live.program
         is_planned = self._plan is not None and self._plan[0] == subject and self._is_settled
         known = self._plan[1] if self._plan is not None and is_planned and is_in_order else None
         return replace(subject, is_in_order=is_in_order, code=code, known=known)
+
+    def _choices(self) -> Choices:
+        """Who stands in for what, and the watch that somebody has left running."""
+        left = (node for node in self.runner.local.running if node.node in WATCHES)
+        return Choices(virtual=self._virtual, watch=next(left, None))
+
+    def _stop_other_watches(self, nodes: Sequence[PlannedNode]) -> None:
+        """Let no simulated person move who was left beside the watch of the program."""
+        wanted = {node.name for node in nodes if node.is_sensory}
+        left = [one.name for one in self.runner.local.running if one.node == VIRTUAL_WATCH]
+        for name in left if wanted else ():
+            if name not in wanted:
+                self.runner.stop_node(name)
 
     def _keep_own(self) -> None:
         if self._document is not None:
@@ -294,10 +305,11 @@ class RunControl(QObject):
                 if self._told_of_end is not None:
                     messages.withdraw(self._told_of_end)
                     self._told_of_end = None
+                self._stop_other_watches(request.nodes)
+                if request.is_shown:
+                    self._show_who_acts(request.nodes)
                 # blocks that are not on the canvas may have the names of others there
                 self.stage.begin(request.code if request.is_shown else Code("", ()))
-            case StateChanged("running"):
-                self._show_robots()
             case BecameStale():
                 self.became_stale.emit()
             case Troubled(problem, line, is_error):
@@ -332,14 +344,16 @@ class RunControl(QObject):
         project = self._document.project
         return {page: page_title(project, page) for page in project.pages}
 
-    def _show_robots(self) -> None:
-        """Let a person who has never shown nor hidden the robots see them at the first run."""
-        host = self._host
-        if not any("robot" in one.parameters for one in self.planned()):
+    def _show_who_acts(self, nodes: Sequence[PlannedNode]) -> None:
+        """Show the robots, and what is done by hand when the program waits for that."""
+        if any("robot" in node.parameters for node in nodes):
+            self._host.ask("robots.show")
+        document = self._host.services.document
+        if document is None:
             return
-        for panel in host.workbench.panels.all:
-            if panel.name == "RobotsPanel" and not host.services.settings.is_chosen(panel.name):
-                host.show_panel(panel.widget)
+        waits_for = occurrences_of(document.project, document.editor.language)
+        if any(_is_by_hand(one, nodes) for one in waits_for):
+            self._host.ask("person.show")
 
     # How it goes on, and how it ended
 
@@ -382,3 +396,17 @@ class RunControl(QObject):
         shown = Diagnostic("error", "run", page, block, sentence, steps)
         workbench.show_run_problem(replace(shown, severity=severity))
         workbench.show_block(block)
+
+
+BY_A_PERSON: frozenset[Kind] = frozenset(
+    ("word", "face", "distance", "touch", "gesture", "ball", "mark", "sound", "emotion", "state")
+)
+"""What somebody does before a robot; the rest is measured, or happens by itself."""
+
+
+def _is_by_hand(what: Occurrence, nodes: Sequence[PlannedNode]) -> bool:
+    """Whether the person at this computer does it: no real robot, no watch is there for it."""
+    if what.kind == "gesture":
+        virtual = (node for node in nodes if node.node == VIRTUAL_WATCH)
+        return any(not node.parameters.get("gestures") for node in virtual)
+    return what.kind in BY_A_PERSON and not any(is_real(node) for node in nodes)

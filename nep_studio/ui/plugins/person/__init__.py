@@ -9,11 +9,14 @@ LEAST_SHARE = 0.4
 
 
 def make(host: Host) -> Parts:
-    """The panel below the canvas; hidden until somebody wants it."""
+    """The panel; hidden until somebody wants it, or a program waits for what is done there."""
     from .panel import HumanPanel
 
     panel = HumanPanel(host, floor_of(host))
-    return Parts(NewPanel(panel, "Person", "user", "bottom", least_share=LEAST_SHARE))
+    return Parts(
+        NewPanel(panel, "Person", "user", "bottom", least_share=LEAST_SHARE),
+        commands={"person.show": lambda: host.show_panel(panel)},
+    )
 
 
 plugin = Plugin("person", make, order=20, modules=("senses", "panel"))
