@@ -236,7 +236,9 @@ class RunControl(QObject):
 
     def _choices(self) -> Choices:
         """Who stands in for what, and the watch that somebody has left running."""
-        left = (node for node in self.runner.local.running if node.node in WATCHES)
+        tried = self.runner.told_elsewhere
+        running = (node for node in self.runner.local.running if node.name not in tried)
+        left = (node for node in running if node.node in WATCHES)
         return Choices(virtual=self._virtual, watch=next(left, None))
 
     def _stop_other_watches(self, nodes: Sequence[PlannedNode]) -> None:

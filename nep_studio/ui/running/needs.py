@@ -22,7 +22,6 @@ from PySide6.QtWidgets import (
 
 from nep_studio.blocks.checks.diagnostic import Diagnostic
 from nep_studio.blocks.deployment import rules
-from nep_studio.blocks.errors import EditRefused
 from nep_studio.blocks.operations.fixes import add_start
 from nep_studio.run.node_board import NodeStatus
 from nep_studio.run.plan import PlannedNode
@@ -313,12 +312,8 @@ class NeedsDialog(QDialog):
         self.refresh()
 
     def _add_start(self) -> None:
-        workbench = self._host.workbench
-        try:
-            workbench.show_block(add_start(workbench.canvas.editor))
-        except EditRefused as refusal:
-            self._host.services.messages.refuse(refusal.sentence, refusal.checklist)
-        workbench.checks.start()
+        editor = self._host.workbench.canvas.editor
+        self._host.workbench.change(lambda: add_start(editor), "Add a beginning")
 
     def _on_run(self) -> None:
         self.accept()

@@ -7,8 +7,9 @@ from PySide6.QtCore import QPoint, Qt
 from pytestqt.qtbot import QtBot
 
 from nep_studio.blocks.edits.content import SetField
-from nep_studio.blocks.edits.placing import DeleteBlocks
+from nep_studio.blocks.edits.placing import DeleteBlocks, MoveBlocks
 from nep_studio.blocks.edits.project import RenameProject
+from nep_studio.blocks.places import InStack
 from nep_studio.blocks.slices import Sliced
 from nep_studio.run.installation import problem_steps
 from nep_studio.ui.edits import edits_of
@@ -70,6 +71,38 @@ def test_the_fix_button_puts_it_right_and_undo_takes_it_back(
     assert robotless.actions_by_name["undo"].text() == "Undo “Add NAO”"
     robotless.actions_by_name["undo"].trigger()
     qtbot.waitUntil(lambda: len(robotless.workbench.checks.problems) == 1)
+
+
+def test_a_fix_on_another_page_stays_on_this_one_and_says_what_it_did(
+    robotless: MainWindow, qtbot: QtBot
+) -> None:
+    robotless.show_problems()
+    [row] = robotless.workbench.problems.rows
+
+    qtbot.mouseClick(row.fix_button, Qt.MouseButton.LeftButton)
+
+    assert robotless.workbench.canvas.page == "behaviour"
+    [card] = robotless.message_area.cards
+    assert card.message.title == "Done on the page Robots: Add NAO"
+    qtbot.mouseClick(card.buttons[0], Qt.MouseButton.LeftButton)
+    assert robotless.files.document.project.pages["robots"] == []
+    assert robotless.message_area.cards == []
+
+
+def test_a_fix_on_this_page_shows_the_block(karate: MainWindow, qtbot: QtBot) -> None:
+    editor = karate.files.document.editor
+    forever = editor.create("control.forever", editor.new_stack("behaviour", 40, 2000))
+    hat = editor.create("event.started", editor.new_stack("behaviour", 40, 1900))
+    editor.apply(MoveBlocks(forever, 1, InStack(editor.project.stack_of(hat).id, 1)))
+    qtbot.waitUntil(lambda: bool(karate.workbench.checks.problems))
+    karate.show_problems()
+    [row] = [row for row in karate.workbench.problems.rows if row.fix_button]
+
+    qtbot.mouseClick(row.fix_button, Qt.MouseButton.LeftButton)
+
+    [made] = karate.workbench.canvas.selection.ids
+    assert editor.project.parents[made].owner == forever
+    assert karate.message_area.cards[-1].message.title == "Done: Add a pause"
 
 
 def test_the_badge_opens_a_bubble_with_the_fix(robotless: MainWindow, qtbot: QtBot) -> None:
