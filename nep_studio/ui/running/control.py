@@ -69,6 +69,8 @@ class RunControl(QObject):
         self._virtual: frozenset[str] = frozenset()
         """The real robots that the one on the screen stands in for."""
         self._document: Document | None = None
+        self._ran: Document | None = None
+        """What was open when the program was started."""
         self._plan: tuple[Subject, list[PlannedNode]] | None = None
         """The nodes of the open project, as it was when it was settled or somebody asked."""
         self._is_settled = False
@@ -297,6 +299,7 @@ class RunControl(QObject):
             case NeedsApproval(concerns, subject, request):
                 self._ask(concerns, lambda: self.runner.begin(subject, request))
             case Begun(request):
+                self._ran = self._document
                 # Nothing is known of the program yet, and nothing of the last one counts any more
                 messages = self._host.services.messages
                 self._host.workbench.show_run_problem(None)
@@ -314,9 +317,9 @@ class RunControl(QObject):
                 self.stage.begin(request.code if request.is_shown else Code("", ()))
             case BecameStale():
                 self.became_stale.emit()
-            case Troubled(problem, line, is_error):
+            case Troubled(problem, line, is_error) if self._ran is self._document:
                 self._tell_trouble(problem, line, is_error)
-            case Ended(runs_again=False):
+            case Ended(runs_again=False) if self._ran is self._document:
                 self._tell_end(event)
 
     def _on_approval_needed(self, concerns: Sequence[Concern], start: Callable[[], object]) -> None:

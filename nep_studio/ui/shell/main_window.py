@@ -8,8 +8,8 @@ from importlib import import_module
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from PySide6.QtCore import QEvent, QObject, QTimer, Signal
-from PySide6.QtGui import QCloseEvent, QDragEnterEvent, QDropEvent, QResizeEvent
+from PySide6.QtCore import QEvent, QObject, Qt, QTimer, Signal
+from PySide6.QtGui import QCloseEvent, QDragEnterEvent, QDropEvent, QKeyEvent, QResizeEvent
 from PySide6.QtWidgets import QMainWindow, QStackedWidget, QToolBar
 
 from nep_studio.ui.actions import Actions
@@ -282,6 +282,9 @@ class MainWindow(QMainWindow):
         workbench.canvas.news.picture_requested.connect(lambda: self.host.ask("exporting.picture"))
         workbench.canvas.news.layout_changed.connect(partial(update_edit_actions, self))
         workbench.canvas.selection.changed.connect(partial(update_edit_actions, self))
+        self.message_area.lie_over(workbench.canvas.viewport())
+        self.message_area.covers.connect(workbench.leave_free)
+        self.message_area.shown.connect(workbench.uncover)
         self.update_actions()
         self.start_page.gallery.paint_pictures()
 
@@ -333,6 +336,7 @@ class MainWindow(QMainWindow):
 
     def _on_document_changed(self, document: Document | None) -> None:
         self.lazy.finish()
+        self.messages.leave_project()
         self.running.follow(document)
         self.pages.setCurrentIndex(0 if document is None else 1)  # first: it needs its size
         self.workbench.show_document(document)
@@ -392,6 +396,11 @@ class MainWindow(QMainWindow):
         """Keep the words on the toolbar where there is room for them."""
         super().resizeEvent(event)
         size_toolbar(self.toolbar)
+
+    def keyPressEvent(self, event: QKeyEvent) -> None:
+        """Esc closes the newest message, where it means nothing else."""
+        if event.key() != Qt.Key.Key_Escape or not self.message_area.close_newest():
+            super().keyPressEvent(event)
 
     def closeEvent(self, event: QCloseEvent) -> None:
         """Ask what is to become of work that is not saved; then remember the window's shape."""

@@ -195,6 +195,17 @@ class Workbench(QWidget):
         if block in self.canvas.editor.project.blocks:
             self.canvas.selection.set([block])
 
+    def leave_free(self, pixels: int) -> None:
+        """So much of the foot of the canvas is covered: what is shown there goes above it."""
+        self.canvas.sight.covered = pixels
+
+    def uncover(self) -> None:
+        """Scroll the block that is meant above what lies over the foot of the canvas."""
+        canvas, block = self.canvas, self.canvas.selection.cursor
+        rect = canvas.sight.view_rect_of(block)
+        if rect is not None and rect.intersects(canvas.viewport().rect()):
+            canvas.show_block(block)
+
     def fix(self, problem: Diagnostic) -> None:
         """Put a problem right as far as the program can, and say what it did."""
         label = problem.fix.label if problem.fix is not None else ""
