@@ -128,8 +128,11 @@ def check_for_pages(node: str, name: str) -> None:
     """Raise NotForPages for a node that no page can start."""
     if node == PROGRAM_NODE:
         raise NotForPages(
-            "The node “{name}” would run a Python file of its own.",
-            checklist=("Put the Python into blocks of the Behaviour page.", "Delete this node."),
+            "“{name}” would run a Python file of its own.",
+            checklist=(
+                "Put the Python into blocks of the Behaviour page.",
+                "Take it off the Nodes page.",
+            ),
             name=name,
         )
 

@@ -388,10 +388,24 @@ class RunControl(QObject):
             self._mark(block, problem)
             workbench = self._host.workbench
             answers.insert(0, Answer(tr("Show the block"), lambda: workbench.show_block(block)))
-        if not end.had_begun and any(map(is_real, self.planned())):
-            answers.insert(0, Answer(tr("Use the robot on the screen"), self.use_simulator))
+        answers = [*self._ways_to_a_robot(had_begun=end.had_begun), *answers]
         messages.tell_problem(problem, *answers)
         self._told_of_end = messages.history[-1].message
+
+    def _ways_to_a_robot(self, *, had_begun: bool) -> list[Answer]:
+        """What helps when a real robot was not there, or has gone."""
+        nodes, real = self.runner.board.nodes, [one for one in self.planned() if is_real(one)]
+        away = [
+            node.name
+            for node in real
+            if (status := nodes.get(node.name)) is not None and status.event == "connection_failed"
+        ]
+        if not away and (had_begun or not real):
+            return []
+        use = Answer(tr("Use the robot on the screen"), self.use_simulator)
+        name = away[0] if away else real[0].name
+        find = tr("Find it and test the connection")
+        return [use, Answer(find, lambda: self._host.ask("connecting.open", name))]
 
     def _mark(self, block: str, problem: Problem, severity: Severity = "error") -> None:
         """Show the sentence at the block that failed."""

@@ -88,6 +88,8 @@ class LiveChecks(QObject):
     def ask(self) -> None:
         """Tell all that is known from now on, also of what is just being made."""
         self._is_asked = True
+        if self._edits is not None:
+            self._edits.settle()  # what was made just now is asked about, too
         self._made.clear()
         self._tell()
 
