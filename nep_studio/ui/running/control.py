@@ -83,7 +83,10 @@ class RunControl(QObject):
         """What was told of a project that brings more than blocks."""
         self._told_of_end: Message | None = None
         """What went wrong with the last run; it is over when the next one begins."""
+        self._away: set[str] = set()
+        """The robots that did not answer when something was last heard of the way to them."""
         self.runner.told.connect(self._on_told)
+        self.runner.nodes_changed.connect(self._on_nodes_changed)
         self.runner.approval_needed.connect(self._on_approval_needed)
         self.runner.keep_own = self._keep_own
         self.asks_over: QWidget | None = None
@@ -394,18 +397,21 @@ class RunControl(QObject):
 
     def _ways_to_a_robot(self, *, had_begun: bool) -> list[Answer]:
         """What helps when a real robot was not there, or has gone."""
-        nodes, real = self.runner.board.nodes, [one for one in self.planned() if is_real(one)]
-        away = [
-            node.name
-            for node in real
-            if (status := nodes.get(node.name)) is not None and status.event == "connection_failed"
-        ]
-        if not away and (had_begun or not real):
+        real = [node.name for node in self.planned() if is_real(node)]
+        meant = [name for name in real if name in self._away] or ([] if had_begun else real)
+        if not meant:
             return []
         use = Answer(tr("Use the robot on the screen"), self.use_simulator)
-        name = away[0] if away else real[0].name
         find = tr("Find it and test the connection")
-        return [use, Answer(find, lambda: self._host.ask("connecting.open", name))]
+        return [use, Answer(find, lambda: self._host.ask("connecting.open", meant[0]))]
+
+    def _on_nodes_changed(self, names: Sequence[str]) -> None:
+        for name in names:
+            status = self.runner.board.nodes.get(name)
+            if status is not None and status.event == "connection_failed":
+                self._away.add(name)
+            elif status is not None and status.is_there:
+                self._away.discard(name)
 
     def _mark(self, block: str, problem: Problem, severity: Severity = "error") -> None:
         """Show the sentence at the block that failed."""

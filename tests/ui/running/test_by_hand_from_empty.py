@@ -2,15 +2,23 @@
 
 from __future__ import annotations
 
+import socket
+
 import pytest
 from PySide6.QtCore import QPoint, Qt
 from pytestqt.qtbot import QtBot
 
 from nep_core.wire import messages as m
+from nep_studio.blocks.operations.fixes import use_real_robot
+from nep_studio.blocks.places import InStack
 from nep_studio.run.plan import VIRTUAL_WATCH, PlannedNode
+from nep_studio.ui.message_cards import MessageCard
+from nep_studio.ui.plugins.connecting.dialog import ConnectDialog
 from nep_studio.ui.plugins.person.panel import HumanPanel
 from nep_studio.ui.plugins.robots.panel import RobotsPanel
+from nep_studio.ui.running.needs import in_the_way_to
 from nep_studio.ui.shell.main_window import MainWindow
+from nep_studio.ui.words import tr
 from tests.ui.checklist.person import Person
 from tests.ui.running.window_use import WAIT_MS, Seen, health, press, state_is
 
@@ -88,3 +96,36 @@ def test_a_watch_of_the_program_moves_alone(karate: MainWindow, qtbot: QtBot) ->
     press(karate, qtbot, "run")
 
     qtbot.waitUntil(lambda: watches(karate) == {"watch"}, timeout=WAIT_MS)
+
+
+def test_a_wrong_address_is_told_during_a_run_as_the_connect_dialog_tells_it(
+    window: MainWindow, qtbot: QtBot
+) -> None:
+    with socket.create_server(("127.0.0.1", 0)) as server:
+        nowhere = f"127.0.0.1:{server.getsockname()[1]}"
+    window.files.new()
+    editor = window.files.document.editor
+    with editor.history.as_own():
+        use_real_robot(editor, "NAO", nowhere, "connect a robot")
+        hat = editor.create("event.started", editor.new_stack("behaviour", 40.0, 40.0))
+        say = editor.create("robot.say", InStack(editor.project.stack_of(hat).id, 1))
+
+    press(window, qtbot, "run")
+
+    def end() -> MessageCard | None:
+        found = (one for one in window.message_area.cards if "Run again" in labels(one))
+        return next(found, None)
+
+    qtbot.waitUntil(lambda: end() is not None, timeout=WAIT_MS)
+    advice = in_the_way_to("NAO", nowhere)
+    assert advice is not None
+    assert end().message.checklist == tuple(map(tr, advice.checklist))
+    assert window.workbench.canvas.selection.ids == (say,)
+    qtbot.mouseClick(end().buttons[labels(end()).index("Find it and test the connection")], LEFT)
+    [dialog] = window.findChildren(ConnectDialog)
+    assert dialog.isVisible() and dialog.address.text() == nowhere
+    dialog.reject()
+
+
+def labels(card: MessageCard) -> list[str]:
+    return [button.text() for button in card.buttons]
