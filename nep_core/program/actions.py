@@ -111,7 +111,8 @@ class ActionClient:
             if result.state == "failed":
                 raise ActionFailed(
                     "{robot} could not do “{action}”: {description}",
-                    checklist=(
+                    checklist=result.fault.checklist
+                    or (
                         "Change this block, or what comes before it.",
                         "Try the program on the virtual robot first.",
                     ),

@@ -260,7 +260,7 @@ def _choices(options: argparse.Namespace, robots: list[str]) -> Choices:
             checklist=("Is the name spelled right, and is the file still there?",),
             recording=options.recording,
         )
-    return Choices(recording, options.speed, addresses)
+    return Choices(recording, options.speed, addresses, by_itself=True)
 
 
 def _parser() -> argparse.ArgumentParser:

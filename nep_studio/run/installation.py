@@ -149,9 +149,7 @@ def _node(
 
 
 def _wrong(entry: NodeEntry, sentence: Text, checklist: tuple[Words, ...]) -> Diagnostic:
-    words = text_of(
-        "The node “{name}” cannot start. {sentence}", name=entry.name, sentence=sentence
-    )
+    words = text_of("“{name}” cannot start. {sentence}", name=entry.name, sentence=sentence)
     return Diagnostic("error", "node_settings", "nodes", entry.block_id, words, checklist)
 
 

@@ -19,6 +19,7 @@ from nep_studio.blocks.deployment import (
     robot_entries,
 )
 from nep_studio.blocks.language import Language
+from nep_studio.blocks.operations.fixes import WATCH
 from nep_studio.blocks.own_gestures import TRIGGER, trained_gestures
 from nep_studio.blocks.program import Project
 from nep_studio.project.kept_files import (
@@ -31,6 +32,8 @@ from nep_studio.project.kept_files import (
 )
 
 VIRTUAL_WATCH = "sensory/virtual_watch"
+WATCHES = (WATCH, VIRTUAL_WATCH)
+"""What somebody wears, or seems to: of these one at a time gives the movements."""
 REPLAY = "sensory/replay"
 PROGRAM_NODE = "cognitive/program"
 """The node that runs a Python file; every session has one, and no page can have another."""
@@ -73,13 +76,17 @@ class Choices:
 
     ``speed``: how many times as fast the recording goes, or who wears a virtual watch, and how
     fast virtual robots act. What is real keeps its pace. ``virtual``: the real robots whose
-    parts those on the screen play.
+    parts those on the screen play. ``by_itself``: nobody is there to press a button, so that who
+    wears a virtual watch makes the gestures unasked. ``watch``: one that was left running, which
+    is used rather than a new one.
     """
 
     recording: Path | None = None
     speed: float = 1.0
     addresses: Mapping[str, str] = field(default_factory=dict)
     virtual: frozenset[str] = frozenset()
+    by_itself: bool = False
+    watch: PlannedNode | None = None
 
     def have_made(self, node: PlannedNode) -> bool:
         """Whether a node is as it is because a person has chosen so now."""
@@ -121,8 +128,11 @@ def check_for_pages(node: str, name: str) -> None:
     """Raise NotForPages for a node that no page can start."""
     if node == PROGRAM_NODE:
         raise NotForPages(
-            "The node “{name}” would run a Python file of its own.",
-            checklist=("Put the Python into blocks of the Behaviour page.", "Delete this node."),
+            "“{name}” would run a Python file of its own.",
+            checklist=(
+                "Put the Python into blocks of the Behaviour page.",
+                "Take it off the Nodes page.",
+            ),
             name=name,
         )
 
@@ -272,7 +282,8 @@ def _with_a_watch(
 ) -> list[PlannedNode]:
     """Give the gesture nodes something to look at: the recording, else a watch.
 
-    The virtual watch makes ``gestures``, those that the rules wait for.
+    A virtual watch that is to move by itself makes ``gestures``, those that the rules wait for;
+    any other waits until somebody asks.
     """
     if choices.recording is not None:
         settings: dict[str, Setting] = {
@@ -283,7 +294,27 @@ def _with_a_watch(
         others = [node for node in nodes if not node.is_sensory]
         return [*others, PlannedNode(REPLAY, "recording", settings, "it was asked for")]
     if gestures and not any(node.is_sensory for node in nodes):
-        schedule = {"gestures": ", ".join(gestures)}
-        reason = "somebody must make the gestures"
-        return [*nodes, PlannedNode(VIRTUAL_WATCH, "virtual_watch", schedule, reason)]
-    return nodes
+        nodes = [*nodes, _left(choices.watch) if choices.watch is not None else _watch(choices)]
+    return [_moving(node, gestures) for node in nodes]
+
+
+def _watch(choices: Choices) -> PlannedNode:
+    settings: dict[str, Setting] = {"by_itself": True} if choices.by_itself else {}
+    return PlannedNode(VIRTUAL_WATCH, "virtual_watch", settings, "somebody must make the gestures")
+
+
+def _left(watch: PlannedNode) -> PlannedNode:
+    """A watch that was left running; it is to make the gestures that the project has now."""
+    if watch.node != VIRTUAL_WATCH:
+        return watch
+    settings = {name: value for name, value in watch.parameters.items() if name != "takes"}
+    return replace(watch, parameters=settings, files=None)
+
+
+def _moving(node: PlannedNode, gestures: list[str]) -> PlannedNode:
+    """A virtual watch that moves by itself with what it makes; others as they are."""
+    if node.node != VIRTUAL_WATCH or not node.parameters.get("by_itself"):
+        return node
+    settings = {name: value for name, value in node.parameters.items() if name != "by_itself"}
+    made = settings.get("gestures") or ", ".join(gestures)
+    return replace(node, parameters={**settings, "gestures": made})

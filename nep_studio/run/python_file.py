@@ -26,7 +26,8 @@ def python_file(
     """
     code = generate_program(project, language).text
     kept = _kept_folder(file_name)
-    nodes = [_moved(node, kept) for node in plan(project, language, Choices(), folder)]
+    choices = Choices(by_itself=True)
+    nodes = [_moved(node, kept) for node in plan(project, language, choices, folder)]
     # The comment: commands that can be copied, each for a terminal of its own
     file = _word(file_name)
     sensors = [node for node in nodes if node.is_sensory]  # last: nothing they say is missed

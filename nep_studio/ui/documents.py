@@ -16,7 +16,8 @@ from nep_studio.blocks.edits.project import RenameProject
 from nep_studio.blocks.errors import BlocksError, ProjectFileError
 from nep_studio.blocks.files import from_bytes, load
 from nep_studio.blocks.language import Language
-from nep_studio.blocks.program import LANGUAGE, LANGUAGES, Block, Project
+from nep_studio.blocks.operations.fixes import append_entry
+from nep_studio.blocks.program import LANGUAGE, LANGUAGES, ROBOT_BLOCK, Block, Project
 from nep_studio.project.journal import Journal
 from nep_studio.project.picture_files import project_bytes_from
 from nep_studio.project.trust import Authorship, Brought, Concern, shared_approvals
@@ -152,8 +153,11 @@ def new_name() -> str:
 
 
 def new_document(language: Language, parent: QObject | None = None) -> Document:
-    """An empty project without a file."""
+    """A project without a file that has a robot on the screen, and no program yet."""
     project = Project(new_name())
+    # by an editor of its own: the robot is there from the beginning, and no undo takes it away
+    robot = {"name": language.profile.title}
+    append_entry(Editor(project, language), "robots", ROBOT_BLOCK, robot)
     if language_code() in LANGUAGES[1:]:  # its program tells values as the window does
         project.extra[LANGUAGE] = language_code()
     return Document(Editor(project, language), parent=parent)

@@ -1,8 +1,8 @@
-"""The place over the canvas where messages are shown, the newest below."""
+"""The place at the foot of the canvas where messages are shown, the newest below."""
 
 from __future__ import annotations
 
-from PySide6.QtCore import QEvent, QObject, QPoint, QSize, Qt, QTimer, Signal
+from PySide6.QtCore import QEvent, QObject, QPoint, QRect, QSize, Qt, QTimer, Signal
 from PySide6.QtGui import QColor, QGuiApplication, QKeyEvent, QPainter, QPaintEvent
 from PySide6.QtWidgets import (
     QApplication,
@@ -93,6 +93,8 @@ class MessageCard(QFrame):
         self.close_button.setIcon(icon("x", theme))
         self.close_button.setIconSize(icon_room(self.close_button.fontMetrics().height()))
         self.close_button.clicked.connect(self.closed)
+        if message.is_busy and message.answers:  # what goes on is not only hidden
+            self.close_button.clicked.connect(message.answers[-1].do)
         self.buttons: list[QPushButton] = []
         line = self.fontMetrics().height()
         size, kind, top = round(line * 1.3), message.kind, Qt.AlignmentFlag.AlignTop
@@ -109,7 +111,6 @@ class MessageCard(QFrame):
         if self.buttons:
             words.addLayout(in_row(*self.buttons, 1))
         in_row((sign, 0, top), (words, 1), (self.close_button, 0, top), of=self, spacing=line // 2)
-        self.close_button.setVisible(not message.is_busy)
 
     def changeEvent(self, event: QEvent) -> None:
         """Take the room that the words need in another font."""
@@ -146,14 +147,28 @@ WIDEST_LETTERS = 64
 
 
 class MessageArea(QWidget):
-    """Lies over the upper edge of ``host``; it takes no room from it and moves nothing."""
+    """Lies over the foot of ``host``; it takes no room from it and moves nothing.
+
+    ``covers`` tells how many pixels of the foot it lies over now; ``shown`` that a card has come.
+    """
+
+    covers = Signal(int)
+    shown = Signal()
 
     def __init__(self, look: Look, host: QWidget) -> None:
         super().__init__(host)
         self._look, self._host = look, host
+        self._ground = host
+        host.installEventFilter(self)
         self.cards: list[MessageCard] = []
         self._box = QVBoxLayout(self)
         self.hide()
+
+    def lie_over(self, ground: QWidget) -> None:
+        """Lie over this part of the host as long as it is shown."""
+        self._ground = ground
+        ground.installEventFilter(self)
+        self._place()
 
     def show_message(self, message: Message) -> None:
         """Add a card; one that says the same is shown once."""
@@ -171,9 +186,16 @@ class MessageArea(QWidget):
             timer.setInterval(max(LEAST_READ_MS, len(message.spoken) * READ_MS_PER_LETTER))
             timer.timeout.connect(lambda: self._pass_away(card, timer))
             timer.start()
-        self._host.installEventFilter(self)
         self.show()
         self._place()
+        self.shown.emit()
+
+    def close_newest(self) -> bool:
+        """Close the newest card; False when there is none."""
+        if not self.cards:
+            return False
+        self.cards[-1].close_button.click()
+        return True
 
     def withdraw(self, message: Message) -> None:
         """Take the card of a message away."""
@@ -186,8 +208,8 @@ class MessageArea(QWidget):
             self._remove(card)
 
     def eventFilter(self, watched: QObject, event: QEvent) -> bool:
-        """Stay at the upper edge of the host."""
-        if watched is self._host and event.type() == QEvent.Type.Resize:
+        """Stay at the foot of what it lies over."""
+        if event.type() in _MOVES:
             self._place()
         return False
 
@@ -215,8 +237,7 @@ class MessageArea(QWidget):
 
     def keyPressEvent(self, event: QKeyEvent) -> None:
         """Esc closes the newest card."""
-        if event.key() == Qt.Key.Key_Escape and self.cards:
-            self._remove(self.cards[-1])
+        if event.key() == Qt.Key.Key_Escape and self.close_newest():
             return
         super().keyPressEvent(event)
 
@@ -234,31 +255,37 @@ class MessageArea(QWidget):
         self._box.removeWidget(card)
         card.hide()
         card.deleteLater()
-        if not self.cards:
-            self._host.removeEventFilter(self)
         self.setVisible(bool(self.cards))
         self._place()
 
     def _place(self) -> None:
         if not self.cards:
+            self.covers.emit(0)
             return
+        ground = self._ground if self._ground.isVisible() else self._host
+        view = QRect(ground.mapTo(self._host, QPoint()), ground.size())
         widest = self.fontMetrics().averageCharWidth() * WIDEST_LETTERS
-        width = min(self._host.width(), widest)
+        width = min(view.width(), widest)
         # Older cards wait until newer ones are closed: squeezed together, none could be read
         margins = self._box.contentsMargins()
         inside = width - margins.left() - margins.right()
-        room = self._host.height() - margins.top() - margins.bottom()
+        room = view.height() - margins.top() - margins.bottom()
         for card in reversed(self.cards):
             has_room = card is self.cards[-1] or room >= card.heightForWidth(inside)
             card.setHidden(not has_room)
             room = room - card.heightForWidth(inside) - self._box.spacing() if has_room else 0
         height = self._box.heightForWidth(width) if self._box.hasHeightForWidth() else -1
-        height = min(max(height, self._box.sizeHint().height() if height < 0 else height), 10_000)
-        left = (self._host.width() - width) // 2
-        self.setGeometry(left, 0, width, min(height, self._host.height()))
-        self.move(QPoint(left, 0))
+        height = min(self._box.sizeHint().height() if height < 0 else height, view.height())
+        # At the side where reading begins: in the other corner are the trash and the small map
+        is_mirrored = self.layoutDirection() == Qt.LayoutDirection.RightToLeft
+        left = view.right() + 1 - width if is_mirrored else view.left()
+        self.setGeometry(left, view.bottom() + 1 - height, width, height)
         self.raise_()
         self.update()
+        self.covers.emit(height if ground is self._ground else 0)
+
+
+_MOVES = (QEvent.Type.Resize, QEvent.Type.Move, QEvent.Type.Show, QEvent.Type.Hide)
 
 
 # A question that must be answered: a dialog with the answers as buttons.

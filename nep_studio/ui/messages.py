@@ -44,7 +44,8 @@ class Message:
     """What happened and what to do.
 
     One that ``passes`` goes by itself after it could be read; one that ``is_busy`` tells of
-    something that goes on, until it is withdrawn.
+    something that goes on, until it is withdrawn. All go with the project that is open, but one
+    that ``outlives_project``: it is about the window, the computer or its network.
     """
 
     kind: Kind
@@ -55,6 +56,7 @@ class Message:
     answers: tuple[Answer, ...] = ()
     passes: bool = False
     is_busy: bool = False
+    outlives_project: bool = False
 
     @property
     def spoken(self) -> str:
@@ -143,6 +145,12 @@ class Messages(QObject):
         """Take a message away."""
         if self._place is not None:
             self._place.withdraw(message)
+
+    def leave_project(self) -> None:
+        """Take away what was told of a project that is open no more."""
+        for told in self.history:
+            if not (told.message.outlives_project or told.message.is_busy):
+                self.withdraw(told.message)
 
     def ask(self, message: Message) -> None:
         """Ask a question that must be answered before the work goes on; Esc is the last answer."""

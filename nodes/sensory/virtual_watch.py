@@ -67,16 +67,20 @@ class Repertoire:
 
     own: dict[str, OwnGesture]
 
+    @property
+    def names(self) -> tuple[str, ...]:
+        """All of them."""
+        return tuple(dict.fromkeys((*self.own, *GESTURES)))
+
     def find(self, name: str) -> Movement:
         """The gesture of this name; ParameterError names the known ones."""
         found = self.own.get(name) or GESTURES.get(name)
         if found is None:
-            known = dict.fromkeys((*self.own, *GESTURES))
             raise ParameterError(
                 'The simulated person knows no gesture "{name}".',
                 checklist=("Choose one of: {known}.",),
                 name=name,
-                known=", ".join(known),
+                known=", ".join(self.names),
             )
         return found
 
@@ -445,6 +449,7 @@ def run(
     rate_hz: float,
     person: int,
     gestures: str,
+    by_itself: bool,
     repeat: bool,
     seed: int,
     speed: float,
@@ -457,10 +462,12 @@ def run(
     watch's clock goes.
 
     ``node`` is this node, ``rate_hz`` how often it measures, ``person`` who wears it,
-    ``gestures`` the schedule, ``repeat`` whether it begins anew at its end, ``seed`` that of
-    the chance.
+    ``gestures`` the schedule, ``by_itself`` whether an empty one stands for all gestures,
+    ``repeat`` whether it begins anew at its end, ``seed`` that of the chance.
     """
     repertoire = read_repertoire(takes)
+    if by_itself and not gestures.strip():
+        gestures = ", ".join(repertoire.names)
     schedule = Schedule(read_schedule(gestures, repertoire.find), repeat=repeat)
     watch = _Watch(node, rate_hz, person, seed, repertoire)
     publisher = node.publisher(IMU)

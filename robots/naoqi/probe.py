@@ -15,7 +15,7 @@ from .client.session import Session, numeric_hosts
 from .discovery import Address, plain_address, read_address
 from .driver import link
 from .driver.link import NEEDED, open_session
-from .wire.errors import LoginRefused, NaoqiError, NeedsTls, NoAnswer
+from .wire.errors import LoginRefused, NaoqiError, NeedsTls, UnknownAddress
 from .wire.line import Login
 
 StepName = Literal["name", "port", "naoqi", "login", "services", "robot"]
@@ -116,13 +116,8 @@ def _resolve(address: Address, robot: str) -> str:
     host, _ = address
     try:
         return numeric_hosts(host, time.monotonic() + LIMIT_S)[0]
-    except NoAnswer as error:
-        steps = (
-            "Is the name written right? Press the robot's chest button once: it says its address.",
-            text_of("Is this computer on the same network as {robot}?", robot=robot),
-        )
-        sentence = text_of("Nobody in this network knows the address {host}.", host=host)
-        raise _Failed(Check("name", False, sentence, steps)) from error
+    except UnknownAddress as error:
+        raise _failed("name", link.unknown_address(robot=robot, place=host)) from error
 
 
 def _connect(address: Address, login: Login | None, robot: str) -> Session:

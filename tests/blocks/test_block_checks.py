@@ -92,23 +92,29 @@ def test_a_choice_that_the_robot_does_not_have_is_told(language):
         generate_program(editor.project, language)
 
 
-def test_a_gesture_that_no_node_recognises_can_be_launched(language):
-    editor = sound(language, [B("event.gesture", {"gesture": "katana"}), WAIT])
+def test_a_gesture_that_nothing_knows_is_told_of(language):
+    editor = sound(language, [B("event.gesture", {"gesture": "juggle"}), WAIT])
 
     problem = only(editor, language)
 
     assert problem.severity == "warning" and problem.kind == "gesture_unrecognised"
-    assert problem.fix.name == "add_gesture_node" and problem.fix.data == {"gesture": "katana"}
+    assert problem.fix is None
 
 
-def test_a_question_about_a_gesture_needs_its_node_too(language):
-    asked = B("sensing.human_state_is", {"state": "gesture_wave"})
+def test_a_gesture_for_which_run_adds_what_recognises_it_is_no_problem(language):
+    editor = sound(language, [B("event.gesture", {"gesture": "katana"}), WAIT])
+
+    assert check(editor.project, language) == []
+
+
+def test_a_question_about_a_gesture_needs_somebody_who_knows_it_too(language):
+    asked = B("sensing.human_state_is", {"state": "gesture_juggle"})
     until = B("control.wait_until", inputs={"condition": asked})
     editor = sound(language, [B("event.started"), until])
 
-    assert only(editor, language).fix.data == {"gesture": "wave"}
+    assert only(editor, language).kind == "gesture_unrecognised"
     assert names_used(editor.project, language, "gesture") == {
-        "wave": block_of(editor, "sensing.human_state_is")
+        "juggle": block_of(editor, "sensing.human_state_is")
     }
 
 

@@ -159,16 +159,12 @@ def _seen(newcomer: Newcomer, blocks: list[str]) -> list[str]:
 def _make_a_rule(newcomer: Newcomer) -> None:
     """Begin anew, and drag “when the program starts” and “NAO says” out of the palette."""
     newcomer.window.files.new()
-    newcomer.qtbot.waitUntil(lambda: not newcomer.project.blocks)
+    newcomer.qtbot.waitUntil(lambda: not newcomer.project.pages["behaviour"])
     newcomer.look_at_corner()
     newcomer.from_palette("event.started", QPoint(120, 80))
     hat = newcomer.body()[0]
     newcomer.from_palette("robot.say", newcomer.foot(hat) + QPoint(40, 14))
     assert len(newcomer.body()) == 2
-    if not newcomer.project.pages["robots"]:
-        newcomer.canvas.show_page("robots")
-        newcomer.from_palette("robots.robot", QPoint(120, 80))
-        newcomer.canvas.show_page("behaviour")
 
 
 def _break_it(newcomer: Newcomer) -> None:

@@ -16,7 +16,7 @@ from nep_studio import paths
 from nep_studio.ui import words
 from nep_studio.ui.words import available_languages, tr, use_language
 
-NO_GESTURE = "No node of the Nodes page recognises the gesture “{gesture}”."
+NO_GESTURE = "Nothing recognises the gesture “{gesture}” yet."
 
 
 @pytest.fixture(autouse=True)
@@ -30,7 +30,7 @@ def english_again() -> Iterator[None]:
     [
         (
             Text(NO_GESTURE, {"gesture": "wave"}),
-            "Ningún nodo de la página Nodos reconoce el gesto “wave”.",
+            "Nada reconoce todavía el gesto “wave”.",
         ),
         (
             Text(

@@ -230,10 +230,10 @@ def test_the_sentences_of_checks_and_refusals_are_found() -> None:
     found = messages()
 
     assert {
-        "No node of the Nodes page recognises the gesture “{gesture}”.",
+        "Nothing recognises the gesture “{gesture}” yet.",
         "This place needs {noun}, and “{block_name}” gives {result}.",
         "{file_name} is not a NEP Studio project.",
-        "Recognise “{gesture}”",
+        "Choose “{choice}”",
         "This project cannot be used",
     } <= found
 

@@ -75,18 +75,17 @@ def _missing_robots(language: Language, listed: set[str], uses: Uses) -> Iterato
 def _unrecognised_gestures(
     project: Project, language: Language, nodes: tuple[NodeEntry, ...], uses: Uses
 ) -> Iterator[Diagnostic]:
+    """Gestures that nothing knows yet: for those that are known, Run adds what recognises them."""
     shipped = language.choices.get("gestures", {})
     own, trained = own_gestures(project), trained_gestures(project)
     for (kind, gesture), (block, _) in uses.items():
         if kind != "gesture" or gesture in trained or not gesture.strip():
-            continue  # the project's own recogniser is started with the program
+            continue
         if gesture in own:
             title = own[gesture].title
             yield found("gesture_untrained", project, language, block, title=title)
-        elif not is_recognised(gesture, nodes, shipped, trained):
-            label = text_of("Recognise “{gesture}”", gesture=gesture)
-            fix = Fix("add_gesture_node", label, {"gesture": gesture})
-            yield found("gesture_unrecognised", project, language, block, fix, gesture=gesture)
+        elif gesture not in shipped and not is_recognised(gesture, nodes, shipped, trained):
+            yield found("gesture_unrecognised", project, language, block, gesture=gesture)
 
 
 # Checks of what a block asks of its robot: each kind of robot has its own postures and animations.

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Container, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from typing import Any, Literal, get_args
 
@@ -41,6 +41,25 @@ class Diagnostic:
     sentence: Words
     checklist: tuple[Words, ...] = ()
     fix: Fix | None = None
+
+
+AT_FIRST = frozenset(("no_rule",))
+"""What every program lacks at first, by kind: it is news to nobody who has just begun."""
+
+
+def in_time(
+    problems: Iterable[Diagnostic], made: Container[str], *, is_asked: bool
+) -> list[Diagnostic]:
+    """Those that are told while somebody works; ``made`` are the blocks that are just being made.
+
+    What such a block lacks, the person is about to give it. Once somebody ``is_asked`` how it is,
+    as by Run, the program is told of as a whole, too.
+    """
+    return [
+        problem
+        for problem in problems
+        if problem.block not in made and (is_asked or problem.kind not in AT_FIRST)
+    ]
 
 
 Found = Iterator[Diagnostic | None]
@@ -150,7 +169,7 @@ SORTS = {
     ),
     # robots and nodes
     "same_name": Sort(
-        "error", "Two robots or nodes are called “{name}”.", ("Give each a name of its own.",)
+        "error", "Two parts of this project are called “{name}”.", ("Give each a name of its own.",)
     ),
     "robot_lacks": Sort(
         "error",
@@ -167,8 +186,8 @@ SORTS = {
     ),
     "gesture_unrecognised": Sort(
         "warning",
-        "No node of the Nodes page recognises the gesture “{gesture}”.",
-        ("Launch a gesture node for it on the Nodes page.",),
+        "Nothing recognises the gesture “{gesture}” yet.",
+        ("Teach it in the panel Gestures.", "Or choose another gesture in this block."),
     ),
     "gesture_untrained": Sort(
         "warning",

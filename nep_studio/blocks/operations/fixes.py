@@ -7,7 +7,6 @@ from collections.abc import Callable, Iterator, Mapping
 
 from nep_studio.blocks.checks.diagnostic import Diagnostic
 from nep_studio.blocks.deployment import (
-    GESTURE_NODE,
     NODE_BLOCK,
     NodeEntry,
     node_entries,
@@ -41,16 +40,6 @@ def apply_fix(editor: Editor, problem: Diagnostic) -> str:
 
 def _add_robot(editor: Editor, data: Data) -> str:
     return append_entry(editor, "robots", ROBOT_BLOCK, {"name": data["name"]})
-
-
-def _add_gesture_node(editor: Editor, data: Data) -> str:
-    gesture = data["gesture"]
-    fields: dict[str, FieldValue] = {
-        "node": GESTURE_NODE,
-        "name": free_name(editor, gesture),
-        "parameters": {"gesture": gesture},
-    }
-    return append_entry(editor, "nodes", NODE_BLOCK, fields)
 
 
 def _add_wait(editor: Editor, data: Data) -> str:
@@ -121,7 +110,6 @@ def free_name(editor: Editor, wanted: str) -> str:
 
 FIXES: dict[str, Callable[[Editor, Data], str]] = {
     "add_robot": _add_robot,
-    "add_gesture_node": _add_gesture_node,
     "add_wait": _add_wait,
     "stand_first": _stand_first,
     "let_robot": _let_robot,

@@ -29,6 +29,8 @@ class Sight:
         self._is_scrolling = False
         self._width = 0
         """Of the viewport when the camera was last put where it is."""
+        self.covered = 0
+        """So many pixels of its foot lie under something: what is to be seen goes above them."""
 
     # What is where
 
@@ -96,7 +98,8 @@ class Sight:
         seen = self.visible_page_rect()
         margin = 24.0 / self.camera.scale
         dx = _shift(seen.x + margin, seen.right - margin, rect.x, rect.right)
-        dy = _shift(seen.y + margin, seen.bottom - margin, rect.y, rect.bottom)
+        foot = seen.bottom - margin - self.covered / self.camera.scale
+        dy = _shift(seen.y + margin, foot, rect.y, rect.bottom)
         if dx or dy:
             self.move_camera(self.camera.x + dx, self.camera.y + dy)
 

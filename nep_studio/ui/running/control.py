@@ -18,6 +18,7 @@ from nep_studio.blocks.errors import CodeRefused
 from nep_studio.blocks.generate.source_map import Code
 from nep_studio.blocks.program import ON_ERROR, Changes, Project
 from nep_studio.problems import Problem
+from nep_studio.project.triggers import Kind, Occurrence, occurrences_of
 from nep_studio.project.trust import Concern
 from nep_studio.run.controller import (
     BecameStale,
@@ -27,12 +28,11 @@ from nep_studio.run.controller import (
     Event,
     NeedsApproval,
     Refused,
-    StateChanged,
     Subject,
     Troubled,
 )
 from nep_studio.run.gate import concerns_of
-from nep_studio.run.plan import Choices, PlannedNode
+from nep_studio.run.plan import VIRTUAL_WATCH, WATCHES, Choices, PlannedNode
 from nep_studio.ui.edits import edits_of
 from nep_studio.ui.messages import Answer, Message
 from nep_studio.ui.words import tr
@@ -69,6 +69,8 @@ class RunControl(QObject):
         self._virtual: frozenset[str] = frozenset()
         """The real robots that the one on the screen stands in for."""
         self._document: Document | None = None
+        self._ran: Document | None = None
+        """What was open when the program was started."""
         self._plan: tuple[Subject, list[PlannedNode]] | None = None
         """The nodes of the open project, as it was when it was settled or somebody asked."""
         self._is_settled = False
@@ -81,7 +83,10 @@ class RunControl(QObject):
         """What was told of a project that brings more than blocks."""
         self._told_of_end: Message | None = None
         """What went wrong with the last run; it is over when the next one begins."""
+        self._away: set[str] = set()
+        """The robots that did not answer when something was last heard of the way to them."""
         self.runner.told.connect(self._on_told)
+        self.runner.nodes_changed.connect(self._on_nodes_changed)
         self.runner.approval_needed.connect(self._on_approval_needed)
         self.runner.keep_own = self._keep_own
         self.asks_over: QWidget | None = None
@@ -175,9 +180,8 @@ class RunControl(QObject):
         document = self._host.services.document
         if document is None:
             return []
-        choices = Choices(virtual=self._virtual)
         language = self._host.services.language
-        subject = Subject(document.project, language, document.folder, choices)
+        subject = Subject(document.project, language, document.folder, self._choices())
         if self._plan is None or self._plan[0] != subject or not self._is_settled:
             self._plan = subject, subject.nodes()
         return list(self._plan[1])
@@ -210,7 +214,8 @@ class RunControl(QObject):
         self.runner.run()
 
     def show_needs(self) -> None:
-        """List what the program needs, and what is there of it."""
+        """List what the program needs of the person."""
+        self._host.workbench.checks.ask()
         NeedsDialog(self._host, self).open()
 
     def stop(self) -> None:
@@ -228,12 +233,26 @@ class RunControl(QObject):
             return None
         self._keep_own()
         workbench, language = self._host.workbench, self._host.services.language
-        choices = Choices(virtual=self._virtual)
-        subject = Subject(document.project, language, document.folder, choices)
+        subject = Subject(document.project, language, document.folder, self._choices())
         is_in_order, code = workbench.checks.is_in_order, workbench.code.live.program
         is_planned = self._plan is not None and self._plan[0] == subject and self._is_settled
         known = self._plan[1] if self._plan is not None and is_planned and is_in_order else None
         return replace(subject, is_in_order=is_in_order, code=code, known=known)
+
+    def _choices(self) -> Choices:
+        """Who stands in for what, and the watch that somebody has left running."""
+        tried = self.runner.told_elsewhere
+        running = (node for node in self.runner.local.running if node.name not in tried)
+        left = (node for node in running if node.node in WATCHES)
+        return Choices(virtual=self._virtual, watch=next(left, None))
+
+    def _stop_other_watches(self, nodes: Sequence[PlannedNode]) -> None:
+        """Let no simulated person move who was left beside the watch of the program."""
+        wanted = {node.name for node in nodes if node.is_sensory}
+        left = [one.name for one in self.runner.local.running if one.node == VIRTUAL_WATCH]
+        for name in left if wanted else ():
+            if name not in wanted:
+                self.runner.stop_node(name)
 
     def _keep_own(self) -> None:
         if self._document is not None:
@@ -283,24 +302,27 @@ class RunControl(QObject):
             case NeedsApproval(concerns, subject, request):
                 self._ask(concerns, lambda: self.runner.begin(subject, request))
             case Begun(request):
+                self._ran = self._document
                 # Nothing is known of the program yet, and nothing of the last one counts any more
                 messages = self._host.services.messages
                 self._host.workbench.show_run_problem(None)
+                self._host.workbench.checks.ask()
                 messages.clear_passing()
                 while self._troubles:
                     messages.withdraw(self._troubles.popitem()[1])
                 if self._told_of_end is not None:
                     messages.withdraw(self._told_of_end)
                     self._told_of_end = None
+                self._stop_other_watches(request.nodes)
+                if request.is_shown:
+                    self._show_who_acts(request.nodes)
                 # blocks that are not on the canvas may have the names of others there
                 self.stage.begin(request.code if request.is_shown else Code("", ()))
-            case StateChanged("running"):
-                self._show_robots()
             case BecameStale():
                 self.became_stale.emit()
-            case Troubled(problem, line, is_error):
+            case Troubled(problem, line, is_error) if self._ran is self._document:
                 self._tell_trouble(problem, line, is_error)
-            case Ended(runs_again=False):
+            case Ended(runs_again=False) if self._ran is self._document:
                 self._tell_end(event)
 
     def _on_approval_needed(self, concerns: Sequence[Concern], start: Callable[[], object]) -> None:
@@ -330,14 +352,16 @@ class RunControl(QObject):
         project = self._document.project
         return {page: page_title(project, page) for page in project.pages}
 
-    def _show_robots(self) -> None:
-        """Let a person who has never shown nor hidden the robots see them at the first run."""
-        host = self._host
-        if not any("robot" in one.parameters for one in self.planned()):
+    def _show_who_acts(self, nodes: Sequence[PlannedNode]) -> None:
+        """Show the robots, and what is done by hand when the program waits for that."""
+        if any("robot" in node.parameters for node in nodes):
+            self._host.ask("robots.show")
+        document = self._host.services.document
+        if document is None:
             return
-        for panel in host.workbench.panels.all:
-            if panel.name == "RobotsPanel" and not host.services.settings.is_chosen(panel.name):
-                host.show_panel(panel.widget)
+        waits_for = occurrences_of(document.project, document.editor.language)
+        if any(_is_by_hand(one, nodes) for one in waits_for):
+            self._host.ask("person.show")
 
     # How it goes on, and how it ended
 
@@ -367,10 +391,27 @@ class RunControl(QObject):
             self._mark(block, problem)
             workbench = self._host.workbench
             answers.insert(0, Answer(tr("Show the block"), lambda: workbench.show_block(block)))
-        if not end.had_begun and any(map(is_real, self.planned())):
-            answers.insert(0, Answer(tr("Use the robot on the screen"), self.use_simulator))
+        answers = [*self._ways_to_a_robot(had_begun=end.had_begun), *answers]
         messages.tell_problem(problem, *answers)
         self._told_of_end = messages.history[-1].message
+
+    def _ways_to_a_robot(self, *, had_begun: bool) -> list[Answer]:
+        """What helps when a real robot was not there, or has gone."""
+        real = [node.name for node in self.planned() if is_real(node)]
+        meant = [name for name in real if name in self._away] or ([] if had_begun else real)
+        if not meant:
+            return []
+        use = Answer(tr("Use the robot on the screen"), self.use_simulator)
+        find = tr("Find it and test the connection")
+        return [use, Answer(find, lambda: self._host.ask("connecting.open", meant[0]))]
+
+    def _on_nodes_changed(self, names: Sequence[str]) -> None:
+        for name in names:
+            status = self.runner.board.nodes.get(name)
+            if status is not None and status.event == "connection_failed":
+                self._away.add(name)
+            elif status is not None and status.is_there:
+                self._away.discard(name)
 
     def _mark(self, block: str, problem: Problem, severity: Severity = "error") -> None:
         """Show the sentence at the block that failed."""
@@ -380,3 +421,17 @@ class RunControl(QObject):
         shown = Diagnostic("error", "run", page, block, sentence, steps)
         workbench.show_run_problem(replace(shown, severity=severity))
         workbench.show_block(block)
+
+
+BY_A_PERSON: frozenset[Kind] = frozenset(
+    ("word", "face", "distance", "touch", "gesture", "ball", "mark", "sound", "emotion", "state")
+)
+"""What somebody does before a robot; the rest is measured, or happens by itself."""
+
+
+def _is_by_hand(what: Occurrence, nodes: Sequence[PlannedNode]) -> bool:
+    """Whether the person at this computer does it: no real robot, no watch is there for it."""
+    if what.kind == "gesture":
+        virtual = (node for node in nodes if node.node == VIRTUAL_WATCH)
+        return any(not node.parameters.get("gestures") for node in virtual)
+    return what.kind in BY_A_PERSON and not any(is_real(node) for node in nodes)

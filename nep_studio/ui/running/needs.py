@@ -1,8 +1,7 @@
-"""What a program needs before it can run: as data, and as a dialog with a button for each thing."""
+"""What a person has to do before a program can run: as data, and as a dialog with buttons."""
 
 from __future__ import annotations
 
-import socket
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
@@ -22,9 +21,7 @@ from PySide6.QtWidgets import (
 
 from nep_studio.blocks.checks.diagnostic import Diagnostic
 from nep_studio.blocks.deployment import rules
-from nep_studio.blocks.errors import EditRefused
 from nep_studio.blocks.operations.fixes import add_start
-from nep_studio.run.node_board import NodeStatus
 from nep_studio.run.plan import PlannedNode
 from nep_studio.ui.background import Background
 from nep_studio.ui.theme.icons import icon, icon_room
@@ -34,16 +31,12 @@ from nep_studio.ui.words import tr
 
 if TYPE_CHECKING:
     from nep_studio.ui.host import Host
+    from robots.naoqi.probe import Check
 
     from .control import RunControl
 
-NAOQI_PORT = 9559
-PROBE_S = 1.5
-
-State = Literal["met", "automatic", "looking", "missing"]
-FixName = Literal[
-    "add_start", "fix_problem", "show_block", "start_node", "simulator", "address", "connect"
-]
+State = Literal["looking", "missing"]
+FixName = Literal["add_start", "fix_problem", "show_block", "simulator", "connect"]
 
 
 @dataclass(frozen=True)
@@ -56,9 +49,9 @@ class NeedFix:
 
 @dataclass(frozen=True)
 class Need:
-    """Something a program needs.
+    """Something that a person has to do before a program can run.
 
-    ``automatic``: not there yet, but Run starts it. ``block`` and ``node`` are what it is about.
+    A robot is ``looking`` as long as it is not known. ``block`` and ``node`` are what it is about.
     """
 
     state: State
@@ -73,17 +66,15 @@ class Need:
 def needs_of(
     problems: Sequence[Diagnostic],
     nodes: Sequence[PlannedNode],
-    board: Mapping[str, NodeStatus],
-    answers: Mapping[str, bool],
+    answers: Mapping[str, Check | None],
     *,
     has_rules: bool,
-    is_connected: bool,
     strange: Collection[str] = (),
 ) -> list[Need]:
-    """All needs, those that are missing first.
+    """What a person has to do, each thing once; what Run does by itself is none of it.
 
-    ``answers`` tells whether a real robot answered at its address; a robot that is not in there
-    is still looked for. Nobody has approved the nodes called ``strange`` yet.
+    ``answers`` tells what stands in the way to a real robot, None where it answers; one that is
+    not in there is still looked for. Nobody has approved the nodes called ``strange`` yet.
     """
     errors = [problem for problem in problems if problem.severity == "error"]
     needs = [_problem(problem) for problem in errors if problem.kind != "no_rule"]
@@ -92,16 +83,15 @@ def needs_of(
         title = tr("Something to do")
         sentence = tr("Nothing happens yet: every program begins with a block that says when.")
         needs.append(Need("missing", title, sentence, (fix,)))
-    needs.append(_master(is_connected))
-    for node in nodes:
-        status = board.get(node.name)
-        if node.name in strange:
-            title, told = tr("The node {name}", name=node.name), tr("Run asks you about it first.")
-            needs.append(Need("automatic", title, told, block=node.block_id, node=node))
-            continue
-        needs.append(_robot(node, answers) if is_real(node) else _node(node, status))
-    order: dict[State, int] = {"missing": 0, "looking": 1, "automatic": 2, "met": 3}
-    return sorted(needs, key=lambda need: order[need.state])
+    told = {problem.block for problem in errors} - {""}
+    needs += [
+        need
+        for node in nodes
+        if is_real(node) and node.name not in strange and node.block_id not in told
+        if (need := _robot(node, answers)) is not None
+    ]
+    once = {(need.title, need.fixes): need for need in reversed(needs)}
+    return sorted(reversed(once.values()), key=lambda need: need.state == "looking")
 
 
 def is_real(node: PlannedNode) -> bool:
@@ -109,14 +99,21 @@ def is_real(node: PlannedNode) -> bool:
     return node.parameters.get("driver") == "naoqi"
 
 
-def answers_at(address: str) -> bool:
-    """Whether something answers at a robot's address; waits a moment for it."""
-    host, _, port = address.strip().partition(":")
-    try:
-        with socket.create_connection((host, int(port or NAOQI_PORT)), PROBE_S):
-            return True
-    except (OSError, ValueError, OverflowError):
-        return False
+def in_the_way_to(robot: str, address: str) -> Check | None:
+    """The step that fails on the way to a robot, as the dialog that connects one tells it.
+
+    None when the robot answers and lets us in. Takes some seconds.
+    """
+    from robots.naoqi.discovery import saved_login
+    from robots.naoqi.probe import probe
+    from robots.naoqi.wire.line import Login
+
+    saved = saved_login(address)
+    login = Login(saved.user, saved.password) if saved is not None else None
+    for check in probe(address, login, robot):
+        if not check.is_ok or check.step == "login":
+            return None if check.is_ok else check
+    return None
 
 
 def _problem(problem: Diagnostic) -> Need:
@@ -127,48 +124,26 @@ def _problem(problem: Diagnostic) -> Need:
     return Need("missing", tr(problem.sentence), steps, tuple(fixes), problem.block, None, problem)
 
 
-def _master(is_connected: bool) -> Need:
-    if is_connected:
-        return Need("met", tr("The NEP master"), tr("It runs: the nodes can find each other."))
-    sentence = tr("It brings the nodes together. Run starts it.")
-    return Need("automatic", tr("The NEP master"), sentence)
-
-
-def _node(node: PlannedNode, status: NodeStatus | None) -> Need:
-    title = tr("The node {name}", name=node.name)
-    reason = tr(node.reason) if node.reason else ""
-    if status is not None and status.is_there:
-        return Need("met", title, tr("It runs."), node=node)
-    start = NeedFix("start_node", tr("Start it now"))
-    told = tr("Run starts it.")
-    words = f"{reason[:1].upper()}{reason[1:]}. {told}" if reason else told
-    return Need("automatic", title, words, (start,), node.block_id, node)
-
-
-def _robot(node: PlannedNode, answers: Mapping[str, bool]) -> Need:
-    address = str(node.parameters.get("address", ""))
-    title = tr("The robot {name} at {address}", name=node.name, address=address)
+def _robot(node: PlannedNode, answers: Mapping[str, Check | None]) -> Need | None:
+    """What has to be done about a real robot; None when it answers."""
     if node.name not in answers:
+        address = str(node.parameters.get("address", ""))
+        title = tr("The robot {name} at {address}", name=node.name, address=address)
         return Need("looking", title, tr("Looking whether it answers…"), node=node)
-    if answers[node.name]:
-        return Need("met", title, tr("It answers."), node=node)
-    sentence = tr(
-        "It does not answer. Is it switched on, and in the same network as this computer?"
-        " Press its chest button once: it says its address."
-    )
+    check = answers[node.name]
+    if check is None:
+        return None
     fixes = (
         NeedFix("simulator", tr("Use the robot on the screen")),
         NeedFix("connect", tr("Find it and test the connection")),
-        NeedFix("address", tr("Change the address")),
     )
-    return Need("missing", title, sentence, fixes, node.block_id, node)
+    steps = " ".join(map(tr, check.checklist))
+    return Need("missing", tr(check.sentence), steps, fixes, node.block_id, node)
 
 
 # The dialog that lists what a program needs, with a button for each thing that is missing.
 
 LOOKS = {
-    "met": ("circle-check", "success"),
-    "automatic": ("clock", "info"),
     "looking": ("refresh-cw", "muted"),
     "missing": ("circle-alert", "error"),
 }
@@ -182,10 +157,10 @@ class NeedsDialog(QDialog):
         self.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
         self.setWindowTitle(tr("What the program needs"))
         self._host, self._control = host, control
-        self._answers: dict[str, bool] = {}
+        self._answers: dict[str, Check | None] = {}
         self._asked: set[tuple[str, str]] = set()
         self._background = Background(self)
-        self.needs: list[Need] = []
+        self.needs: list[Need] | None = None
         line = self.fontMetrics().height()
         self._headline = QLabel(wordWrap=True)
         self._headline.setProperty("role", "title")
@@ -203,10 +178,8 @@ class NeedsDialog(QDialog):
         in_column(
             self._headline, (self._scroll, 1), buttons, of=self, margins=line, spacing=line // 2
         )
-        self.resize(line * 34, line * 26)
         host.workbench.checks.found.connect(self.refresh)
-        control.runner.nodes_changed.connect(self.refresh)
-        control.runner.connected.connect(self.refresh)
+        control.runner.state_changed.connect(self._show)
         self.refresh()
 
     def refresh(self) -> None:
@@ -218,14 +191,12 @@ class NeedsDialog(QDialog):
         nodes = self._control.planned()
         strange = self._control.runner.strange(nodes)
         self._ask([node for node in nodes if node.name not in strange])
-        language, runner = self._host.services.language, self._control.runner
+        language = self._host.services.language
         needs = needs_of(
             self._host.workbench.checks.problems,
             nodes,
-            runner.board.nodes,
             self._answers,
             has_rules=next(rules(document.project, language), None) is not None,
-            is_connected=runner.is_connected,
             strange=strange,
         )
         if needs != self.needs:
@@ -240,21 +211,27 @@ class NeedsDialog(QDialog):
                 self._asked.add((node.name, address))
                 self._answers.pop(node.name, None)
                 told = partial(self._on_answer, node.name)
-                self._background.start(partial(answers_at, address), told, name=node.name)
+                look = partial(in_the_way_to, node.name, address)
+                self._background.start(look, told, name=node.name)
 
-    def _on_answer(self, name: str, is_there: bool) -> None:
-        self._answers[name] = is_there
+    def _on_answer(self, name: str, check: Check | None) -> None:
+        self._answers[name] = check
         self.refresh()
 
-    def _show(self) -> None:
-        missing = any(need.state == "missing" for need in self.needs)
-        ready = tr("Everything is there: the program can run.")
-        self._headline.setText(tr("Before it can run, this is needed:") if missing else ready)
+    def _show(self, _state: object = None) -> None:
+        needs = self.needs or []
+        missing = any(need.state == "missing" for need in needs)
+        if missing:
+            self._headline.setText(tr("Before it can run, this is needed:"))
+        else:
+            self._headline.setText(tr("You need to do nothing: the program can run."))
         self.run_button.setEnabled(not missing and self._control.runner.state == "idle")
         inner, line = QWidget(), self.fontMetrics().height()
-        rows = [self._row(need, line) for need in self.needs]
+        rows = [self._row(need, line) for need in needs]
         in_column(*rows, 1, of=inner, margins=(0, 0, line // 2, 0), spacing=line // 2)
         self._scroll.setWidget(inner)
+        self._scroll.setVisible(bool(rows))
+        self.resize(line * 34, line * 26 if rows else self.minimumSizeHint().height())
         # Let Enter do what comes next: the first thing that is missing, at last Run
         button = inner.findChild(QPushButton) if missing else self.run_button
         if button is not None:
@@ -299,26 +276,20 @@ class NeedsDialog(QDialog):
                 workbench.fix(need.problem)
             case "add_start":
                 self._add_start()
-            case "start_node" if need.node is not None:
-                control.runner.start_node(need.node)
             case "simulator":
                 self.accept()
                 control.use_simulator()
             case "connect" if need.node is not None:
                 self.accept()
                 self._host.ask("connecting.open", need.node.name)
-            case "show_block" | "address":
+            case "show_block":
                 self.accept()
                 workbench.show_block(need.block)
         self.refresh()
 
     def _add_start(self) -> None:
-        workbench = self._host.workbench
-        try:
-            workbench.show_block(add_start(workbench.canvas.editor))
-        except EditRefused as refusal:
-            self._host.services.messages.refuse(refusal.sentence, refusal.checklist)
-        workbench.checks.start()
+        editor = self._host.workbench.canvas.editor
+        self._host.workbench.change(lambda: add_start(editor), "Add a beginning")
 
     def _on_run(self) -> None:
         self.accept()

@@ -133,6 +133,7 @@ def _message(window: MainWindow, details: str, log_file: Path) -> Message:
         ),
         f"{details}\n{log_file}",
         (report,),
+        outlives_project=True,
     )
 
 

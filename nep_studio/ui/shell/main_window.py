@@ -13,6 +13,7 @@ from PySide6.QtGui import (
     QCloseEvent,
     QDragEnterEvent,
     QDropEvent,
+    QKeyEvent,
     QResizeEvent,
     QShowEvent,
     QWheelEvent,
@@ -351,6 +352,9 @@ class MainWindow(QMainWindow):
         workbench.canvas.news.layout_changed.connect(partial(update_edit_actions, self))
         workbench.canvas.selection.changed.connect(partial(update_edit_actions, self))
         workbench.rooms.changed.connect(partial(update_edit_actions, self))
+        self.message_area.lie_over(workbench.canvas.viewport())
+        self.message_area.covers.connect(workbench.leave_free)
+        self.message_area.shown.connect(workbench.uncover)
         self.update_actions()
         self.start_page.gallery.paint_pictures()
 
@@ -386,6 +390,7 @@ class MainWindow(QMainWindow):
 
     def show_problems(self) -> None:
         """Check now, and show the problems."""
+        self.workbench.checks.ask()
         self.workbench.checks.start()
         self.workbench.panels.show(self.workbench.problems)
 
@@ -401,6 +406,7 @@ class MainWindow(QMainWindow):
 
     def _on_document_changed(self, document: Document | None) -> None:
         self.lazy.finish()
+        self.messages.leave_project()
         self.running.follow(document)
         self.pages.setCurrentIndex(0 if document is None else 1)  # first: it needs its size
         self.workbench.show_document(document)
@@ -421,8 +427,6 @@ class MainWindow(QMainWindow):
     def _on_problems_found(self, problems: Sequence[Diagnostic]) -> None:
         document = self.files.document
         is_open = document is not None
-        if document is not None and not document.project.blocks:
-            problems = []  # that nothing happens yet is no news to somebody who begins
         worst = problems[0].severity if problems else ""
         shown = (len(problems), worst, is_open, self.look.theme)
         if shown == self._shown_problems:
@@ -462,6 +466,11 @@ class MainWindow(QMainWindow):
         """Keep the words on the toolbar where there is room for them."""
         super().resizeEvent(event)
         size_toolbar(self.toolbar)
+
+    def keyPressEvent(self, event: QKeyEvent) -> None:
+        """Esc closes the newest message, where it means nothing else."""
+        if event.key() != Qt.Key.Key_Escape or not self.message_area.close_newest():
+            super().keyPressEvent(event)
 
     def closeEvent(self, event: QCloseEvent) -> None:
         """Ask what is to become of work that is not saved; then remember the window's shape."""

@@ -317,7 +317,9 @@ def _tell(window: MainWindow, choice: UpdateChoice, newest: Newest | None) -> No
     title = tr("There is a new version of NEP Studio: {version}", version=newest.version)
     sentence = tr("You have {version}. Nothing changes unless you get it.", version=__version__)
     show = Answer(tr("Show its page"), lambda: show_page(newest.page))
-    window.messages.tell(Message("info", title, sentence, answers=(show,) if newest.page else ()))
+    answers = (show,) if newest.page else ()
+    message = Message("info", title, sentence, answers=answers, outlives_project=True)
+    window.messages.tell(message)
 
 
 def show_page(page: str) -> None:

@@ -216,8 +216,9 @@ def tell_how_it_runs(window: MainWindow) -> None:
             Answer(tr("Set the settings aside"), lambda: _set_aside(window)),
             Answer(tr("Report for support…"), lambda: show_report(window)),
         )
+        title = tr("This is safe mode")
         window.messages.tell(
-            Message("info", tr("This is safe mode"), sentence, steps, answers=answers)
+            Message("info", title, sentence, steps, answers=answers, outlives_project=True)
         )
     if folder := portable.not_kept():
         sentence = tr(
@@ -229,7 +230,8 @@ def tell_how_it_runs(window: MainWindow) -> None:
             tr("Is the stick write-protected, or full?"),
             tr("Save your projects in another place."),
         )
-        window.messages.tell(Message("warning", tr("Nothing is kept"), sentence, steps))
+        title = tr("Nothing is kept")
+        window.messages.tell(Message("warning", title, sentence, steps, outlives_project=True))
     if UpdateChoice(window.settings).is_wanted and not safe_mode.is_on():
         from .settings_dialog import ask_if_due
 
@@ -241,9 +243,10 @@ def _set_aside(window: MainWindow) -> None:
     if safe_mode.set_settings_aside(folder):
         title = tr("The next usual start is as the first one")
         sentence = tr("Your old settings are in {file}.", file=str(folder / "settings.old.ini"))
-        window.messages.tell(Message("success", title, sentence))
+        window.messages.tell(Message("success", title, sentence, outlives_project=True))
     else:
-        window.messages.tell(Message("info", tr("There are no settings to set aside")))
+        title = tr("There are no settings to set aside")
+        window.messages.tell(Message("info", title, outlives_project=True))
 
 
 # Offers work that was not saved when the program ended without warning.

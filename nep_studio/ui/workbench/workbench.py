@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 from PySide6.QtCore import QObject, QRect, QSignalBlocker
 from PySide6.QtGui import QFont, QFontInfo
 from PySide6.QtWidgets import QFrame, QWidget
@@ -17,11 +19,11 @@ from nep_studio.ui.canvas.accessibility import make_accessible
 from nep_studio.ui.canvas.canvas import Canvas
 from nep_studio.ui.canvas.painting.overlay import badge_rect
 from nep_studio.ui.documents import Document
-from nep_studio.ui.messages import Messages, announce
+from nep_studio.ui.messages import Answer, Messages, announce
 from nep_studio.ui.services import Studio
 from nep_studio.ui.theme.look import text_font
 from nep_studio.ui.widgets.layouts import in_column
-from nep_studio.ui.words import is_right_to_left
+from nep_studio.ui.words import is_right_to_left, tr
 
 from .code import CodePane
 from .find_bar import FindBar
@@ -30,7 +32,7 @@ from .insert_bar import InsertBar
 from .live_checks import LiveChecks
 from .minimap import MARGIN, EmptyHint, Minimap
 from .outline import Outline
-from .pages_bar import PagesBar
+from .pages_bar import PagesBar, page_title
 from .palette.palette import Palette
 from .problems import ProblemBubble, ProblemsPanel
 from .side_panels import AreaName, Panel, Panels, Rooms
@@ -96,7 +98,7 @@ class Workbench(QWidget):
         self.code = CodePane(editor, studio.look, self.canvas.selection)
         self.outline = Outline(self.canvas)
         self.problems = ProblemsPanel(studio.look)
-        self.checks = LiveChecks(self)
+        self.checks = LiveChecks(self.canvas.selection, self)
         self.helpers = CanvasHelpers(self.canvas, studio.settings)
         self.bubble: ProblemBubble | None = None
         self._run_problem: Diagnostic | None = None
@@ -194,15 +196,52 @@ class Workbench(QWidget):
         if block in self.canvas.editor.project.blocks:
             self.canvas.selection.set([block])
 
+    def leave_free(self, pixels: int) -> None:
+        """So much of the foot of the canvas is covered: what is shown there goes above it."""
+        self.canvas.sight.covered = pixels
+
+    def uncover(self) -> None:
+        """Scroll the block that is meant above what lies over the foot of the canvas."""
+        canvas, block = self.canvas, self.canvas.selection.cursor
+        rect = canvas.sight.view_rect_of(block)
+        if rect is not None and rect.intersects(canvas.viewport().rect()):
+            canvas.show_block(block)
+
     def fix(self, problem: Diagnostic) -> None:
-        """Put a problem right as far as the program can, and show what it did."""
+        """Put a problem right as far as the program can, and say what it did."""
+        label = problem.fix.label if problem.fix is not None else ""
+        self.change(lambda: apply_fix(self.canvas.editor, problem), label)
+
+    def change(self, change: Callable[[], str], what: Words) -> None:
+        """Change the program in one step, and say ``what`` it did; ``change`` gives the block."""
         try:
-            changed = apply_fix(self.canvas.editor, problem)
+            block = change()
         except EditRefused as refusal:
             self._messages.refuse(refusal.sentence, refusal.checklist)
             return
-        self.show_block(changed)
+        project = self.canvas.editor.project
+        page = project.page_of(block)
+        if page == self.canvas.page:
+            title = tr("Done: {what}", what=tr(what))
+        else:
+            title = tr(
+                "Done on the page {page}: {what}", page=page_title(project, page), what=tr(what)
+            )
+        self.show_change(block, title)
         self.checks.start()
+
+    def show_change(self, block: str, title: str) -> None:
+        """Say what the last step did to a block, with Undo; no other page is shown for it."""
+        if self.canvas.editor.project.page_of(block) == self.canvas.page:
+            self.show_block(block)
+        history = self.canvas.editor.history
+        step = history.position
+
+        def undo() -> None:
+            if history.position == step:
+                history.undo()
+
+        self._messages.confirm(title, Answer(tr("Undo"), undo))
 
     def show_run_problem(self, problem: Diagnostic | None) -> None:
         """Show at its block why the program stopped, until it is run again or changed there."""

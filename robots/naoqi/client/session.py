@@ -35,6 +35,7 @@ from robots.naoqi.wire.errors import (
     NotNaoqi,
     Refused,
     StrangeCertificate,
+    UnknownAddress,
 )
 from robots.naoqi.wire.line import (
     AUTHENTICATE,
@@ -110,7 +111,7 @@ def _connected(address: tuple[str, int], until_s: float) -> socket.socket:
 
 
 def numeric_hosts(host: str, until_s: float) -> list[str]:
-    """Return the numeric addresses of a name. Raises NoAnswer.
+    """Return the numeric addresses of a name. Raises UnknownAddress.
 
     Looking it up may take the system longer than we wait, and cannot be ended.
     """
@@ -134,7 +135,7 @@ def numeric_hosts(host: str, until_s: float) -> list[str]:
         sentence = text_of(
             "There is no computer or robot called {host} on this network.", host=host
         )
-        raise NoAnswer(sentence, checklist=NO_ANSWER, details=str(problem)) from problem
+        raise UnknownAddress(sentence, checklist=NO_ANSWER, details=str(problem)) from problem
 
 
 def encrypt(plain: socket.socket, address: tuple[str, int], until_s: float) -> ssl.SSLSocket:

@@ -18,7 +18,7 @@ from typing import Any, Literal
 
 from msgspec.structs import replace
 
-from faults import Fault, fault_of
+from faults import Fault, fault_of, text_of
 from robots.body.driver import Connection
 from robots.naoqi.client.session import Session
 from robots.naoqi.discovery import NAOQI_PORT, TLS_PORT, Address, plain_address, saved_login
@@ -30,6 +30,7 @@ from robots.naoqi.wire.errors import (
     NotNaoqi,
     Refused,
     StrangeCertificate,
+    UnknownAddress,
 )
 from robots.naoqi.wire.line import Login
 from robots.naoqi.wire.remote import RemoteObject
@@ -57,6 +58,20 @@ no_answer = partial(
     ),
 )
 """Nobody answers at the address."""
+
+
+def unknown_address(*, robot: str, place: str) -> Fault:
+    """Nothing in this network has this name."""
+    return fault_of(
+        "Nobody in this network knows the address {host}.",
+        code="unknown_address",
+        checklist=(
+            "Is the name written right? Press the robot's chest button once: it says its address.",
+            text_of("Is this computer on the same network as {robot}?", robot=robot),
+        ),
+        host=place,
+    )
+
 
 not_naoqi = partial(
     fault_of,
@@ -156,6 +171,7 @@ FAULTS: dict[type[NaoqiError], Callable[..., Fault]] = {
     LoginRefused: login_refused,
     NeedsTls: needs_tls,
     NoAnswer: no_answer,
+    UnknownAddress: unknown_address,
     Refused: no_answer,
 }
 """What is told instead of these; all others have their own sentence."""

@@ -44,6 +44,10 @@ class NoAnswer(NoConnection):
     title = "NAO does not answer"
 
 
+class UnknownAddress(NoAnswer):
+    """Nothing on this network has this name."""
+
+
 class NotNaoqi(NoConnection):
     """Something answers that does not speak NAOqi."""
 

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 from block_building import B, build, karate
 from operating import one_step, rule, say
-from sound_programs import WAIT, karate_node, sound
+from sound_programs import karate_node, sound
 
 from nep_studio.blocks import checks
 from nep_studio.blocks.checks import check
@@ -106,7 +106,6 @@ def faulty(language):
     sit = B("robot.do", {"posture": "posture_sit"})
     return {
         "add_robot": sound(language, [B("event.started"), B("robot.say", {"robot": "Pepper"})]),
-        "add_gesture_node": sound(language, [B("event.gesture", {"gesture": "clap"}), WAIT]),
         "add_wait": sound(language, [B("event.started"), forever]),
         "add_wait inside": sound(language, [B("event.started"), inner]),
         "stand_first": sound(language, [B("event.started"), sit, B("robot.walk")]),
@@ -117,9 +116,7 @@ def problem_of(editor, language, name) -> Diagnostic:
     return next(p for p in check(editor.project, language) if p.fix and p.fix.name == name)
 
 
-@pytest.mark.parametrize(
-    "case", ["add_robot", "add_gesture_node", "add_wait", "add_wait inside", "stand_first"]
-)
+@pytest.mark.parametrize("case", ["add_robot", "add_wait", "add_wait inside", "stand_first"])
 def test_a_fix_makes_its_problem_go_away_in_one_step(language, case):
     editor = faulty(language)[case]
     problem = problem_of(editor, language, case.split()[0])

@@ -40,7 +40,7 @@ def test_a_wrong_setting_is_told_with_its_node_and_block(
 ) -> None:
     (found,) = problems(tmp_path, {"node": node, "name": "mine", "parameters": settings})
 
-    assert str(found.sentence).startswith("The node “mine” cannot start.")
+    assert str(found.sentence).startswith("“mine” cannot start.")
     assert words in str(found.sentence)
     assert found.checklist
     assert (found.severity, found.page, found.block) == ("error", "nodes", "b0")

@@ -74,8 +74,37 @@ def test_what_rules_need_is_added_and_says_why(language: Language) -> None:
     }
     assert nodes["NAO"].parameters["driver"] == "virtual"
     assert nodes["karate"].parameters == {"gesture": "karate"}
-    assert nodes["virtual_watch"].parameters == {"gestures": "karate"}
+    assert nodes["virtual_watch"].parameters == {}
     assert {name for name, node in nodes.items() if node.reason} == {"karate", "virtual_watch"}
+
+
+def test_a_virtual_watch_moves_by_itself_where_nobody_can_ask_it(language: Language) -> None:
+    nodes = planned(project(language, rules=("karate",)), language, choices=Choices(by_itself=True))
+
+    assert nodes["virtual_watch"].parameters == {"gestures": "karate"}
+
+
+@pytest.mark.parametrize("gestures", ["", "3 katana"])
+def test_a_virtual_watch_of_the_page_moves_by_itself_when_it_is_to(
+    language: Language, gestures: str
+) -> None:
+    settings = {"by_itself": True, "person": 107} | ({"gestures": gestures} if gestures else {})
+    watch = ({"node": "sensory/virtual_watch", "name": "watch", "parameters": settings},)
+
+    nodes = planned(project(language, rules=("karate",), nodes=watch), language)
+
+    assert nodes["watch"].parameters == {"person": 107, "gestures": gestures or "karate"}
+
+
+@pytest.mark.parametrize("node", ["sensory/virtual_watch", "sensory/smartwatch"])
+def test_a_watch_that_was_left_running_is_the_one_that_is_used(
+    language: Language, node: str
+) -> None:
+    left = PlannedNode(node, "mine", {}, "it was asked for")
+
+    nodes = planned(project(language, rules=("karate",)), language, choices=Choices(watch=left))
+
+    assert [one for one in nodes.values() if one.is_sensory] == [left]
 
 
 def test_what_the_pages_name_is_not_added_again(language: Language) -> None:

@@ -85,6 +85,12 @@ def test_a_schedule_is_followed(listener):
     listener.state("running", "makes the gesture karate")
 
 
+def test_it_moves_by_itself_only_when_it_is_to(listener):
+    listener.start("virtual_watch", by_itself=True, speed=4)
+
+    listener.state("running", "makes the gesture")
+
+
 def test_a_wrong_schedule_ends_the_node_with_a_sentence(listener):
     node = listener.start("virtual_watch", gestures="3 wave")
 

@@ -60,7 +60,7 @@ def test_snap_preview_opens_a_gap(person: Person) -> None:
 
 def test_replace_preview_highlights_the_block_that_will_be_pushed_out(person: Person) -> None:
     """Replace preview (highlight of the block that will be pushed out)."""
-    older, newer = (B("variable.get", {"variable": name}) for name in ("v1", "v2"))
+    older, newer = (B("variable.get", {"variable": name}) for name in ("v4", "v5"))
     person.make([say_block(older)], [newer], variables=("old", "new"))
     before, speaker = person.file, person.body()[0]
     old, new = person.project.blocks[speaker].inputs["text"], person.body(1)[0]
@@ -110,7 +110,7 @@ def test_bump_loose_near_miss_blocks_away(person: Person) -> None:
     person.put(number, person.foot(person.body()[-1]) + QPoint(3, -6))
 
     stack, loose = (
-        person.canvas.page_layout.index.rects[s.id] for s in person.project.stacks.values()
+        person.canvas.page_layout.index.rects[s.id] for s in person.project.pages["behaviour"]
     )
     assert not stack.touches(loose)
     assert person.undo() == before
@@ -173,7 +173,7 @@ def test_edge_scroll_and_wheel_scroll_while_dragging(person: Person) -> None:
 
 def test_duplicate_on_drag_of_parameters_and_variables_from_a_header(person: Person) -> None:
     """Duplicate-on-drag of parameters/variables from a header."""
-    person.make([B("event.started"), B("control.count", {"variable": "v1"})], variables=("turn",))
+    person.make([B("event.started"), B("control.count", {"variable": "v4"})], variables=("turn",))
     greeted = person.editor.new_parameter("name", "text")
     place = person.editor.new_stack("behaviour", 40, 300)
     own = person.editor.add_procedure(["greet", greeted], place=place)
@@ -186,7 +186,7 @@ def test_duplicate_on_drag_of_parameters_and_variables_from_a_header(person: Per
     start = person.piece(loop, "variable")
     person.drop(start, start + QPoint(100, 180))
     copied = person.project.blocks[person.body(2)[0]]
-    assert (copied.type, copied.fields["variable"]) == ("variable.get", "v1")
+    assert (copied.type, copied.fields["variable"]) == ("variable.get", "v4")
     assert person.undo() == before
 
 

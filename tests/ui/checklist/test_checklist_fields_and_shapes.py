@@ -84,7 +84,7 @@ def test_default_values_come_back_when_the_block_leaves(person: Person) -> None:
 def test_fields_text_number_choice_checkbox_words_and_variable(person: Person) -> None:
     """Fields: text, number, dropdown, checkbox, label, image, variable."""
     stack = [say("x"), B("control.repeat"), B("robot.do"), B("robot_moves.breathing")]
-    person.make([*stack, B("variable.set", {"variable": "v1"})], variables=("score", "lives"))
+    person.make([*stack, B("variable.set", {"variable": "v4"})], variables=("score", "lives"))
     speaker, loop, pose, breath, assign = person.body()
     start = person.editor.history.steps
 
@@ -99,7 +99,7 @@ def test_fields_text_number_choice_checkbox_words_and_variable(person: Person) -
     assert value(person, loop, "times") == 12.5
     assert value(person, pose, "posture") == "posture_sit"
     assert value(person, breath, "on") is not before
-    assert value(person, assign, "variable") == "v2"
+    assert value(person, assign, "variable") == "v5"
     assert "takes the posture" in shown(person, pose)
     assert person.editor.history.steps == start + 5
 

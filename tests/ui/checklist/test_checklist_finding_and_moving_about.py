@@ -183,7 +183,7 @@ def test_the_palette_is_searched(person: Person) -> None:
     person.type("pause", person.palette.search)
     assert "control.wait" in listed(person)[:3]
     person.key(Key.Key_Return, widget=person.palette.search)
-    assert len(person.project.blocks) == 1
+    assert len(person.project.pages["behaviour"]) == 1
     person.key(Key.Key_Escape, widget=person.palette.search)
 
     assert len(listed(person)) > 140

@@ -109,8 +109,8 @@ def test_rename_a_variable_everywhere_find_its_uses_and_a_warning_before_it_goes
 ) -> None:
     """Rename variable everywhere; find uses; delete warns."""
     person.make(
-        [B("event.started"), B("variable.set", {"variable": "v1"})],
-        [B("variable.get", {"variable": "v1"})],
+        [B("event.started"), B("variable.set", {"variable": "v4"})],
+        [B("variable.get", {"variable": "v4"})],
         variables=("score",),
     )
     assign, reporter, before = person.body()[1], person.body(1)[0], person.file

@@ -49,7 +49,7 @@ def test_a_wrong_address_offers_the_robot_on_the_screen_and_the_address() -> Non
     notice = notice_of(READY, after, replace(OURS, has_block=True, address="10.0.0.9"))
 
     assert notice is not None
-    assert notice.fixes == ("use_virtual", "test_connection", "change_address")
+    assert notice.fixes == ("use_virtual", "test_connection")
     assert str(notice.problem.sentence) == "NAO does not answer: not at 10.0.0.9."
     assert tuple(map(str, notice.problem.checklist)) == steps
 

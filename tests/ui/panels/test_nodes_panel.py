@@ -16,6 +16,7 @@ from nep_core.networks.zmq_networks import PeerNetwork
 from nep_core.processes.node import Node
 from nep_studio.blocks.edits.content import SetField
 from nep_studio.run.plan import PlannedNode
+from nep_studio.ui.plugins.connecting.dialog import ConnectDialog
 from nep_studio.ui.plugins.nodes.card import NodeCard
 from tests.ui.panels.conftest import KARATE, WAIT_MS, Bench
 
@@ -139,20 +140,21 @@ def test_a_robot_that_cannot_be_reached_is_replaced_by_the_one_on_the_screen(
     qtbot.waitUntil(lambda: "NAO does not answer" not in bench.told())
 
 
-def test_a_wrong_address_is_opened_to_be_changed(
+def test_a_wrong_address_is_changed_in_the_dialog_that_tests_it(
     bench: Bench, free_port: int, qtbot: QtBot
 ) -> None:
     nao = next(one for one in bench.runner.planned() if one.name == "NAO")
     place = {"robot": "NAO", "driver": "naoqi", "address": f"127.0.0.1:{free_port}"}
-    canvas = bench.window.workbench.canvas
+    page = bench.window.workbench.canvas.page
 
     bench.runner.start_node(replace(nao, parameters=place))
     qtbot.waitUntil(lambda: "NAO does not answer" in bench.told(), timeout=WAIT_MS)
-    press(bench, "Change the address", qtbot)
+    press(bench, "Find it and test the connection", qtbot)
 
-    assert canvas.page == "robots"
-    assert canvas.fields.place == (nao.block_id, "address")
-    canvas.fields.cancel()
+    [dialog] = bench.window.findChildren(ConnectDialog)
+    assert dialog.isVisible() and dialog.robot.currentText() == "NAO"
+    assert bench.window.workbench.canvas.page == page
+    dialog.reject()
 
 
 def test_a_node_that_could_not_start_says_so_with_buttons(bench: Bench, qtbot: QtBot) -> None:

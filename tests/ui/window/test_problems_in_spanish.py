@@ -10,6 +10,7 @@ from PySide6.QtWidgets import QApplication, QLabel, QWidget
 from pytestqt.qtbot import QtBot
 
 from nep_studio import paths
+from nep_studio.blocks.edits.content import SetField
 from nep_studio.blocks.edits.placing import DeleteBlocks
 from nep_studio.ui.canvas.painting.overlay import badge_rect
 from nep_studio.ui.shell.main_window import MainWindow
@@ -29,12 +30,14 @@ def in_spanish(window: MainWindow, qtbot: QtBot) -> MainWindow:
 
 @pytest.fixture
 def spanish(in_spanish: MainWindow, qtbot: QtBot) -> MainWindow:
-    """The same, whose robot and nodes are deleted."""
+    """The same, whose robot and nodes are deleted, and which waits for an unknown gesture."""
     window = in_spanish
     editor = window.files.document.editor
     for page in ("robots", "nodes"):
         for stack in list(editor.project.pages[page]):
             editor.apply(DeleteBlocks(stack.body[0], len(stack.body)))
+    hat = editor.create("event.gesture", editor.new_stack("behaviour", 40, 2000))
+    editor.apply(SetField(hat, "gesture", "saltar"))
     qtbot.waitUntil(lambda: len(window.workbench.checks.problems) >= 2)
     return window
 
@@ -52,7 +55,7 @@ def test_the_problems_panel_is_spanish(spanish: MainWindow, qtbot: QtBot) -> Non
     rows = spanish.workbench.problems.rows
     told = "\n".join(shown_words(row) for row in rows)
     assert "NAO no está en la página Robots." in told
-    assert "Ningún nodo de la página Nodos reconoce el gesto “" in told
+    assert "Nada reconoce todavía el gesto “saltar”." in told
     assert "O elige otro robot en este bloque." in told
     assert "Añadir NAO" in [row.fix_button.text() for row in rows if row.fix_button]
 

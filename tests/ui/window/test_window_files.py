@@ -40,7 +40,7 @@ def test_new_from_the_start_page_shows_an_empty_canvas(window: MainWindow, qtbot
     qtbot.mouseClick(window.start_page.new_button, Qt.MouseButton.LeftButton)
 
     assert window.workbench.canvas.isVisible()
-    assert window.files.document.project.blocks == {}
+    assert window.files.document.project.pages["behaviour"] == []
     assert not window.isWindowModified()
 
 

@@ -98,6 +98,7 @@ def test_an_empty_project_has_no_problems_to_tell_of(fresh: MainWindow, qtbot) -
     assert check.iconText() == "Check"
 
     insert(fresh, "says")
+    check.trigger()  # what is only begun is told of when somebody asks
     qtbot.waitUntil(lambda: "problem" in check.iconText())
 
 

@@ -5,7 +5,8 @@ from __future__ import annotations
 import sys
 from pathlib import Path
 
-from PySide6.QtCore import Qt
+import pytest
+from PySide6.QtCore import QPoint, QRect, Qt
 from PySide6.QtGui import QGuiApplication
 from PySide6.QtWidgets import QPlainTextEdit, QPushButton
 from pytestqt.qtbot import QtBot
@@ -94,6 +95,71 @@ def test_a_message_takes_no_room_from_the_canvas(karate: MainWindow, qtbot: QtBo
     karate.messages.tell(Message("error", "NAO does not answer", "It is far away. " * 20))
 
     assert karate.workbench.canvas.geometry() == before
+
+
+def test_a_message_lies_at_the_foot_of_the_canvas_below_the_tabs(karate: MainWindow) -> None:
+    karate.resize(1366, 728)
+    tabs, canvas = karate.workbench.pages_bar, karate.workbench.canvas.viewport()
+
+    for number in range(3):
+        karate.messages.tell(Message("error", f"NAO {number} is away", "It is far away. " * 8))
+
+    area = karate.message_area
+    covered = QRect(area.mapTo(karate, QPoint()), area.size())
+    ground = QRect(canvas.mapTo(karate, QPoint()), canvas.size())
+    assert ground.contains(covered)
+    assert covered.bottom() == ground.bottom()
+    assert not covered.intersects(QRect(tabs.mapTo(karate, QPoint()), tabs.size()))
+
+
+def test_a_failing_block_is_scrolled_out_from_under_its_message(karate: MainWindow) -> None:
+    karate.resize(1366, 728)
+    workbench = karate.workbench
+    canvas, editor = workbench.canvas, karate.files.document.editor
+    block = editor.create("robot.say", editor.new_stack("behaviour", 60.0, 3000.0))
+    workbench.show_block(block)  # it is at the lower edge now
+
+    karate.messages.tell(Message("error", "NAO does not answer", "It is far away. " * 20))
+
+    rect = canvas.sight.view_rect_of(block)
+    top = canvas.viewport().mapFromGlobal(karate.message_area.mapToGlobal(QPoint())).y()
+    assert rect.top() > 0 and rect.bottom() <= top
+
+
+def test_esc_closes_the_newest_message_once_it_means_nothing_else(
+    karate: MainWindow, qtbot: QtBot
+) -> None:
+    canvas = karate.workbench.canvas
+    canvas.setFocus()
+    karate.workbench.show_block(canvas.editor.project.pages["behaviour"][0].body[0])
+    karate.messages.tell(Message("error", "NAO does not answer"))
+    karate.messages.tell(Message("error", "Pepper does not answer"))
+
+    qtbot.keyClick(canvas, Qt.Key.Key_Escape)
+    assert canvas.selection.ids == () and len(cards(karate)) == 2
+    qtbot.keyClick(canvas, Qt.Key.Key_Escape)
+
+    assert [card.message.title for card in cards(karate)] == ["NAO does not answer"]
+
+
+def test_what_is_going_on_is_given_up_by_the_cross(karate: MainWindow, qtbot: QtBot) -> None:
+    given_up = []
+    stop = Answer("Cancel", lambda: given_up.append(1))
+    karate.messages.tell(Message("info", "Opening…", answers=(stop,), is_busy=True))
+
+    qtbot.mouseClick(cards(karate)[0].close_button, LEFT)
+
+    assert given_up == [1] and cards(karate) == []
+
+
+@pytest.mark.parametrize("leave", ["new", "close"])
+def test_messages_go_with_their_project(karate: MainWindow, leave: str) -> None:
+    karate.messages.tell(Message("error", "NAO does not answer"))
+    karate.messages.tell(Message("info", "There is a new version", outlives_project=True))
+
+    karate.actions_by_name[leave].trigger()
+
+    assert [card.message.title for card in cards(karate)] == ["There is a new version"]
 
 
 def test_an_unexpected_error_is_told_once_logged_and_the_work_goes_on(

@@ -149,6 +149,8 @@ class Keyboard:
                 _CARRYING_RULES[press](carry, self._canvas)
             return True
         rule = self._rules.get(press)
+        if rule == self._escape and self._is_at_rest:
+            return False  # it may close what lies over the canvas
         if rule is not None:
             rule()
             return True
@@ -250,6 +252,11 @@ class Keyboard:
         rect = self._canvas.sight.view_rect_of(cursor) if cursor else None
         at = rect.topLeft().toPoint() + QPoint(12, 12) if rect is not None else QPoint(24, 24)
         self._canvas.news.menu_requested.emit(at)
+
+    @property
+    def _is_at_rest(self) -> bool:
+        selection = self._canvas.selection
+        return self._canvas.pointing.gesture is None and not (selection.ids or selection.cursor)
 
     def _escape(self) -> None:
         if self._canvas.pointing.gesture is not None:

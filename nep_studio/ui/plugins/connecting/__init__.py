@@ -77,10 +77,8 @@ def use_robot(host: Host, robot: str, address: str, login: SavedLogin | None) ->
     except EditRefused as refusal:
         host.services.messages.refuse(refusal.sentence, refusal.checklist)
         return
-    workbench.show_block(block)
-    host.services.messages.confirm(
-        tr("{robot} is now the real one at {address}", robot=robot, address=address)
-    )
+    told = tr("{robot} is now the real one at {address}", robot=robot, address=address)
+    workbench.show_change(block, told)
 
 
 plugin = Plugin("connecting", make, order=140)

@@ -38,7 +38,6 @@ Fix = Literal[
     "take_over",
     "rest",
     "test_connection",
-    "change_address",
     "run",
     "stop",
 ]
@@ -123,7 +122,7 @@ def _no_connection(status: NodeStatus, at: Circumstances) -> Notice:
         fixes = ("use_virtual", "take_over")
     else:
         title = tr("{name} does not answer", name=status.name)
-        fixes = ("use_virtual", "test_connection", "change_address")
+        fixes = ("use_virtual", "test_connection")
     problem = Problem(title, fault.sentence or where, fault.checklist)
     told = fixes if at.has_block else ()
     return Notice(status.name, f"connection {at.address}", "error", problem, told)
@@ -287,7 +286,6 @@ class NodeFixes:
                 tr("Find it and test the connection"),
                 lambda: self._host.ask("connecting.open", name),
             ),
-            "change_address": (tr("Change the address"), lambda: self._change_address(name)),
             "run": (tr("Run again"), runner.run),
             "stop": (tr("Stop"), lambda: self._host.services.running.stop()),
         }
@@ -297,13 +295,6 @@ class NodeFixes:
 
     def _show_settings(self, name: str) -> None:
         self._host.workbench.show_block(self.block_of(name))
-
-    def _change_address(self, name: str) -> None:
-        """Show the robot's block with its address open to be written."""
-        block, workbench = self._robot_block(name), self._host.workbench
-        if block:
-            workbench.show_block(block)
-            workbench.canvas.fields.open(block, "address")
 
     def start(self, name: str) -> None:
         """Start a node as it is wanted now; or the network, when its master is gone."""

@@ -11,7 +11,8 @@ def make(host: Host) -> Parts:
     from .panel import HumanPanel
 
     panel = HumanPanel(host, floor_of(host))
-    return Parts(NewPanel(panel, "Person", "user", "person"))
+    shown = {"person.show": lambda: host.show_panel(panel)}
+    return Parts(NewPanel(panel, "Person", "user", "person"), commands=shown)
 
 
 plugin = Plugin("person", make, order=20, modules=("senses", "panel"))

@@ -23,7 +23,8 @@ def make(host: Host) -> Parts:
     )
     services.running.plan_changed.connect(panel.refresh)
     panel.stage.tools.real.triggered.connect(lambda: host.ask("connecting.open"))
-    return Parts(NewPanel(panel, "Stage", "bot", "stage", is_shown=True))
+    shown = {"robots.show": lambda: host.show_panel(panel)}
+    return Parts(NewPanel(panel, "Stage", "bot", "stage", is_shown=True), commands=shown)
 
 
 plugin = Plugin("robots", make, order=10, modules=("stage", "panel"))

@@ -60,6 +60,7 @@ def refusal_message(refusal: Refusal, keys: Path, show: Callable[[], object]) ->
         refusal_sentence(refusal),
         refusal_steps(refusal, keys),
         answers=(Answer(tr("Show who may come in"), show),),
+        outlives_project=True,
     )
 
 

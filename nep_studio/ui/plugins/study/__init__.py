@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
+from dataclasses import replace
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, TypeVar
@@ -155,7 +156,8 @@ class StudyKit(QObject):
             steps = (tr("Is there room on the disk?"),)
             title = tr("The answers could not be kept")
             again = Answer(tr("Try again"), lambda: self._on_answered(reply))
-            self._messages.tell(Message("error", title, "", steps, str(error), (again,)))
+            message = Message("error", title, "", steps, str(error), (again,))
+            self._messages.tell(replace(message, outlives_project=True))
             return
         self._recorder.note("questionnaire_answered", number=round(reply.score, 2))
         title = tr("The answers of {participant} are kept", participant=reply.participant)

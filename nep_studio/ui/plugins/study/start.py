@@ -334,4 +334,6 @@ class StudyRecorder(QObject):
         sentence = tr("The folder of the study cannot be written.")
         may_write = tr("May this program write into {folder}?", folder=self.folder.folder)
         steps = (tr("Is there room on the disk?"), may_write)
-        self._messages.tell(Message("error", title, sentence, steps, str(error)))
+        details = str(error)
+        message = Message("error", title, sentence, steps, details, outlives_project=True)
+        self._messages.tell(message)

@@ -28,17 +28,17 @@ MOST_GESTURES = 5
 
 
 def make(host: Host) -> Parts:
-    """The action, in the Robots menu; who opens it from another panel stays on their page."""
+    """The action, in the Robots menu; others open the dialog from where a watch is missing."""
     kit = WatchKit(host)
     action = NewAction(
         "connect_watch",
         "Connect a watch or phone…",
-        lambda: kit.open(),
+        kit.open,
         "watch",
         tip="Let the movements of a real watch or phone into this project.",
         menu="robots",
     )
-    return Parts(actions=[action], commands={"watches.open": lambda: kit.open(stays=True)})
+    return Parts(actions=[action], commands={"watches.open": kit.open})
 
 
 class WatchKit(QObject):
@@ -49,15 +49,10 @@ class WatchKit(QObject):
         self._host = host
         self._token = ""
         self.dialog: WatchDialog | None = None
-        self._stays = False
         host.services.files.document_changed.connect(self._on_document_changed)
 
-    def open(self, *, stays: bool = False) -> None:
-        """Show the dialog; when another watch is in use, ask first.
-
-        ``stays``: the page that is shown stays when a watch is used, else its block is shown.
-        """
-        self._stays = stays
+    def open(self) -> None:
+        """Show the dialog; when another watch is in use, ask first."""
         host = self._host
         if host.services.document is None:
             host.services.messages.refuse(
@@ -165,9 +160,8 @@ class WatchKit(QObject):
         for name in [name for name in virtual if name not in wanted]:
             runner.stop_node(name)
         dialog.trial.keep(self._planned_of(block))
-        if not self._stays:
-            host.workbench.show_block(block)
-        host.services.messages.confirm(tr("“{name}” gives the movements now", name=planned.name))
+        told = tr("“{name}” gives the movements now", name=planned.name)
+        host.workbench.show_change(block, told)
 
     def _planned_of(self, block: str) -> PlannedNode | None:
         planned = self._host.services.runner.planned()

@@ -17,7 +17,7 @@ from nep_studio.blocks.language import Language
 from nep_studio.blocks.operations.copying import Clip, copy, python_of
 from nep_studio.blocks.places import NewStack
 from nep_studio.blocks.procedures import CALL
-from nep_studio.blocks.program import Project
+from nep_studio.blocks.program import ALL_ROBOTS, Block, Project
 from nep_studio.blocks.slots import FieldValue
 from nep_studio.blocks.text import sentence
 from nep_studio.help.texts import BlockText, block_texts
@@ -82,8 +82,11 @@ class Stock:
         return [one for one in samples if is_all or not offer().is_rare(self.definition(one))]
 
     def clip(self, sample: str) -> Clip:
-        """A sample as blocks to be put into a program."""
-        return copy(self.project, self.language, [sample])
+        """A sample as blocks to be put into a program, for a robot that is there now."""
+        clip = copy(self.project, self.language, [sample])
+        for block in clip.project.blocks.values():
+            self._choose_robot(block)
+        return clip
 
     def words(self, sample: str) -> str:
         """What a sample says."""
@@ -99,11 +102,19 @@ class Stock:
         for key, slot in definition.keys(block.groups):
             if slot.kind.name == "variable" and first:
                 block.fields[key] = first
+        self._choose_robot(block)
         block.fields.update(fields)
         stacks = self.project.pages[definition.page]
         place = NewStack(definition.page, self.project.new_id("s"), 0.0, 0.0, len(stacks))
         CreateBlocks((block.id,), (block,), place).apply(self.project)
         return block.id
+
+    def _choose_robot(self, block: Block) -> None:
+        """Let the first robot of the project do it, where the usual one takes no part."""
+        robots, definition = self.language.robots, self.language.definitions[block.type]
+        for key, slot in definition.keys(block.groups) if robots else ():
+            if slot.kind.name == "robot" and block.fields.get(key) not in (*robots, ALL_ROBOTS):
+                block.fields[key] = next(iter(robots))
 
 
 RECENT, SNIPPETS = "recent", "snippets"
