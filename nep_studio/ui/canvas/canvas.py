@@ -29,6 +29,7 @@ from nep_studio.blocks.operations.copying import Clip
 from nep_studio.blocks.program import Changes
 from nep_studio.ui.theme.colours import Theme
 
+from .editing.cargo import Grip
 from .editing.carrying import KeyboardCarry
 from .editing.commands import Commands
 from .editing.drag_blocks import ExternalDrag, carry_in, clip_in, project_files
@@ -273,12 +274,15 @@ class Canvas(QAbstractScrollArea):
 
     # Mouse
 
-    def begin_external_drag(self, clip: Clip, global_pos: QPoint, source: QWidget) -> None:
+    def begin_external_drag(
+        self, clip: Clip, global_pos: QPoint, source: QWidget, grip: Grip | None = None
+    ) -> None:
         """Carry new blocks once the mouse, pressed on ``source``, has moved 10 pixels.
 
-        Until then the press is the widget's own, as for a click.
+        Until then the press is the widget's own, as for a click. ``grip`` is the point of the
+        first block that the mouse holds.
         """
-        ExternalDrag(self, clip, global_pos, source)
+        ExternalDrag(self, clip, global_pos, source, grip)
 
     def mousePressEvent(self, event: QMouseEvent) -> None:
         """Begin a gesture."""

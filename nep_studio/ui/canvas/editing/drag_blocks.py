@@ -23,7 +23,7 @@ from nep_studio.ui.canvas.layout.page import Hit
 from nep_studio.ui.canvas.painting.layers import make_sprite
 from nep_studio.ui.words import count_words, tr
 
-from .cargo import Cargo, NewBlocks
+from .cargo import Cargo, Grip, NewBlocks
 from .gesture import TOUCH_DRAG_PX, AutoScroll, Gesture, Pointer
 from .snapping import Ground, Point, Snap, Target, search
 
@@ -274,10 +274,12 @@ class ExternalDrag(QObject):
     Before the mouse has moved far enough the widget has its press for itself, as for a click.
     """
 
-    def __init__(self, canvas: CanvasHost, clip: Clip, pressed: QPoint, source: QWidget) -> None:
+    def __init__(
+        self, canvas: CanvasHost, clip: Clip, pressed: QPoint, source: QWidget, grip: Grip | None
+    ) -> None:
         super().__init__(canvas.area)
         self._canvas = canvas
-        self._clip = clip
+        self._clip, self._grip = clip, grip
         self._pressed = pressed
         self._gesture: DragBlocks | None = None
         source.installEventFilter(self)
@@ -301,17 +303,17 @@ class ExternalDrag(QObject):
         if self._gesture is None:
             if way.manhattanLength() < TOUCH_DRAG_PX:
                 return False
-            self._gesture = carry_in(self._canvas, self._clip, self._pressed)
+            self._gesture = carry_in(self._canvas, self._clip, self._pressed, self._grip)
         if self._canvas.pointing.gesture is self._gesture:
             self._canvas.pointing.move_to(_in_view(self._canvas, place))
         return True
 
 
-def carry_in(canvas: CanvasHost, clip: Clip, place: QPoint) -> DragBlocks:
-    """Begin to carry new blocks, held by their first row at a place of the screen."""
+def carry_in(canvas: CanvasHost, clip: Clip, place: QPoint, grip: Grip | None = None) -> DragBlocks:
+    """Begin to carry new blocks at a place of the screen, held where they were taken hold of."""
     view = _in_view(canvas, place)
-    page, grip = canvas.sight.to_page(view), canvas.look.measures.row_height / 2
-    cargo = NewBlocks(canvas, clip, (page.x(), page.y()), hold=(2 * grip, grip))
+    page = canvas.sight.to_page(view)
+    cargo = NewBlocks(canvas, clip, (page.x(), page.y()), grip=grip)
     gesture = DragBlocks(canvas, cargo, page)
     canvas.area.setFocus()
     canvas.pointing.begin(gesture)
