@@ -1,4 +1,4 @@
-"""A list to choose from, with a search box: type to filter, arrows and Enter to choose."""
+"""A list to choose from; a long one has a search box: type to filter, arrows and Enter choose."""
 
 from __future__ import annotations
 
@@ -95,6 +95,9 @@ def _used_states(project: Project, language: Language) -> Iterator[str]:
 
 
 _MOST_ROWS = 11
+FEWEST_TO_SEARCH = 8
+"""So many choices have a search box; fewer are seen at a glance."""
+
 _OPTION = Qt.ItemDataRole.UserRole
 _MOVES = frozenset({Qt.Key.Key_Up, Qt.Key.Key_Down, Qt.Key.Key_PageUp, Qt.Key.Key_PageDown})
 
@@ -116,17 +119,20 @@ class ChoicePopup(FieldPopup):
         self.list.setAccessibleName(title)
         self.list.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
         self.list.setFocusPolicy(Qt.FocusPolicy.NoFocus)
+        self.list.installEventFilter(self)
         self.list.setIconSize(QSize(self.line, self.line))
         self.list.itemClicked.connect(self._choose)
         self.list.currentItemChanged.connect(self._on_row)
         self.question: Question | None = None
         self.column.addWidget(self.search)
         self.column.addWidget(self.list)
+        self.is_searched = self.is_free or len(self.options()) >= FEWEST_TO_SEARCH
+        self.search.setVisible(self.is_searched)
         self.fill("")
 
     def first(self) -> QWidget:
-        """The search box has the keyboard."""
-        return self.search
+        """The search box has the keyboard, or the list of few choices."""
+        return self.search if self.is_searched else self.list
 
     def options(self) -> list[Option]:
         """What can be chosen."""
@@ -172,10 +178,11 @@ class ChoicePopup(FieldPopup):
             self.column.insertWidget(0, question)
             question.show()
         else:
-            self.search.show()
+            self.search.setVisible(self.is_searched)
+            self.list.show()
         # the keyboard leaves a widget before it is hidden, or Qt would send it to the next field
-        (question.first() if question else self.search).setFocus(Qt.FocusReason.OtherFocusReason)
-        self.search.setVisible(question is None)
+        (question.first() if question else self.first()).setFocus(Qt.FocusReason.OtherFocusReason)
+        self.search.setVisible(question is None and self.is_searched)
         self.list.setVisible(question is None)
         if old is not None:
             old.hide()
@@ -185,7 +192,7 @@ class ChoicePopup(FieldPopup):
         self.follow()
 
     def eventFilter(self, watched: QObject, event: QEvent) -> bool:
-        """In the search box, the arrows move in the list and Enter chooses."""
+        """The arrows move in the list and Enter chooses, from the search box too."""
         if event.type() == QEvent.Type.KeyPress:
             key = cast(QKeyEvent, event).key()
             if key in _MOVES:

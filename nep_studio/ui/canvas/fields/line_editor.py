@@ -93,7 +93,8 @@ class LineEditor(QLineEdit):
         if look != self._look:  # a style sheet costs more than a key may
             self._look = look
             self.setFont(editor_font(canvas))
-            self.setStyleSheet(line_style(canvas, self._kind.shape, is_wrong=is_wrong))
+            shape, block = self._kind.shape, self.edit.block
+            self.setStyleSheet(line_style(canvas, block, shape, is_wrong=is_wrong))
         unit = canvas.look.measures.unit * scale
         text = self.fontMetrics().horizontalAdvance(self.text()) + 17 * unit
         room = canvas.area.viewport().rect()
@@ -216,7 +217,7 @@ class LinesEditor(QPlainTextEdit):
         if look != self._look:  # a style sheet costs more than a key may
             self._look = look
             self.setFont(editor_font(canvas))
-            self.setStyleSheet(line_style(canvas, "square", is_wrong=look[1]))
+            self.setStyleSheet(line_style(canvas, self.edit.block, "square", is_wrong=look[1]))
         line = self.fontMetrics().lineSpacing()
         unit = canvas.look.measures.unit * editor_scale(canvas)
         room = canvas.area.viewport().rect()
