@@ -34,6 +34,7 @@ from .editing.carrying import KeyboardCarry
 from .editing.commands import Commands
 from .editing.drag_blocks import ExternalDrag, carry_in, clip_in, project_files
 from .editing.keys import Keyboard
+from .editing.making_way import MakingWay
 from .editing.marks import DragMarks
 from .editing.menu import Section, menu_for
 from .editing.notes import press_key
@@ -103,6 +104,7 @@ class Canvas(QAbstractScrollArea):
         self.commands = Commands(self)
         self.keyboard = Keyboard(self)
         self.marks = DragMarks(self)
+        self._making_way = MakingWay(self)
         self.menu: QMenu | None = None
         self.menu_sections: list[Section] = []
         self.later_layout = QTimer(self, interval=0)
@@ -112,6 +114,7 @@ class Canvas(QAbstractScrollArea):
 
     def _listen(self) -> None:
         self.editor.history.listen(self._on_changes)
+        self.editor.history.finish_with(self._making_way)
         self.selection.changed.connect(self.viewport().update)
         self.news.menu_requested.connect(self._on_menu_requested)
         self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
@@ -148,8 +151,10 @@ class Canvas(QAbstractScrollArea):
         """Show another project; what is under way in this one ends."""
         self._leave_page()
         self.editor.history.unlisten(self._on_changes)
+        self.editor.history.finish_with(self._making_way, is_on=False)
         self.editor = editor
         editor.history.listen(self._on_changes)
+        editor.history.finish_with(self._making_way)
         self.selection.clear()
         look = self.look
         self._take_look(look.theme, look.block_font, look.measures.is_mirrored, "behaviour")
