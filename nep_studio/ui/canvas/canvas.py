@@ -41,6 +41,7 @@ from .editing.notes import press_key
 from .editing.pointing import Pointing
 from .editing.view_gestures import native_gesture, wheel
 from .fields.editors import FieldEditors
+from .following import Following
 from .host import CanvasNews
 from .layout.page import PageLayout
 from .painting.layers import Layers
@@ -105,6 +106,7 @@ class Canvas(QAbstractScrollArea):
         self.keyboard = Keyboard(self)
         self.marks = DragMarks(self)
         self._making_way = MakingWay(self)
+        self.following = Following(self)
         self.menu: QMenu | None = None
         self.menu_sections: list[Section] = []
         self.later_layout = QTimer(self, interval=0)

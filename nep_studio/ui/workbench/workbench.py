@@ -45,6 +45,8 @@ class CanvasHelpers(QObject):
     def __init__(self, canvas: Canvas, settings: Settings) -> None:
         super().__init__(canvas)
         self._settings = settings
+        self.canvas = canvas
+        canvas.following.is_on = settings.follows_running
         self.palette = Palette(canvas, settings)
         self.find_bar = FindBar(canvas)
         self.opening = BlockOpening(canvas, self.find_bar)
@@ -61,6 +63,11 @@ class CanvasHelpers(QObject):
         self._settings.set_shown(MINIMAP, is_shown)
         self.minimap.setVisible(is_shown)
         self.minimap.refresh()
+
+    def follow_running(self, is_on: bool) -> None:
+        """Let the canvas follow the block that runs, or not."""
+        self._settings.follows_running = is_on
+        self.canvas.following.is_on = is_on
 
     def refresh(self) -> None:
         """Take the theme and the project that the canvas has now."""
