@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from typing import TYPE_CHECKING, Protocol, cast
 
 from PySide6.QtCore import QEvent, QObject
-from PySide6.QtGui import QHelpEvent
+from PySide6.QtGui import QHelpEvent, QPixmap
 from PySide6.QtWidgets import QToolTip, QWidget
 
 from nep_studio.blocks.definitions import Slot
@@ -183,6 +183,10 @@ EDITORS: dict[str, type] = {
 MOST_RECENT_COLOURS = 6
 
 
+PictureOf = Callable[[str, str, str, int], QPixmap | None]
+"""Draws a choice: its table, its value, the block that it is of, and how large in pixels."""
+
+
 class FieldEditors(QObject):
     """The editors of one canvas; one at most is open."""
 
@@ -190,6 +194,7 @@ class FieldEditors(QObject):
         super().__init__(canvas.area)
         self.canvas = canvas
         self.recent_colours: list[str] = []
+        self.picture_of: PictureOf = lambda table, value, block, side: None
         self.comments = Comments(canvas)
         self.widget: OpenEditor | None = None
         """The editor that is open."""

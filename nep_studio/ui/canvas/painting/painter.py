@@ -15,13 +15,24 @@ from nep_studio.ui.theme.colours import DISABLED, PLACEHOLDER, BlockColours, The
 
 from .shapes import Outlines, paint_marks, paint_sign, round_pen, slot_path
 
-# Paint what is inside a block: words, fields, sockets and buttons.
+# What is typed in is white, what is chosen has the colour of its block.
 
 TINT = 0.24
 """How far the colour of a choice is from that of its block."""
 
 DARKEST_TINTED = 0.02
 """Blocks that are darker have choices that are brighter than they are."""
+
+
+def choice_tint(colours: BlockColours) -> QColor:
+    """What a choice is filled with: the block's colour, farther from that of its words."""
+    away = QColor("black" if qGray(colours.text.rgb()) > 128 else "white")
+    if colours.fill.lightnessF() < DARKEST_TINTED:
+        return mixed(colours.fill, colours.line, TINT)  # there is hardly a darker colour
+    return mixed(colours.fill, away, TINT)
+
+
+# Paint what is inside a block: words, fields, sockets and buttons.
 
 
 class PiecePainter:
@@ -150,15 +161,10 @@ class PiecePainter:
             painter.drawStaticText(QPointF(beside, y), self._texts[piece.text])
 
     def _tint(self, colours: BlockColours) -> QColor:
-        """The block's colour away from that of its words: here one chooses."""
         key = colours.fill.rgba(), colours.text.rgba()
-        tint = self._tints.get(key)
-        if tint is None:
-            away = QColor("black" if qGray(colours.text.rgb()) > 128 else "white")
-            if colours.fill.lightnessF() < DARKEST_TINTED:
-                away = colours.line  # there is hardly a darker colour than this
-            tint = self._tints[key] = mixed(colours.fill, away, TINT)
-        return tint
+        if key not in self._tints:
+            self._tints[key] = choice_tint(colours)
+        return self._tints[key]
 
     def _darker(self, colour: QColor) -> QColor:
         """A shade deeper than the block: a hole in it."""
