@@ -102,7 +102,8 @@ class LineEditor(QLineEdit):
         height = round(canvas.look.measures.field_height * scale)
         left = rect.right() - width if canvas.look.measures.is_mirrored else rect.left()
         left = max(0.0, min(left, room.width() - width))
-        self.setGeometry(round(left), round(rect.center().y() - height / 2), width, height)
+        top = max(0.0, min(rect.center().y() - height / 2, room.height() - height))
+        self.setGeometry(round(left), round(top), width, height)
         self._place_notes()
 
     def show_editor(self) -> None:
@@ -138,7 +139,7 @@ class LineEditor(QLineEdit):
         """A press elsewhere keeps what was typed."""
         super().focusOutEvent(event)
         if event.reason() not in _KEPT_FOCUS:
-            self._editors.close_if(self)
+            self._editors.leave(self, event.reason())
 
     def _step(self, event: QKeyEvent, sign: int) -> None:
         modifiers = event.modifiers()
@@ -266,7 +267,7 @@ class LinesEditor(QPlainTextEdit):
         """A press elsewhere keeps what was typed."""
         super().focusOutEvent(event)
         if event.reason() not in _KEPT_FOCUS:
-            self._editors.close_if(self)
+            self._editors.leave(self, event.reason())
 
     def _on_changed(self) -> None:
         reason = self.edit.set(self.toPlainText())
