@@ -287,8 +287,10 @@ class Layers:
         is drawn again wherever it is, over the picture of what rests.
         """
         camera, margin = self._host.sight.camera, 4 * self._host.look.measures.unit
-        for rect in rects:
-            self._rest.invalidate(camera.view_rect(rect.grown(margin)))
+        changed = [camera.view_rect(rect.grown(margin)) for rect in rects]
+        for rect in changed:
+            self._rest.invalidate(rect)
+        if changed:
             self._viewport.update()
 
     def update_page(self, rect: Rect) -> None:
