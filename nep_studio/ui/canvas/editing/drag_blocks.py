@@ -310,10 +310,16 @@ class ExternalDrag(QObject):
 
 
 def carry_in(canvas: CanvasHost, clip: Clip, place: QPoint, grip: Grip | None = None) -> DragBlocks:
-    """Begin to carry new blocks at a place of the screen, held where they were taken hold of."""
-    view = _in_view(canvas, place)
-    page = canvas.sight.to_page(view)
-    cargo = NewBlocks(canvas, clip, (page.x(), page.y()), grip=grip)
+    """Begin to carry new blocks at a place of the screen, held where they were taken hold of.
+
+    Of blocks that come from elsewhere nobody knows where: they are held by their first row.
+    """
+    view, measures = _in_view(canvas, place), canvas.look.measures
+    page, row = canvas.sight.to_page(view), measures.row_height
+    at = page.x(), page.y()
+    if grip is None:
+        at = at[0] + (row if measures.is_mirrored else -row), at[1] - row / 2
+    cargo = NewBlocks(canvas, clip, at, grip=grip)
     gesture = DragBlocks(canvas, cargo, page)
     canvas.area.setFocus()
     canvas.pointing.begin(gesture)
