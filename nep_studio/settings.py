@@ -183,6 +183,8 @@ class Settings(SettingsFile):
     _recent = Kept[list[str]]("files/recent", [])
     tour_done = Kept("help/tour", False)
     """Whether a person has taken the tour, or wants none: then it is not offered."""
+    follows_running = Kept("canvas/follows_running", True)
+    """Whether the canvas follows the block that runs."""
     has_sound = Kept("robots/sound", True)
     """Whether robots on the screen are heard."""
     lets_original_join = Kept("network/original", False)

@@ -22,7 +22,7 @@ from .edits.content import (
     SetField,
 )
 from .edits.placing import CreateBlocks, DeleteBlocks, MoveBlocks
-from .edits.project import AddVariable, RemovePage, RenameVariable
+from .edits.project import AddVariable, MoveStack, RemovePage, RenameVariable
 from .errors import EditRefused
 from .generate.renaming import NO_ROBOTS, names_followed
 from .language import Language
@@ -34,6 +34,7 @@ from .program import Changes, Note, Parameter, Procedure, Project
 
 Listener = Callable[[Changes], None]
 Recorder = Callable[[tuple[Edit, ...]], None]
+Finisher = Callable[[], None]
 
 
 @dataclass(slots=True)
@@ -61,6 +62,7 @@ class History:
         """Each with whether it only wants to hear of the whole."""
         self._applied: list[Edit] = []
         self._recorders: list[Recorder] = []
+        self._finishers: list[Finisher] = []
         self.is_own = False
         """Whether what is made now is the person's own, or ours: see ``as_own``."""
         self.position = 0
@@ -89,6 +91,13 @@ class History:
         """Call ``recorder`` no more."""
         self._recorders.remove(recorder)
 
+    def finish_with(self, finisher: Finisher, *, is_on: bool = True) -> None:
+        """Call ``finisher`` at the end of each new step: what it applies is part of the step."""
+        if is_on:
+            self._finishers.append(finisher)
+        else:
+            self._finishers.remove(finisher)
+
     @contextmanager
     def as_own(self) -> Iterator[None]:
         """All blocks that are made meanwhile are written by the person, or by us; nothing came in.
@@ -116,6 +125,8 @@ class History:
         step = self._open = Step(label, number=self._last_number)
         try:
             yield step
+            for finisher in self._finishers if step.edits else ():
+                finisher()
         except BaseException:
             self._take_back(step)
             self._applied.clear()
@@ -123,7 +134,9 @@ class History:
         else:
             if step.edits:
                 self._redo.clear()
-                if not (self._may_merge and self._undo and self._is_same_typing(step)):
+                if self._may_merge and self._undo and self._is_same_typing(step):
+                    self._undo[-1].edits += [edit for edit in step.edits if _moves(edit)]
+                else:
                     self._undo.append(step)
                 self._may_merge = True
         finally:
@@ -210,8 +223,12 @@ class History:
         return opposite
 
     def _is_same_typing(self, step: Step) -> bool:
-        """Whether a step sets the field or text that the last one did, which then undoes both."""
-        match self._undo[-1].edits, step.edits:
+        """Whether a step sets the field or text that the last one did, which then undoes both.
+
+        Stacks that it moves make room for what is typed.
+        """
+        last = [edit for edit in self._undo[-1].edits if not _moves(edit)]
+        match last, [edit for edit in step.edits if not _moves(edit)]:
             case [SetField() as first], [SetField() as second]:
                 return (first.block, first.slot) == (second.block, second.slot)
             case [SetComment() as first], [SetComment() as second]:
@@ -221,6 +238,10 @@ class History:
                 before, now = _without_text(second.note), self._project.notes[second.note.id]
                 return _without_text(first.note) == before == _without_text(now)
         return False
+
+
+def _moves(edit: Edit) -> bool:
+    return isinstance(edit, MoveStack)
 
 
 def _without_text(note: Note) -> Note:

@@ -126,6 +126,43 @@ def _column_numbers(boxes: Mapping[str, Box], by_x: list[str]) -> dict[str, int]
     return numbers
 
 
+# Making way: a stack that grows pushes those away that it would cover.
+
+NEAREST = 8.0
+"""Stacks that come nearer to each other than this look as if they were joined."""
+
+MOST_PUSHES = 500
+"""So often stacks are pushed for one step at most."""
+
+
+def make_way(before: Mapping[str, Box], now: Mapping[str, Box]) -> dict[str, Box]:
+    """Where stacks go that those which have grown would newly cover, and in turn those push.
+
+    ``before`` are the boxes of all stacks, ``now`` those that are others now. What was below goes
+    down, what was beside goes aside; who covers another already stays there.
+    """
+    pushed: dict[str, Box] = {}
+    boxes, waiting = {**before, **now}, list(now)
+    for _ in range(MOST_PUSHES):
+        if not waiting:
+            break
+        pusher = waiting.pop(0)
+        old, new = before[pusher], boxes[pusher]
+        for stack, box in list(boxes.items()):
+            was = before[stack]
+            if stack == pusher or not new.overlaps(box, NEAREST) or old.overlaps(was, NEAREST):
+                continue
+            if was.y >= old.y + old.height:
+                box = box._replace(y=new.y + new.height + GAP)
+            elif was.x >= old.x + old.width:
+                box = box._replace(x=new.x + new.width + GAP)
+            else:
+                continue
+            boxes[stack] = pushed[stack] = box
+            waiting.append(stack)
+    return pushed
+
+
 # Picking up and dropping: what is in the way is moved aside, and nothing is lost.
 
 # Whether blocks can land in a place, and which blocks they would push away there.

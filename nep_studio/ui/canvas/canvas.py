@@ -29,16 +29,19 @@ from nep_studio.blocks.operations.copying import Clip
 from nep_studio.blocks.program import Changes
 from nep_studio.ui.theme.colours import Theme
 
+from .editing.cargo import Grip
 from .editing.carrying import KeyboardCarry
 from .editing.commands import Commands
 from .editing.drag_blocks import ExternalDrag, carry_in, clip_in
 from .editing.keys import Keyboard
+from .editing.making_way import MakingWay
 from .editing.marks import DragMarks
 from .editing.menu import Section, menu_for
 from .editing.notes import press_key
 from .editing.pointing import Pointing
 from .editing.view_gestures import native_gesture, wheel
 from .fields.editors import FieldEditors
+from .following import Following
 from .host import CanvasNews
 from .layout.page import PageLayout
 from .painting.layers import Layers
@@ -102,6 +105,8 @@ class Canvas(QAbstractScrollArea):
         self.commands = Commands(self)
         self.keyboard = Keyboard(self)
         self.marks = DragMarks(self)
+        self._making_way = MakingWay(self)
+        self.following = Following(self)
         self.menu: QMenu | None = None
         self.menu_sections: list[Section] = []
         self.later_layout = QTimer(self, interval=0)
@@ -111,6 +116,7 @@ class Canvas(QAbstractScrollArea):
 
     def _listen(self) -> None:
         self.editor.history.listen(self._on_changes)
+        self.editor.history.finish_with(self._making_way)
         self.selection.changed.connect(self.viewport().update)
         self.news.menu_requested.connect(self._on_menu_requested)
         self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
@@ -147,8 +153,10 @@ class Canvas(QAbstractScrollArea):
         """Show another project; what is under way in this one ends."""
         self._leave_page()
         self.editor.history.unlisten(self._on_changes)
+        self.editor.history.finish_with(self._making_way, is_on=False)
         self.editor = editor
         editor.history.listen(self._on_changes)
+        editor.history.finish_with(self._making_way)
         self.selection.clear()
         look = self.look
         self._take_look(look.theme, look.block_font, look.measures.is_mirrored, "behaviour")
@@ -274,12 +282,15 @@ class Canvas(QAbstractScrollArea):
 
     # Mouse
 
-    def begin_external_drag(self, clip: Clip, global_pos: QPoint, source: QWidget) -> None:
+    def begin_external_drag(
+        self, clip: Clip, global_pos: QPoint, source: QWidget, grip: Grip | None = None
+    ) -> None:
         """Carry new blocks once the mouse, pressed on ``source``, has moved 10 pixels.
 
-        Until then the press is the widget's own, as for a click.
+        Until then the press is the widget's own, as for a click. ``grip`` is the point of the
+        first block that the mouse holds.
         """
-        ExternalDrag(self, clip, global_pos, source)
+        ExternalDrag(self, clip, global_pos, source, grip)
 
     def mousePressEvent(self, event: QMouseEvent) -> None:
         """Begin a gesture."""

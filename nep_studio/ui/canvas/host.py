@@ -65,8 +65,8 @@ class Fields(Protocol):
     def place(self) -> tuple[str, str] | None:
         """The block and field that are edited now."""
 
-    def open(self, block: str, key: str) -> bool:
-        """Edit a field; False when it has no editor."""
+    def open(self, block: str, key: str, *, at_pointer: bool = False) -> bool:
+        """Edit a field, which may be one that was pressed; False when it has no editor."""
 
     def open_comment(self, block: str) -> None:
         """Show the comment of a block, to read and to write."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from functools import partial
 from typing import TYPE_CHECKING
 
@@ -226,12 +227,17 @@ def _dress(button: QToolButton, look: Look) -> None:
 
 def keep_width(run: QToolButton) -> None:
     """Let Run be as wide as its widest words, so that Stop never moves under the pointer."""
-    run.ensurePolished()
-    run.setMinimumWidth(0)
-    metrics, now = run.fontMetrics(), run.defaultAction().iconText()
+    keep_room(run, map(tr, ("Run", *RUN_WORDS.values())))
+
+
+def keep_room(button: QToolButton, all_words: Iterable[str]) -> None:
+    """Let a button be as wide as the widest words that it says, whatever it says now."""
+    button.ensurePolished()
+    button.setMinimumWidth(0)
+    if button.toolButtonStyle() == Qt.ToolButtonStyle.ToolButtonIconOnly:
+        return
+    metrics, now = button.fontMetrics(), button.defaultAction().iconText()
     widths = [
-        metrics.size(Qt.TextFlag.TextShowMnemonic, words).width()
-        for words in map(tr, ("Run", *RUN_WORDS.values()))
+        metrics.size(Qt.TextFlag.TextShowMnemonic, words).width() for words in (now, *all_words)
     ]
-    now_wide = metrics.size(Qt.TextFlag.TextShowMnemonic, now).width()
-    run.setMinimumWidth(run.sizeHint().width() - now_wide + max(widths))
+    button.setMinimumWidth(button.sizeHint().width() - widths[0] + max(widths))

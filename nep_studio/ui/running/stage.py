@@ -298,6 +298,8 @@ class Stage(QObject):
         canvas = self._canvas
         if new and canvas is not None and new[0] in canvas.editor.project.blocks:
             canvas.show_block(new[0])
+        elif canvas is not None:
+            canvas.following.follow(self.marks.glowing)
 
     def _shown(self) -> frozenset[str]:
         marks = self.marks

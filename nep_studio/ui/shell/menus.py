@@ -14,7 +14,13 @@ from faults import Words, verbatim
 from nep_studio.project.examples import examples
 from nep_studio.settings import SYSTEM
 from nep_studio.ui.labels import labelled, plain_tip
-from nep_studio.ui.running.actions import RUN_BUTTONS, RunState, keep_width, style_buttons
+from nep_studio.ui.running.actions import (
+    RUN_BUTTONS,
+    RunState,
+    keep_room,
+    keep_width,
+    style_buttons,
+)
 from nep_studio.ui.theme.colours import load_theme, themes
 from nep_studio.ui.theme.icons import icon, icon_room
 from nep_studio.ui.words import ENGLISH, available_languages, count_words, tr
@@ -255,6 +261,10 @@ def add_view_menu(window: MainWindow) -> QMenu:
     minimap.setCheckable(True)
     minimap.setChecked(window.settings.is_minimap_shown)
     minimap.toggled.connect(lambda is_on: window.workbench.helpers.show_minimap(is_on))
+    following = add("follow_running", "Follow the running block", lambda: None)
+    following.setCheckable(True)
+    following.setChecked(window.settings.follows_running)
+    following.toggled.connect(lambda is_on: window.workbench.helpers.follow_running(is_on))
     add("check", "Check", window.show_problems, icon_name="circle-check", keys="F8")
     menu.addSeparator()
     _add_looks(menu, window)
@@ -372,6 +382,7 @@ def size_toolbar(bar: QToolBar) -> None:
             button.ensurePolished()  # else it has not its size yet
             button.setToolButtonStyle(style)
         keep_width(buttons["run"])
+        keep_room(buttons["check"], check_words())
         for sign in bar.findChildren(RunState):
             sign.be_tight(kept == WORDS_KEPT[-1])
         if (layout := bar.layout()) is not None:
@@ -413,6 +424,15 @@ def _add_choices(
 
 
 # What the action that checks says on the toolbar.
+
+WIDEST_COUNT = 88
+"""As many problems as are told in the widest of usual words."""
+
+
+def check_words() -> tuple[str, ...]:
+    """All that the action says, so that nothing beside it moves when the count changes."""
+    counts = (count_words(count, "1 problem", "{n} problems") for count in (1, WIDEST_COUNT))
+    return (tr("Check"), *counts)
 
 
 def style_check(

@@ -60,12 +60,34 @@ def category_icon_name(category_colour: str) -> str:
 
 
 def icon(name: str, colour: Theme | QColor, of_theme: str = "text") -> QIcon:
-    """Return an icon in one colour, or in a theme's, and paler where it is disabled."""
+    """Return an icon in one colour, or in a theme's, and paler where it is disabled.
+
+    One in a colour of the theme that the windows wear follows them to another theme.
+    """
     if isinstance(colour, Theme):
-        return QIcon(_DrawnIcon(name, colour.colour(of_theme), colour.colour("disabled")))
-    pale = QColor(colour)
-    pale.setAlphaF(colour.alphaF() * 0.45)
-    return QIcon(_DrawnIcon(name, QColor(colour), pale))
+        return QIcon(_DrawnIcon(name, _Ink(colour, of_theme)))
+    return QIcon(_DrawnIcon(name, QColor(colour)))
+
+
+_worn: Theme | None = None
+
+
+def wear(theme: Theme) -> None:
+    """The windows are dressed in this theme from now on, and with them their icons."""
+    global _worn
+    _worn = theme
+
+
+class _Ink:
+    """A colour of a theme; while the windows wear that theme, of the one that they wear."""
+
+    def __init__(self, theme: Theme, name: str) -> None:
+        self._theme, self._name, self._is_worn = theme, name, theme is _worn
+
+    def colour(self, mode: QIcon.Mode) -> QColor:
+        """The colour as it is now."""
+        theme = _worn if self._is_worn and _worn is not None else self._theme
+        return theme.colour("disabled" if mode == QIcon.Mode.Disabled else self._name)
 
 
 def icon_pixmap(name: str, colour: QColor, size: float, ratio: float = 1.0) -> QPixmap:
@@ -101,8 +123,7 @@ def recoloured(name: str, colour: QColor) -> str:
 
 def application_icon() -> QIcon:
     """Return the icon of the program itself, in its own colours."""
-    black = QColor(Qt.GlobalColor.black)
-    return QIcon(_DrawnIcon(APPLICATION_ICON, black, black))
+    return QIcon(_DrawnIcon(APPLICATION_ICON, QColor(Qt.GlobalColor.black)))
 
 
 @cache
@@ -119,14 +140,21 @@ def _renderer(name: str, colour: str) -> QSvgRenderer:
 class _DrawnIcon(QIconEngine):
     """Draws an icon for each size and screen once, in the colour of its state."""
 
-    def __init__(self, name: str, colour: QColor, disabled: QColor) -> None:
+    def __init__(self, name: str, ink: _Ink | QColor) -> None:
         super().__init__()
         _source(name)  # a name that does not exist is told where it is written
-        self._name, self._colour, self._disabled = name, colour, disabled
+        self._name, self._ink = name, ink
+
+    def _colour(self, mode: QIcon.Mode) -> QColor:
+        if isinstance(self._ink, _Ink):
+            return self._ink.colour(mode)
+        colour = QColor(self._ink)
+        if mode == QIcon.Mode.Disabled and self._name != APPLICATION_ICON:
+            colour.setAlphaF(colour.alphaF() * 0.45)
+        return colour
 
     def paint(self, painter: QPainter, rect: QRect, mode: QIcon.Mode, state: QIcon.State) -> None:
-        colour = self._disabled if mode == QIcon.Mode.Disabled else self._colour
-        paint_icon(painter, QRectF(rect), self._name, colour)
+        paint_icon(painter, QRectF(rect), self._name, self._colour(mode))
 
     def pixmap(self, size: QSize, mode: QIcon.Mode, state: QIcon.State) -> QPixmap:
         return self.scaledPixmap(size, mode, state, 1.0)
@@ -137,7 +165,7 @@ class _DrawnIcon(QIconEngine):
         pixels = size * scale
         if pixels.isEmpty():  # of a widget that has no room just now
             return QPixmap()
-        colour = self._disabled if mode == QIcon.Mode.Disabled else self._colour
+        colour = self._colour(mode)
         name = colour.name(QColor.NameFormat.HexArgb)
         key = f"{self._name} {name} {pixels.width()} x {pixels.height()} at {scale}"
         pixmap = QPixmap()
@@ -147,7 +175,7 @@ class _DrawnIcon(QIconEngine):
         return pixmap
 
     def clone(self) -> QIconEngine:
-        return _DrawnIcon(self._name, self._colour, self._disabled)
+        return _DrawnIcon(self._name, self._ink)
 
 
 # Icons as large as the text beside them, which Qt leaves at one size.

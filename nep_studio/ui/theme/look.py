@@ -18,7 +18,7 @@ from PySide6.QtWidgets import QApplication, QToolTip
 from nep_studio import paths
 
 from .colours import DARK, HIGH_CONTRAST, LIGHT, Theme, load_theme, themes
-from .icons import recoloured
+from .icons import recoloured, wear
 
 log = logging.getLogger(__name__)
 
@@ -256,6 +256,7 @@ def base_point_size(app: QApplication) -> float:
 def apply_theme(app: QApplication, theme: Theme, scale: float = 1.0) -> None:
     """Dress every window in a theme; ``scale`` makes text larger, all else follows the text."""
     font = text_font(base_point_size(app) * scale)
+    wear(theme)
     if app.style().name() != "fusion":  # a style sheet hides it behind a nameless style
         app.setStyleSheet("")
         app.setStyle("Fusion")

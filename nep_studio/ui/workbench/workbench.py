@@ -5,11 +5,12 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from PySide6.QtCore import QObject, QRect, QSignalBlocker
-from PySide6.QtGui import QFont, QFontInfo
+from PySide6.QtGui import QFont, QFontInfo, QPixmap
 from PySide6.QtWidgets import QFrame, QWidget
 
 from faults import Words
 from nep_studio.blocks.checks.diagnostic import Diagnostic
+from nep_studio.blocks.deployment import robot_entries
 from nep_studio.blocks.editor import Editor
 from nep_studio.blocks.errors import EditRefused
 from nep_studio.blocks.operations.fixes import apply_fix
@@ -47,6 +48,9 @@ class CanvasHelpers(QObject):
     def __init__(self, canvas: Canvas, settings: Settings) -> None:
         super().__init__(canvas)
         self._settings = settings
+        self.canvas = canvas
+        canvas.following.is_on = settings.follows_running
+        canvas.fields.picture_of = self._picture_of
         self.palette = Palette(canvas, settings)
         self.find_bar = FindBar(canvas)
         self.opening = BlockOpening(canvas, self.find_bar)
@@ -64,12 +68,30 @@ class CanvasHelpers(QObject):
         self.minimap.setVisible(is_shown)
         self.minimap.refresh()
 
+    def follow_running(self, is_on: bool) -> None:
+        """Let the canvas follow the block that runs, or not."""
+        self._settings.follows_running = is_on
+        self.canvas.following.is_on = is_on
+
     def refresh(self) -> None:
         """Take the theme and the project that the canvas has now."""
         helpers = (self.palette, self.find_bar, self.insert_bar, self.trash, self.empty_hint)
         for helper in helpers:
             helper.refresh()
         self._stack_corner()
+
+    def _picture_of(self, table: str, value: str, block: str, side: int) -> QPixmap | None:
+        """A small picture of what can be chosen in a field, as the block's robot does it."""
+        # Bodies are read when somebody first chooses one, not when the window comes
+        from nep_studio.ui.robot_view.small_pictures import small_picture
+
+        editor, theme = self.canvas.editor, self.canvas.look.theme.name
+        asked = editor.language.robot_of(editor.project.blocks[block])
+        entries = robot_entries(editor.project, editor.language)
+        models = [one.model for one in entries if one.name == asked] or [e.model for e in entries]
+        ratio = self.canvas.devicePixelRatioF()
+        model = models[0] if models else ""
+        return small_picture(table, value, model=model, theme=theme, side=side, ratio=ratio)
 
     def _stack_corner(self) -> None:
         """The minimap is above the trash."""

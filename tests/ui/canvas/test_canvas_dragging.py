@@ -29,6 +29,19 @@ def undone(desk) -> bytes:
     return desk.file
 
 
+def test_a_block_snaps_from_as_far_as_in_other_editors_and_no_farther(desk):
+    desk = desk([B("event.started"), B("robot.say", {"text": "one"})], [B("control.wait")])
+    [loose] = desk.body(1)
+    end = desk.canvas.sight.view_rect_of(desk.body()[-1]).bottomLeft()
+
+    desk.put(loose, end + QPointF(0, 52))
+    is_far_free = len(desk.body()) == 2
+    desk.put(loose, end + QPointF(0, 44))
+
+    assert is_far_free
+    assert desk.body()[-1] == loose
+
+
 def test_a_block_is_carried_with_all_below_it(desk):
     desk = desk(story())
     before, (hat, one, two, three) = desk.file, list(desk.body())

@@ -194,3 +194,45 @@ def test_the_cursor_shows_what_a_press_would_do(desk):
 
     shape = Qt.CursorShape
     assert shapes == [shape.OpenHandCursor, shape.PointingHandCursor, shape.ArrowCursor]
+
+
+def lines_across(desk, start: QPointF, end: QPointF) -> int:
+    """How many lines in the colour of the selection a way through the view crosses."""
+    picture, ink = desk.canvas.viewport().grab().toImage(), desk.canvas.look.theme.colour("focus")
+    count, steps, was_line = 0, round((end - start).manhattanLength()), False
+    for step in range(steps):
+        at = (start + (end - start) * step / steps).toPoint()
+        seen = picture.pixelColor(at)
+        apart = abs(seen.red() - ink.red()) + abs(seen.blue() - ink.blue())
+        is_line = apart + abs(seen.green() - ink.green()) < 60
+        count, was_line = count + (is_line and not was_line), is_line
+    return count
+
+
+def test_a_selected_block_that_has_the_keyboard_too_has_one_outline(desk):
+    desk = desk(story())
+    one = desk.body()[1]
+
+    desk.mouse.click(desk.grip(one))
+
+    assert desk.canvas.hasFocus()
+    rect = desk.canvas.sight.view_rect_of(one)
+    middle = rect.center().y() + 12
+    assert (
+        lines_across(desk, QPointF(rect.left() - 20, middle), QPointF(rect.left() + 3, middle)) == 1
+    )
+    right = rect.right() - 6
+    assert lines_across(desk, QPointF(right, rect.top() - 20), QPointF(right, rect.top() + 5)) == 1
+
+
+def test_a_selected_stack_has_one_outline_around_all_of_it(desk):
+    desk = desk(story())
+    one = desk.body()[1]
+    desk.mouse.click(desk.grip(one))
+
+    QTest.keyClick(desk.canvas, Qt.Key.Key_A, Qt.KeyboardModifier.ControlModifier)
+
+    first, last = (desk.canvas.sight.view_rect_of(block) for block in (one, desk.body()[-1]))
+    x = first.left() + 4
+    assert len(desk.canvas.selection.ids) == len(desk.body())
+    assert lines_across(desk, QPointF(x, first.top() - 2), QPointF(x, last.bottom() + 20)) == 1

@@ -19,6 +19,7 @@ from nep_studio.ui.canvas.editing.snapping import (
     slots,
 )
 from nep_studio.ui.canvas.layout.page import PageLayout
+from nep_studio.ui.canvas.painting.painter import choice_tint
 from tests.blocks.block_building import B
 from tests.ui.canvas.test_canvas_snapping import (
     PAGES,
@@ -132,3 +133,21 @@ def test_a_condition_dropped_anywhere_on_a_wide_hole_is_plugged_in(desk, share, 
 def piece_x(piece, share: float) -> float:
     """A point along a piece, in its block."""
     return piece.x + piece.width * share
+
+
+def test_what_is_typed_in_is_painted_white_and_what_is_chosen_in_the_tint_of_its_block(
+    desk,
+) -> None:
+    desk = desk([B("robot.say", {"text": "hello"})])
+    [say] = desk.body()
+    colours = desk.canvas.look.theme.block("robot")
+    picture = desk.canvas.viewport().grab().toImage()
+
+    def fill(key: str) -> str:
+        placed = desk.canvas.page_layout.placed(say)
+        piece = next(piece for piece in placed.box.pieces if piece.key == key)
+        at = desk.canvas.sight.camera.to_view(placed.x + piece.x, placed.y + piece.y)
+        return picture.pixelColor((at + QPointF(piece.width / 2, 3)).toPoint()).name()
+
+    assert fill("text") == "#ffffff"
+    assert fill("robot") == fill("gesture") == choice_tint(colours).name() != colours.fill.name()

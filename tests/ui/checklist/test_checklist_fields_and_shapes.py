@@ -125,7 +125,7 @@ def test_fields_lines_angle_colour_slider_and_dependent_choice(person: Person) -
     fill_in(person, slider, "much", "70")
     person.click(person.piece(arm, "joint"))
     offered = labels(person.canvas.fields.widget.list)
-    person.key(Key.Key_Escape, widget=person.canvas.fields.widget.search)
+    person.key(Key.Key_Escape, widget=person.canvas.fields.widget.first())
 
     assert value(person, lines, "text") == "one\ntwo"
     assert value(person, angle, "angle") == -45
@@ -144,10 +144,10 @@ def test_a_choice_is_searched_by_typing(person: Person) -> None:
     person.click(person.piece(pose, "posture"))
     popup = person.canvas.fields.widget
     everything = labels(popup.list)
-    person.type("sit", popup.search)
+    person.type("sit", popup.first())
     found = labels(popup.list)
-    person.key(Key.Key_Down, widget=popup.search)
-    person.key(Key.Key_Return, widget=popup.search)
+    person.key(Key.Key_Down, widget=popup.first())
+    person.key(Key.Key_Return, widget=popup.first())
 
     assert len(found) < len(everything) and all("sit" in label for label in found)
     assert found[1] in shown(person, pose)

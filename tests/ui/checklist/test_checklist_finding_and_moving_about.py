@@ -50,7 +50,7 @@ def test_keyboard_moves_between_blocks_picks_up_places_and_edits(person: Person)
     assert person.undo() == before
     person.canvas.selection.set([one])
     person.key(Key.Key_F2)
-    person.key(Key.Key_Tab, widget=person.canvas.fields.widget.search)
+    person.key(Key.Key_Tab, widget=person.canvas.fields.widget.first())
     line = person.canvas.fields.widget
     line.selectAll()
     person.type("typed", line)

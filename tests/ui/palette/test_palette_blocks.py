@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import pytest
-from PySide6.QtCore import QPoint, Qt
+from PySide6.QtCore import QPoint, QPointF, Qt
 from PySide6.QtTest import QTest
 
 from nep_studio.blocks.edits.project import RenameVariable
+from nep_studio.ui.canvas.layout.index import Rect
 from tests.ui.palette.palette_use import (
     LEFT,
     click,
@@ -163,6 +164,39 @@ def test_a_block_dragged_out_is_carried_and_lands_on_the_canvas(palette):
     assert is_carried
     assert types(palette)[-1] == "control.wait"
     assert len(types(palette)) == before + 1
+
+
+@pytest.mark.parametrize("block_type", ["robot.say", "control.repeat", "math.arithmetic"])
+@pytest.mark.parametrize("width", [400, 230])
+@pytest.mark.parametrize("zoom", [1.0, 1.4])
+def test_a_block_dragged_out_stays_under_the_pointer_where_it_was_grabbed(
+    palette, qtbot, block_type, width, zoom
+):
+    palette.setFixedWidth(width)
+    palette.canvas.sight.zoom(zoom)
+    qtbot.waitUntil(lambda: palette.shelf.width() <= width, timeout=3000)
+    qtbot.waitUntil(lambda: palette.shelf._is_settled, timeout=3000)
+    shelf, canvas, place = palette.shelf, palette.canvas, QPoint(450, 300)
+    viewport = shelf.viewport()
+    shelf._go_to(number_of(palette, block_type))
+    spot = shelf._layout.spots[number_of(palette, block_type)]
+    corner = shelf.rect_of(number_of(palette, block_type)).topLeft()
+    end = viewport.mapFromGlobal(canvas.viewport().mapToGlobal(place))
+    for piece in [one for one in spot.chain.boxes[0].pieces if one.piece != "words"]:
+        middle = QPointF(piece.x + piece.width / 2, piece.y + piece.height / 2) * spot.scale
+
+        QTest.mousePress(viewport, LEFT, pos=corner + middle.toPoint())
+        QTest.mouseMove(viewport, corner + middle.toPoint() + QPoint(30, 0))
+        QTest.mouseMove(viewport, end)
+        [chain] = canvas.pointing.gesture.cargo.chains
+        way = canvas.sight.to_page(place) - canvas.pointing.gesture._grabbed
+        held = next(one for one in chain.boxes[0].pieces if one.key == piece.key)
+        x, y = chain.x + way.x() + held.x, chain.y + way.y() + held.y
+        seen = canvas.sight.camera.view_rect(Rect(x, y, held.width, held.height))
+        QTest.keyClick(canvas, Qt.Key.Key_Escape)
+        QTest.mouseRelease(viewport, LEFT, pos=end)
+
+        assert (seen.center() - QPointF(place)).manhattanLength() < 4, piece.key
 
 
 def test_a_short_drag_is_a_click(palette):

@@ -14,9 +14,11 @@ from nep_studio.ui.running.needs import NeedsDialog
 from nep_studio.ui.shell.main_window import MainWindow
 from tests.blocks.block_building import B
 from tests.ui.running.window_use import (
+    LONG_WAIT,
     WAIT_MS,
     Seen,
     block_of,
+    blocks_of,
     has_run,
     press,
     state_is,
@@ -187,3 +189,23 @@ def test_an_example_is_tried_with_one_press(window: MainWindow, qtbot: QtBot) ->
 
     qtbot.waitUntil(lambda: bool(seen.said()), timeout=WAIT_MS)
     assert window.files.document.title
+
+
+def test_the_canvas_follows_the_block_that_runs_unless_a_person_wants_to_stay(
+    window: MainWindow, open_program, qtbot: QtBot
+) -> None:
+    short = [B("control.wait", {"seconds": 0.01}) for _ in range(50)]
+    open_program([B("event.started"), *short, B("robot.say", {"text": "Down."}), LONG_WAIT])
+    canvas = window.workbench.canvas
+    deep = canvas.page_layout.placed(blocks_of(window, "control.wait")[-1])
+
+    press(window, qtbot, "run")
+
+    qtbot.waitUntil(
+        lambda: canvas.sight.visible_page_rect().holds(deep.x + 4, deep.y + 4), timeout=WAIT_MS
+    )
+    window.actions_by_name["follow_running"].trigger()
+    assert not window.settings.follows_running
+    assert not canvas.following.is_on
+    press(window, qtbot, "stop")
+    state_is(window, qtbot, "idle")

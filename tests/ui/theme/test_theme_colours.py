@@ -11,6 +11,7 @@ from colour_seeing import EYES, Matrix, contrast, distance
 from PySide6.QtGui import QColor
 
 from nep_studio import paths
+from nep_studio.ui.canvas.painting.painter import choice_tint
 from nep_studio.ui.theme.colours import (
     DISABLED,
     HIGH_CONTRAST,
@@ -135,6 +136,24 @@ def test_words_and_fields_of_blocks_can_be_read(theme: Theme) -> None:
     ]
 
     assert poor == []
+
+
+def test_choices_are_tinted_and_can_be_read_and_what_is_typed_in_is_white(theme: Theme) -> None:
+    least = 7.0 if theme.name == HIGH_CONTRAST else 4.5
+
+    for name, block in theme.blocks.items():
+        tint = choice_tint(block)
+        assert contrast(block.text, tint) >= (4.5 if name == DISABLED else least), name
+        assert tint != block.fill, name
+        if name != DISABLED:
+            assert block.field.lightnessF() > 0.93, name
+            assert contrast(block.field, tint) >= 1.3, name
+
+
+def test_where_blocks_land_is_no_warm_colour(theme: Theme) -> None:
+    hue = theme.colour("snap").hue()
+
+    assert 150 <= hue <= 200
 
 
 def test_blocks_stand_out_from_the_canvas_and_fields_from_blocks(theme: Theme) -> None:

@@ -9,7 +9,7 @@ from PySide6.QtSvg import QSvgRenderer
 from pytestqt.qtbot import QtBot
 
 from nep_studio import paths
-from nep_studio.ui.theme.colours import Theme
+from nep_studio.ui.theme.colours import Theme, load_theme
 from nep_studio.ui.theme.icons import (
     CATEGORY_ICONS,
     UnknownIcon,
@@ -18,6 +18,7 @@ from nep_studio.ui.theme.icons import (
     icon,
     icon_path,
     icon_pixmap,
+    wear,
 )
 
 NAMES = sorted(path.stem for path in (paths.resources() / "icons").glob("*.svg"))
@@ -90,3 +91,18 @@ def test_the_application_icon_keeps_its_own_colours(qtbot: QtBot) -> None:
 
 def test_the_licence_is_beside_the_icons() -> None:
     assert "ISC License" in (paths.resources() / "icons" / "LICENSE-lucide.txt").read_text()
+
+
+def test_an_icon_of_the_theme_that_is_worn_follows_the_windows_to_another(qtbot: QtBot) -> None:
+    light, dark = load_theme("light"), load_theme("dark")
+    wear(light)
+    worn, other = icon("save", light, "accent"), icon("save", dark)
+
+    wear(dark)
+    shown = worn.pixmap(QSize(32, 32)), other.pixmap(QSize(32, 32))
+    wear(load_theme("high_contrast"))
+
+    assert is_all(shown[0], dark.colour("accent").name())
+    assert is_all(shown[1], dark.colour("text").name())
+    assert is_all(other.pixmap(QSize(32, 32)), dark.colour("text").name())
+    wear(light)

@@ -51,7 +51,7 @@ def offered(qtbot: QtBot) -> Callable[[MainWindow, str, str], list[str]]:
         qtbot.waitUntil(lambda: canvas.fields.widget is not None)
         shown = canvas.fields.widget.list
         labels = [shown.item(row).text() for row in range(shown.count())]
-        QTest.keyClick(canvas.fields.widget.search, Qt.Key.Key_Escape)
+        QTest.keyClick(canvas.fields.widget.first(), Qt.Key.Key_Escape)
         return labels
 
     return read

@@ -9,6 +9,7 @@ from PySide6.QtCore import Qt
 from PySide6.QtGui import QAction
 from PySide6.QtWidgets import QToolButton
 
+from nep_studio.blocks.checks.diagnostic import Diagnostic
 from nep_studio.ui.actions import sequences, shortcuts_of
 from nep_studio.ui.message_cards import QuestionDialog
 from nep_studio.ui.messages import Answer, Message
@@ -43,6 +44,23 @@ def test_stop_does_not_move_when_run_says_something_else(karate, qtbot) -> None:
     karate.toolbar.layout().activate()
 
     assert (button(karate, "stop").pos(), button(karate, "settings").pos()) == before
+
+
+@pytest.mark.parametrize("width", [1100, 1366])
+def test_nothing_moves_on_the_toolbar_while_problems_come_and_go(karate, qtbot, width) -> None:
+    karate.resize(width, 700)
+    karate.workbench.checks.cancel()
+    places = set()
+
+    for count in (0, 1, 3, 12):
+        karate._on_problems_found(
+            [Diagnostic("error", "x", "behaviour", f"b{n}", "wrong") for n in range(count)]
+        )
+        karate.toolbar.layout().activate()
+        names = ("check", "stop", "settings", "undo")
+        places.add(tuple(button(karate, name).geometry().getRect() for name in names))
+
+    assert len(places) == 1
 
 
 def test_run_is_not_white_on_white_in_its_menu(karate) -> None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Collection
+from dataclasses import dataclass
 from functools import cached_property, reduce
 from typing import TYPE_CHECKING
 
@@ -21,7 +22,7 @@ from nep_studio.blocks.operations.moving import (
     why_not_enclose,
 )
 from nep_studio.blocks.operations.selection import members
-from nep_studio.ui.canvas.layout.boxes import Chain
+from nep_studio.ui.canvas.layout.boxes import Box, Chain, Piece
 from nep_studio.ui.canvas.layout.index import Rect
 from nep_studio.ui.canvas.layout.layout import Layout
 from nep_studio.ui.canvas.layout.page import bounds_of
@@ -133,13 +134,41 @@ class PickedUp(Cargo):
         return delete(canvas.editor, self.hidden)
 
 
+@dataclass(frozen=True, slots=True)
+class Grip:
+    """Where a block was taken hold of: a point of a box that shows it, from its left upper corner.
+
+    That box may be smaller than the block on the canvas, and its sentence in other rows.
+    """
+
+    box: Box
+    x: float
+    y: float
+
+    def on(self, box: Box) -> Point:
+        """The same point of the block where it is laid out as ``box``."""
+        held = next((piece for piece in self.box.pieces if piece.holds(self.x, self.y)), None)
+        for piece in box.pieces:
+            if held is not None and _is_same(piece, held):
+                x = piece.x + (self.x - held.x) * piece.width / held.width
+                return x, piece.y + (self.y - held.y) * piece.height / held.height
+        share_x, share_y = self.x / self.box.width, self.y / self.box.height
+        return min(max(share_x, 0.0), 1.0) * box.width, min(max(share_y, 0.0), 1.0) * box.height
+
+
+def _is_same(piece: Piece, other: Piece) -> bool:
+    """Whether two layouts of a block show the same in these pieces."""
+    words = piece.text == other.text or piece.piece != "words"
+    return words and (piece.piece, piece.key, piece.kind) == (other.piece, other.key, other.kind)
+
+
 class NewBlocks(Cargo):
     """Blocks that are not in the program yet: from the palette, or copies."""
 
     def __init__(
-        self, canvas: CanvasHost, clip: Clip, at: Point, *, hold: Point | None = None
+        self, canvas: CanvasHost, clip: Clip, at: Point, *, grip: Grip | None = None
     ) -> None:
-        """Hold the blocks with their corner at ``at``, or by a point inside them there."""
+        """Hold the blocks with their corner at ``at``, or where they were taken hold of there."""
         self._clip = clip
         project = clip.project
         self.layout = Layout(project, canvas.editor.language.of(project), canvas.look.measures)
@@ -150,11 +179,11 @@ class NewBlocks(Cargo):
             chain.x, chain.y = at[0] + stack.x - left, at[1] + stack.y - top
             self.chains.append(chain)
         self._at = at
-        if hold is not None:
-            # Shift the blocks so that a point of the first one is where its corner was
+        if grip is not None:
+            # Shift the blocks so that the point of the first one that is held is at ``at``
             box = self.chains[0].boxes[0]
-            side = 1 if canvas.look.measures.is_mirrored else -1
-            dx, dy = side * min(hold[0], box.width / 2), -min(hold[1], box.height / 2)
+            x, y = grip.on(box)
+            dx, dy = (box.width - x if box.is_mirrored else -x), -y
             for chain in self.chains:
                 chain.x, chain.y = chain.x + dx, chain.y + dy
             self._at = self._at[0] + dx, self._at[1] + dy

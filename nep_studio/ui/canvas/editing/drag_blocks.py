@@ -23,7 +23,7 @@ from nep_studio.ui.canvas.layout.page import Hit
 from nep_studio.ui.canvas.painting.layers import make_sprite
 from nep_studio.ui.words import count_words, tr
 
-from .cargo import Cargo, NewBlocks
+from .cargo import Cargo, Grip, NewBlocks
 from .gesture import TOUCH_DRAG_PX, AutoScroll, Gesture, Pointer
 from .snapping import Ground, Point, Snap, Target, search
 
@@ -272,10 +272,12 @@ class ExternalDrag(QObject):
     Before the mouse has moved far enough the widget has its press for itself, as for a click.
     """
 
-    def __init__(self, canvas: CanvasHost, clip: Clip, pressed: QPoint, source: QWidget) -> None:
+    def __init__(
+        self, canvas: CanvasHost, clip: Clip, pressed: QPoint, source: QWidget, grip: Grip | None
+    ) -> None:
         super().__init__(canvas.area)
         self._canvas = canvas
-        self._clip = clip
+        self._clip, self._grip = clip, grip
         self._pressed = pressed
         self._gesture: DragBlocks | None = None
         source.installEventFilter(self)
@@ -299,17 +301,23 @@ class ExternalDrag(QObject):
         if self._gesture is None:
             if way.manhattanLength() < TOUCH_DRAG_PX:
                 return False
-            self._gesture = carry_in(self._canvas, self._clip, self._pressed)
+            self._gesture = carry_in(self._canvas, self._clip, self._pressed, self._grip)
         if self._canvas.pointing.gesture is self._gesture:
             self._canvas.pointing.move_to(_in_view(self._canvas, place))
         return True
 
 
-def carry_in(canvas: CanvasHost, clip: Clip, place: QPoint) -> DragBlocks:
-    """Begin to carry new blocks, held by their first row at a place of the screen."""
-    view = _in_view(canvas, place)
-    page, grip = canvas.sight.to_page(view), canvas.look.measures.row_height / 2
-    cargo = NewBlocks(canvas, clip, (page.x(), page.y()), hold=(2 * grip, grip))
+def carry_in(canvas: CanvasHost, clip: Clip, place: QPoint, grip: Grip | None = None) -> DragBlocks:
+    """Begin to carry new blocks at a place of the screen, held where they were taken hold of.
+
+    Of blocks that come from elsewhere nobody knows where: they are held by their first row.
+    """
+    view, measures = _in_view(canvas, place), canvas.look.measures
+    page, row = canvas.sight.to_page(view), measures.row_height
+    at = page.x(), page.y()
+    if grip is None:
+        at = at[0] + (row if measures.is_mirrored else -row), at[1] - row / 2
+    cargo = NewBlocks(canvas, clip, at, grip=grip)
     gesture = DragBlocks(canvas, cargo, page)
     canvas.area.setFocus()
     canvas.pointing.begin(gesture)

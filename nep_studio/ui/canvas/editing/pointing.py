@@ -90,7 +90,7 @@ class Press(Gesture):
         piece = hit.piece
         if piece is not None and piece.piece == "button":
             canvas.fields.press_button(hit.block, piece.kind, piece.key, piece.number)
-        elif piece is not None and canvas.fields.open(hit.block, piece.key):
+        elif piece is not None and canvas.fields.open(hit.block, piece.key, at_pointer=True):
             return
         elif self.is_double:
             canvas.news.block_opened.emit(hit.block)
@@ -133,6 +133,18 @@ def problem_at(canvas: CanvasHost, at: QPointF) -> str:
         if block in canvas.problems.problems and badge_rect(placed, canvas).contains(at):
             return block
     return ""
+
+
+def _as_it_is_now(canvas: CanvasHost, hit: Hit | None) -> Hit | None:
+    """What was under the pointer, where it is laid out now; a press means what was seen."""
+    placed = canvas.page_layout.placed(hit.block) if hit is not None else None
+    if hit is None or placed is None:
+        return None
+    if placed == hit.placed or hit.piece is None:
+        return Hit(hit.block, placed, hit.piece)
+    was = hit.piece
+    same = (p for p in placed.box.pieces if (p.piece, p.key) == (was.piece, was.key))
+    return Hit(hit.block, placed, next(same, None))
 
 
 class Pointing:
@@ -246,8 +258,9 @@ class Pointing:
     def _begin(self, pointer: Pointer) -> None:
         canvas = self._canvas
         self._last = pointer
-        canvas.fields.close()
-        gesture = choose(canvas, pointer, canvas.sight.hit(pointer.view))
+        hit = canvas.sight.hit(pointer.view)
+        canvas.fields.close()  # blocks may have other names, and be wider, from now on
+        gesture = choose(canvas, pointer, _as_it_is_now(canvas, hit))
         if gesture is not None:
             self.begin(gesture)
 

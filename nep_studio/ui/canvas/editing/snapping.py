@@ -15,8 +15,8 @@ from nep_studio.ui.canvas.layout.boxes import Box, Chain
 from nep_studio.ui.canvas.layout.index import Rect
 from nep_studio.ui.canvas.layout.page import PageLayout, Placed, boxes_of
 
-RADIUS_PX = 28.0
-"""How near to a place blocks must be held to snap to it, in pixels of the view."""
+RADIUS_PX = 48.0
+"""How near to a place blocks must be held to snap to it, in pixels of the view: a child's reach."""
 
 PREFERENCE_PX = 8.0
 """How much nearer another place must be to take over from the one that is shown.

@@ -1,14 +1,15 @@
-"""A list to choose from, with a search box: type to filter, arrows and Enter to choose."""
+"""A list to choose from; a long one has a search box: type to filter, arrows and Enter choose."""
 
 from __future__ import annotations
 
+import time
 import unicodedata
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, cast
 
-from PySide6.QtCore import QEvent, QObject, QSize, Qt
-from PySide6.QtGui import QKeyEvent
+from PySide6.QtCore import QEvent, QObject, QSize, Qt, QTimer
+from PySide6.QtGui import QIcon, QKeyEvent
 from PySide6.QtWidgets import QLineEdit, QListWidget, QListWidgetItem, QWidget
 
 from nep_studio.blocks.language import Language
@@ -94,7 +95,23 @@ def _used_states(project: Project, language: Language) -> Iterator[str]:
                 yield value
 
 
-_MOST_ROWS = 11
+_MOST_ROWS, _MOST_PICTURES = 11, 8
+_PICTURES = {
+    "animations": "person-standing",
+    "animals": "person-standing",
+    "postures": "person-standing",
+    "things": "box",
+    "placed_things": "box",
+}
+"""The tables of choices that have small pictures, and what stands where there is none."""
+
+_PICTURE_LINES = 2.4
+_DRAWN_AT_ONCE_S = 0.012
+"""So long pictures are drawn before what a person does is looked after again."""
+
+FEWEST_TO_SEARCH = 8
+"""So many choices have a search box; fewer are seen at a glance."""
+
 _OPTION = Qt.ItemDataRole.UserRole
 _MOVES = frozenset({Qt.Key.Key_Up, Qt.Key.Key_Down, Qt.Key.Key_PageUp, Qt.Key.Key_PageDown})
 
@@ -116,24 +133,37 @@ class ChoicePopup(FieldPopup):
         self.list.setAccessibleName(title)
         self.list.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
         self.list.setFocusPolicy(Qt.FocusPolicy.NoFocus)
+        self.list.installEventFilter(self)
         self.list.setIconSize(QSize(self.line, self.line))
         self.list.itemClicked.connect(self._choose)
         self.list.currentItemChanged.connect(self._on_row)
         self.question: Question | None = None
+        editor = editors.canvas.editor
+        block = editor.project.blocks[edit.block]
+        self._table = editor.language.table_of(edit.slot, block, edit.key)
+        self._undrawn: list[QListWidgetItem] = []
+        self._drawing = QTimer(self, interval=0)
+        self._drawing.timeout.connect(self._draw_some)
+        if self._table in _PICTURES:
+            side = round(_PICTURE_LINES * self.line)
+            self.list.setIconSize(QSize(side, side))
         self.column.addWidget(self.search)
         self.column.addWidget(self.list)
+        self.is_searched = self.is_free or len(self.options()) >= FEWEST_TO_SEARCH
+        self.search.setVisible(self.is_searched)
         self.fill("")
 
     def first(self) -> QWidget:
-        """The search box has the keyboard."""
-        return self.search
+        """The search box has the keyboard, or the list of few choices."""
+        return self.search if self.is_searched else self.list
 
     def options(self) -> list[Option]:
         """What can be chosen."""
         editor = self._editors.canvas.editor
         block = editor.project.blocks[self.edit.block]
         offered = editor.language.choices_of(self.edit.slot, block, self.edit.key)
-        return [Option(label, value, self.icon_name) for value, label in offered.items()]
+        sign = _PICTURES.get(self._table, self.icon_name)
+        return [Option(label, value, sign) for value, label in offered.items()]
 
     def more_rows(self) -> list[Option]:
         """Rows at the end that do something else."""
@@ -144,6 +174,7 @@ class ChoicePopup(FieldPopup):
 
     def fill(self, typed: str) -> None:
         """Show the options that hold what is typed."""
+        self._undrawn = []
         self.list.clear()
         section, found = "", matching(self.options(), typed)
         for option in found:
@@ -172,10 +203,11 @@ class ChoicePopup(FieldPopup):
             self.column.insertWidget(0, question)
             question.show()
         else:
-            self.search.show()
+            self.search.setVisible(self.is_searched)
+            self.list.show()
         # the keyboard leaves a widget before it is hidden, or Qt would send it to the next field
-        (question.first() if question else self.search).setFocus(Qt.FocusReason.OtherFocusReason)
-        self.search.setVisible(question is None)
+        (question.first() if question else self.first()).setFocus(Qt.FocusReason.OtherFocusReason)
+        self.search.setVisible(question is None and self.is_searched)
         self.list.setVisible(question is None)
         if old is not None:
             old.hide()
@@ -185,7 +217,7 @@ class ChoicePopup(FieldPopup):
         self.follow()
 
     def eventFilter(self, watched: QObject, event: QEvent) -> bool:
-        """In the search box, the arrows move in the list and Enter chooses."""
+        """The arrows move in the list and Enter chooses, from the search box too."""
         if event.type() == QEvent.Type.KeyPress:
             key = cast(QKeyEvent, event).key()
             if key in _MOVES:
@@ -201,20 +233,45 @@ class ChoicePopup(FieldPopup):
         item.setData(_OPTION, option)
         item.setSizeHint(QSize(self._wide(option.label), self._row))
         is_now = not option.action and option.value == self.edit.value
-        name = "check" if is_now else option.icon
+        if is_now and self._table in _PICTURES:
+            font = self.list.font()
+            font.setBold(True)  # the picture takes the place of the tick
+            item.setFont(font)
+        name = "check" if is_now and self._table not in _PICTURES else option.icon
         if name:
             item.setIcon(icon(name, self._editors.canvas.look.theme))
         spoken = tr("{label}, chosen now", label=option.label) if is_now else option.label
         item.setData(Qt.ItemDataRole.AccessibleTextRole, spoken)
         self.list.addItem(item)
+        if self._table in _PICTURES and not option.action:
+            self._undrawn.append(item)
+            self._drawing.start()
+
+    def _draw_some(self) -> None:
+        """Draw some pictures, those in view first; the list is open meanwhile."""
+        end, view = time.perf_counter() + _DRAWN_AT_ONCE_S, self.list.viewport().rect()
+        seen = [item for item in self._undrawn if self.list.visualItemRect(item).intersects(view)]
+        while self._undrawn and time.perf_counter() < end:
+            item = seen.pop(0) if seen else self._undrawn[0]
+            self._undrawn.remove(item)
+            side = self.list.iconSize().width()
+            value = str(item.data(_OPTION).value)
+            picture = self._editors.picture_of(self._table, value, self.edit.block, side)
+            if picture is not None:
+                shown = QIcon(picture)
+                shown.addPixmap(picture, QIcon.Mode.Selected)  # Qt would veil it there
+                item.setIcon(shown)
+        if not self._undrawn:
+            self._drawing.stop()
 
     @property
     def _row(self) -> int:
         """The height of a row."""
-        return round(1.6 * self.line)
+        return max(round(1.6 * self.line), self.list.iconSize().height() + 2)
 
     def _wide(self, words: str) -> int:
-        return self.list.fontMetrics().horizontalAdvance(words) + 3 * self.line
+        room = self.list.iconSize().width() + 2 * self.line
+        return self.list.fontMetrics().horizontalAdvance(words) + room
 
     def _add_heading(self, words: str) -> None:
         item = QListWidgetItem(words)
@@ -227,7 +284,8 @@ class ChoicePopup(FieldPopup):
         self.list.addItem(item)
 
     def _fit(self) -> None:
-        rows = min(max(self.list.count(), 1), _MOST_ROWS)
+        most = _MOST_PICTURES if self._table in _PICTURES else _MOST_ROWS
+        rows = min(max(self.list.count(), 1), most)
         self.list.setFixedHeight(rows * self._row + 2 * self.list.frameWidth() + self.line // 3)
         wide = self.list.sizeHintForColumn(0) + 2 * self.line
         self.list.setMinimumWidth(max(13 * self.line, min(wide, 26 * self.line)))

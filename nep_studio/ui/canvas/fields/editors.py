@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from typing import TYPE_CHECKING, Protocol, cast
 
-from PySide6.QtCore import QEvent, QObject
-from PySide6.QtGui import QHelpEvent
+from PySide6.QtCore import QEvent, QObject, Qt, QTimer
+from PySide6.QtGui import QHelpEvent, QPixmap
 from PySide6.QtWidgets import QToolTip, QWidget
 
 from nep_studio.blocks.definitions import Slot
@@ -183,6 +183,10 @@ EDITORS: dict[str, type] = {
 MOST_RECENT_COLOURS = 6
 
 
+PictureOf = Callable[[str, str, str, int], QPixmap | None]
+"""Draws a choice: its table, its value, the block that it is of, and how large in pixels."""
+
+
 class FieldEditors(QObject):
     """The editors of one canvas; one at most is open."""
 
@@ -190,6 +194,7 @@ class FieldEditors(QObject):
         super().__init__(canvas.area)
         self.canvas = canvas
         self.recent_colours: list[str] = []
+        self.picture_of: PictureOf = lambda table, value, block, side: None
         self.comments = Comments(canvas)
         self.widget: OpenEditor | None = None
         """The editor that is open."""
@@ -203,8 +208,11 @@ class FieldEditors(QObject):
         """The block and field that are edited now."""
         return (self.widget.edit.block, self.widget.edit.key) if self.widget is not None else None
 
-    def open(self, block: str, key: str) -> bool:
-        """Edit the field ``key`` of a block; False when it has no editor."""
+    def open(self, block: str, key: str, *, at_pointer: bool = False) -> bool:
+        """Edit the field ``key`` of a block; False when it has no editor.
+
+        One that was pressed is seen: the page stays as it is under the pointer.
+        """
         self.close()
         edit = self.edit_of(block, key)
         if edit is None:
@@ -217,7 +225,8 @@ class FieldEditors(QObject):
         rect = page_rect_of(self.canvas, block, key)
         if rect is None:
             return False
-        self.canvas.sight.show_rect(rect)
+        if not at_pointer:
+            self.canvas.sight.show_rect(rect)
         self.widget = self._new(edit)
         self._listen(is_open=True)
         self.widget.show_editor()
@@ -265,6 +274,17 @@ class FieldEditors(QObject):
         if widget is self.widget:
             self.close()
 
+    def leave(self, widget: OpenEditor, reason: Qt.FocusReason) -> None:
+        """The keyboard has left an editor: what was typed is kept.
+
+        A press on the canvas takes the keyboard before it is told what was pressed, and closes the
+        editor itself then: nothing may move under the pointer in between.
+        """
+        if reason == Qt.FocusReason.MouseFocusReason and self.canvas.area.hasFocus():
+            QTimer.singleShot(0, self, lambda: self.close_if(widget))
+        else:
+            self.close_if(widget)
+
     def cancel(self) -> None:
         """Make the field as it was, and take the editor away."""
         self._end(restore=True)
@@ -304,9 +324,8 @@ class FieldEditors(QObject):
         cast(QWidget, self.widget).setAccessibleName(title_of(slot or edit.slot))
 
     def take(self, event: QEvent) -> bool:
-        """A press on the canvas keeps what was typed; resting over a field tells what it takes."""
+        """A press on the canvas ends a comment; resting over a field tells what it takes."""
         if event.type() == QEvent.Type.MouseButtonPress:
-            self.close()
             bubble = self.comments.bubble
             self._left_comment = bubble.block if bubble is not None else ""
             self.comments.close()

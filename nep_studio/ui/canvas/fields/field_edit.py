@@ -261,15 +261,17 @@ def beside(field: QRect, size: QSize, room: QRect, *, is_mirrored: bool, gap: in
 _RADII = {"round": 11.0, "square": 4.0, "bracket": 4.0}
 
 
-def line_style(canvas: CanvasHost, shape: str, *, is_wrong: bool) -> str:
-    """The style of a line or a text that lies over a field."""
-    theme = canvas.look.theme
+def line_style(canvas: CanvasHost, block: str, shape: str, *, is_wrong: bool) -> str:
+    """The style of a line or a text that lies over a field of a block, in the field's colours."""
+    theme, placed = canvas.look.theme, canvas.page_layout.placed(block)
+    assert placed is not None  # an editor lies over what is seen
+    colours = canvas.look.block_painter.look_of(placed.box)[0]
     scale = canvas.look.measures.unit * editor_scale(canvas)
     width = max(2, round(2.4 * scale))
     border = theme.colour("error" if is_wrong else "focus").name()
     return (
         "QLineEdit, QPlainTextEdit {"
-        f" background: {theme.colour('field').name()}; color: {theme.colour('field_text').name()};"
+        f" background: {colours.field.name()}; color: {colours.field_text.name()};"
         f" border: {width}px {'dashed' if is_wrong else 'solid'} {border};"
         f" border-radius: {round(_RADII.get(shape, 9.0) * scale)}px;"
         f" padding: 0 {round(2 * scale)}px; min-height: 0; margin: 0;"

@@ -93,7 +93,8 @@ class LineEditor(QLineEdit):
         if look != self._look:  # a style sheet costs more than a key may
             self._look = look
             self.setFont(editor_font(canvas))
-            self.setStyleSheet(line_style(canvas, self._kind.shape, is_wrong=is_wrong))
+            shape, block = self._kind.shape, self.edit.block
+            self.setStyleSheet(line_style(canvas, block, shape, is_wrong=is_wrong))
         unit = canvas.look.measures.unit * scale
         text = self.fontMetrics().horizontalAdvance(self.text()) + 17 * unit
         room = canvas.area.viewport().rect()
@@ -101,7 +102,8 @@ class LineEditor(QLineEdit):
         height = round(canvas.look.measures.field_height * scale)
         left = rect.right() - width if canvas.look.measures.is_mirrored else rect.left()
         left = max(0.0, min(left, room.width() - width))
-        self.setGeometry(round(left), round(rect.center().y() - height / 2), width, height)
+        top = max(0.0, min(rect.center().y() - height / 2, room.height() - height))
+        self.setGeometry(round(left), round(top), width, height)
         self._place_notes()
 
     def show_editor(self) -> None:
@@ -137,7 +139,7 @@ class LineEditor(QLineEdit):
         """A press elsewhere keeps what was typed."""
         super().focusOutEvent(event)
         if event.reason() not in _KEPT_FOCUS:
-            self._editors.close_if(self)
+            self._editors.leave(self, event.reason())
 
     def _step(self, event: QKeyEvent, sign: int) -> None:
         modifiers = event.modifiers()
@@ -216,7 +218,7 @@ class LinesEditor(QPlainTextEdit):
         if look != self._look:  # a style sheet costs more than a key may
             self._look = look
             self.setFont(editor_font(canvas))
-            self.setStyleSheet(line_style(canvas, "square", is_wrong=look[1]))
+            self.setStyleSheet(line_style(canvas, self.edit.block, "square", is_wrong=look[1]))
         line = self.fontMetrics().lineSpacing()
         unit = canvas.look.measures.unit * editor_scale(canvas)
         room = canvas.area.viewport().rect()
@@ -265,7 +267,7 @@ class LinesEditor(QPlainTextEdit):
         """A press elsewhere keeps what was typed."""
         super().focusOutEvent(event)
         if event.reason() not in _KEPT_FOCUS:
-            self._editors.close_if(self)
+            self._editors.leave(self, event.reason())
 
     def _on_changed(self) -> None:
         reason = self.edit.set(self.toPlainText())

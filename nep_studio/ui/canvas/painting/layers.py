@@ -103,14 +103,9 @@ class StaticLayer:
     def draw(self, painter: QPainter, camera: Camera, exposed: QRect, background: QColor) -> None:
         """Put the picture into the view, stretched when it was painted at another zoom."""
         if self.camera.scale == camera.scale:
-            ratio = self._ratio
-            if ratio == int(ratio):  # whole pixels: nothing to resample
-                times = int(ratio)
-                first = QPoint(exposed.x() * times, exposed.y() * times)
-                source_rect = QRect(first, exposed.size() * times)
-                painter.drawPixmap(exposed.topLeft(), self._pixmap, source_rect)
-                return
-            painter.drawPixmap(QRectF(exposed), self._pixmap, _scaled(exposed, ratio))
+            # The whole picture, cut by the painter to what is painted: a part of it has no whole
+            # pixels where the screen has one and a quarter for each, and would be resampled
+            painter.drawPixmap(0, 0, self._pixmap)
             return
         painter.fillRect(exposed, background)
         corner = camera.to_view(self.camera.x, self.camera.y)
@@ -286,12 +281,17 @@ class Layers:
         self._viewport.update()
 
     def repaint_page(self, rects: Iterable[Rect]) -> None:
-        """Paint these parts of the page anew."""
+        """Paint these parts of the page anew.
+
+        What lies over moved blocks reaches far beside them (a glow, badges, outlines, counts): it
+        is drawn again wherever it is, over the picture of what rests.
+        """
         camera, margin = self._host.sight.camera, 4 * self._host.look.measures.unit
-        for rect in rects:
-            view = camera.view_rect(rect.grown(margin))
-            self._rest.invalidate(view)
-            self._viewport.update(view.toAlignedRect().adjusted(-2, -2, 2, 2))
+        changed = [camera.view_rect(rect.grown(margin)) for rect in rects]
+        for rect in changed:
+            self._rest.invalidate(rect)
+        if changed:
+            self._viewport.update()
 
     def update_page(self, rect: Rect) -> None:
         """Draw the overlays of a part of the page again; the blocks rest."""
@@ -327,8 +327,8 @@ class Layers:
         if not is_zooming or self._rest.is_outdated or self._rest.camera.scale == camera.scale:
             self._rest.repair(camera)
         with QPainter(self._viewport) as painter:  # ended also when a drawing fails
-            for rect in rects_of(region):
-                self._rest.draw(painter, camera, rect, self._host.look.theme.colour("canvas"))
+            exposed, background = region.boundingRect(), self._host.look.theme.colour("canvas")
+            self._rest.draw(painter, camera, exposed, background)
             painter.setRenderHint(QPainter.RenderHint.Antialiasing)
             painter.scale(camera.scale, camera.scale)
             painter.translate(-camera.x, -camera.y)

@@ -6,9 +6,10 @@ from collections.abc import Iterable, Mapping
 from typing import TYPE_CHECKING, Protocol
 
 from PySide6.QtCore import QPointF, QRectF, Qt
-from PySide6.QtGui import QColor, QPainter, QPen
+from PySide6.QtGui import QColor, QPainter, QPainterPath, QPen
 
 from nep_studio.blocks.checks.diagnostic import Diagnostic
+from nep_studio.ui.canvas.layout.boxes import Box
 from nep_studio.ui.canvas.layout.page import Placed
 
 if TYPE_CHECKING:
@@ -22,6 +23,10 @@ MANY = 300
 """Selected blocks in view from which on their outlines are not followed."""
 
 
+STACKED = ("statement", "hat")
+"""Below blocks of these outlines others can be."""
+
+
 class Overlay(Protocol):
     """Something drawn over the page each time the view is painted, in canvas units."""
 
@@ -30,7 +35,15 @@ class Overlay(Protocol):
 
 
 class SelectionOverlay:
-    """A line around every selected block, and a second one around the keyboard's."""
+    """One line around all selected blocks that follow each other, and around the keyboard's.
+
+    The keyboard's block is selected most of the time: then the same line says both.
+    """
+
+    def __init__(self) -> None:
+        self._places: list[tuple[float, float]] = []
+        self._boxes: list[Box] = []
+        self._path = QPainterPath()
 
     def paint(self, painter: QPainter, view: CanvasHost) -> None:
         """Draw the lines, for the blocks in view."""
@@ -42,13 +55,53 @@ class SelectionOverlay:
         else:  # of many only those that can be seen
             seen = layout.boxes(view.sight.visible_page_rect())
             blocks = [placed for placed in seen if placed.box.block in selected]
-        rings(painter, view, blocks, colour, 2.5 * pixel)
-        placed = layout.placed(selected.cursor) if view.area.hasFocus() else None
+        if len(blocks) <= MANY:
+            painter.setPen(QPen(colour, 2.5 * pixel))
+            painter.setBrush(Qt.BrushStyle.NoBrush)
+            painter.drawPath(self._outline(view, blocks))
+        else:
+            rings(painter, view, blocks, colour, 2.5 * pixel)
+        is_apart = selected.cursor not in selected and view.area.hasFocus()
+        placed = layout.placed(selected.cursor) if is_apart else None
         if placed is not None:
             painter.setPen(QPen(colour, 2 * pixel, Qt.PenStyle.DashLine))
             painter.setBrush(Qt.BrushStyle.NoBrush)
             around = QRectF(*placed.rect.grown(5 * pixel))
             painter.drawRoundedRect(around, 6 * pixel, 6 * pixel)
+
+    def _outline(self, view: CanvasHost, blocks: list[Placed]) -> QPainterPath:
+        """The outline of blocks together: made again when one of them has changed or moved."""
+        known = [(placed.x, placed.y) for placed in blocks]
+        is_same = known == self._places and all(
+            placed.box is box for placed, box in zip(blocks, self._boxes, strict=True)
+        )
+        if not is_same:
+            self._places, self._boxes = known, [placed.box for placed in blocks]
+            self._path = _together(view, blocks)
+        return self._path
+
+
+def _together(view: CanvasHost, blocks: list[Placed]) -> QPainterPath:
+    """The outline of blocks, without lines where one follows on another."""
+    outlines, corner = view.look.block_painter.outlines, view.look.measures.corner
+    path = QPainterPath()
+    path.setFillRule(Qt.FillRule.WindingFill)
+    tops = {_at(placed, placed.y): placed for placed in blocks}
+    for placed in blocks:
+        path.addPath(outlines.of(placed.box).translated(placed.x, placed.y))
+        below = tops.get(_at(placed, placed.y + placed.box.height))
+        if below is not None and placed.box.outline in STACKED:
+            # A bridge over the seam, which is a line without width
+            width = min(placed.box.width, below.box.width)
+            left = placed.x + placed.box.width - width if placed.box.is_mirrored else placed.x
+            path.addRect(QRectF(left, below.y - corner, width, 2 * corner))
+    return path.simplified() if len(blocks) > 1 else path
+
+
+def _at(placed: Placed, y: float) -> tuple[float, float]:
+    """A height at the side where the blocks of a chain begin."""
+    x = placed.x + placed.box.width if placed.box.is_mirrored else placed.x
+    return round(x, 1), round(y, 1)
 
 
 def rings(

@@ -5,15 +5,32 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 from PySide6.QtCore import QPointF, QRectF, Qt
-from PySide6.QtGui import QBrush, QColor, QFont, QPainter, QPen
+from PySide6.QtGui import QBrush, QColor, QFont, QPainter, QPen, qGray
 
 from nep_studio.blocks.language import Language
 from nep_studio.ui.canvas.layout.boxes import Box, Measures, Piece, Texts, TextWidths
 from nep_studio.ui.canvas.layout.page import Placed
 from nep_studio.ui.canvas.layout.pieces import HINT_SIZE
-from nep_studio.ui.theme.colours import DISABLED, PLACEHOLDER, BlockColours, Theme
+from nep_studio.ui.theme.colours import DISABLED, PLACEHOLDER, BlockColours, Theme, mixed
 
 from .shapes import Outlines, paint_marks, paint_sign, round_pen, slot_path
+
+# What is typed in is white, what is chosen has the colour of its block.
+
+TINT = 0.24
+"""How far the colour of a choice is from that of its block."""
+
+DARKEST_TINTED = 0.02
+"""Blocks that are darker have choices that are brighter than they are."""
+
+
+def choice_tint(colours: BlockColours) -> QColor:
+    """What a choice is filled with: the block's colour, farther from that of its words."""
+    away = QColor("black" if qGray(colours.text.rgb()) > 128 else "white")
+    if colours.fill.lightnessF() < DARKEST_TINTED:
+        return mixed(colours.fill, colours.line, TINT)  # there is hardly a darker colour
+    return mixed(colours.fill, away, TINT)
+
 
 # Paint what is inside a block: words, fields, sockets and buttons.
 
@@ -28,6 +45,7 @@ class PiecePainter:
         self._hints = Texts()
         self._hint_font: QFont | None = None
         self._shades: dict[int, QColor] = {}
+        self._tints: dict[tuple[int, int], QColor] = {}
 
     def paint(
         self, painter: QPainter, piece: Piece, colours: BlockColours, *, with_text: bool
@@ -64,26 +82,35 @@ class PiecePainter:
                 painter.setPen(colours.text)
                 self._centred(painter, piece, piece.x, piece.width)
             return
-        fill = QColor(piece.text) if piece.mark == "swatch" and piece.text else colours.field
-        self._shape(painter, piece, fill, colours.field_line)
+        fill, ink, line = self._inks(piece, colours)
+        self._shape(painter, piece, fill, line)
         if not with_text:
             return
         lead = self._measures.line * 0.95 if piece.mark == "dial" else 0.0
         trail = self._measures.line * 0.75 if piece.opens else 0.0
         if piece.mark or piece.opens:
-            paint_marks(painter, piece, fill, colours, self._measures)
+            paint_marks(painter, piece, ink, colours, self._measures)
         if piece.mark in ("swatch", "tick"):
             return
         left = piece.x + (trail if self._measures.is_mirrored else lead)
         room = piece.width - lead - trail
         if piece.text:
-            painter.setPen(colours.field_text)
+            painter.setPen(ink)
             self._centred(painter, piece, left, room)
         elif piece.hint:
             # The colour of a hint on a field
-            faint = QColor(colours.field_text)
-            faint.setAlphaF(0.66)
+            faint = QColor(ink)
+            faint.setAlphaF(0.66 if fill is colours.field else 0.85)
             self._hint(painter, piece, faint, left, room)
+
+    def _inks(self, piece: Piece, colours: BlockColours) -> tuple[QColor, QColor, QColor]:
+        """What a field is filled with, written and framed in: white says that one may type."""
+        if piece.mark == "swatch" and piece.text:
+            fill = QColor(piece.text)
+            return fill, QColor("white" if qGray(fill.rgb()) < 128 else "black"), colours.field_line
+        if piece.opens:
+            return self._tint(colours), colours.text, colours.line
+        return colours.field, colours.field_text, colours.field_line
 
     def _centred(self, painter: QPainter, piece: Piece, left: float, room: float) -> None:
         line = self._measures.line
@@ -132,6 +159,12 @@ class PiecePainter:
             beside = piece.x if mirrored else piece.x + piece.width - width
             y = piece.y + (size - self._measures.line) / 2
             painter.drawStaticText(QPointF(beside, y), self._texts[piece.text])
+
+    def _tint(self, colours: BlockColours) -> QColor:
+        key = colours.fill.rgba(), colours.text.rgba()
+        if key not in self._tints:
+            self._tints[key] = choice_tint(colours)
+        return self._tints[key]
 
     def _darker(self, colour: QColor) -> QColor:
         """A shade deeper than the block: a hole in it."""

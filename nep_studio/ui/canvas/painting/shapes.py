@@ -6,7 +6,7 @@ import math
 from functools import lru_cache
 
 from PySide6.QtCore import QPointF, QRectF, Qt
-from PySide6.QtGui import QColor, QPainter, QPainterPath, QPen, QTransform, qGray
+from PySide6.QtGui import QColor, QPainter, QPainterPath, QPen, QTransform
 
 from nep_studio.ui.canvas.layout.boxes import Box, Measures, Piece
 from nep_studio.ui.theme.colours import BlockColours
@@ -126,12 +126,10 @@ def _polygon(path: QPainterPath, points: list[tuple[float, float]]) -> None:
 
 
 def paint_marks(
-    painter: QPainter, piece: Piece, fill: QColor, colours: BlockColours, measures: Measures
+    painter: QPainter, piece: Piece, ink: QColor, colours: BlockColours, measures: Measures
 ) -> None:
-    """Draw the marks of a field, each at the side where it belongs."""
+    """Draw the marks of a field in its ink, each at the side where it belongs."""
     rect, unit = QRectF(piece.x, piece.y, piece.width, piece.height), measures.unit
-    is_plain, is_dark = fill is colours.field, qGray(fill.rgb()) < 128
-    ink = colours.field_text if is_plain else QColor("white" if is_dark else "black")
     painter.setPen(round_pen(ink, 1.8 * unit))
     painter.setBrush(Qt.BrushStyle.NoBrush)
     middle, inset = rect.center(), 12 * unit
@@ -139,7 +137,7 @@ def paint_marks(
     if measures.is_mirrored:
         start, end = end, start
     if piece.opens:
-        at = end if is_plain or rect.width() >= 40 * unit else middle
+        at = end if piece.mark != "swatch" or rect.width() >= 40 * unit else middle
         sides = (QPointF(-4, -2), QPointF(0, 2.5), QPointF(4, -2))
         painter.drawPolyline([at + side * unit for side in sides])
     if piece.mark == "tick" and piece.amount:

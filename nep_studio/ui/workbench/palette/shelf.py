@@ -19,6 +19,7 @@ from PySide6.QtWidgets import QAbstractScrollArea, QToolTip, QWidget
 
 from nep_studio.blocks.operations.copying import Clip
 from nep_studio.ui.canvas.canvas import Canvas
+from nep_studio.ui.canvas.editing.cargo import Grip
 from nep_studio.ui.words import tr
 
 from .accessible_list import make_list_accessible, tell_current
@@ -340,7 +341,10 @@ class Shelf(ShelfView):
         clip = self.clip_of(self.entries[number])
         if clip is not None:
             self._canvas.begin_external_drag(
-                clip, event.globalPosition().toPoint(), self.viewport()
+                clip,
+                event.globalPosition().toPoint(),
+                self.viewport(),
+                self._grip(event.position()),
             )
 
     def mouseReleaseEvent(self, event: QMouseEvent) -> None:
@@ -380,6 +384,16 @@ class Shelf(ShelfView):
             QToolTip.showText(event.globalPos(), words, self.viewport(), self.rect_of(number))
             return True
         return super().viewportEvent(event)
+
+    def _grip(self, point: QPointF) -> Grip | None:
+        """The point of the block under a point of the viewport."""
+        y = point.y() + self.verticalScrollBar().value()
+        spot = self._layout.spots[self._layout.at(y)]
+        if spot.chain is None:
+            return None
+        box, corner = spot.chain.boxes[0], self._layout.block_rect(spot).topLeft()
+        left = corner.x() + (spot.width - box.width * spot.scale if box.is_mirrored else 0.0)
+        return Grip(box, (point.x() - left) / spot.scale, (y - corner.y()) / spot.scale)
 
     def _entry_at(self, point: QPointF) -> int:
         """The entry under a point of the viewport, or -1."""

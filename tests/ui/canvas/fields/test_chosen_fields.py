@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from PySide6.QtCore import Qt
 from PySide6.QtTest import QTest
+from PySide6.QtWidgets import QApplication
 
 from nep_studio.blocks.deployment import robot_entries
 from nep_studio.ui.canvas.fields.colour import COLOURS
@@ -27,9 +28,9 @@ def test_typing_filters_the_choices_and_enter_takes_the_first(controller_of) -> 
     desk = controller_of("robot.do")
 
     desk.click("posture")
-    QTest.keyClicks(desk.widget.search, "sit")
+    QTest.keyClicks(desk.widget.first(), "sit")
     shown = labels(desk.widget)
-    QTest.keyClick(desk.widget.search, Qt.Key.Key_Return)
+    QTest.keyClick(desk.widget.first(), Qt.Key.Key_Return)
 
     assert shown == ["sit", "sit and relax"]
     assert desk.value("posture") == "posture_sit"
@@ -41,8 +42,8 @@ def test_a_choice_is_made_with_the_arrows(controller_of) -> None:
     desk = controller_of("logic.compare", comparison="equal")
 
     desk.click("comparison")
-    QTest.keyClick(desk.widget.search, Qt.Key.Key_Down)
-    QTest.keyClick(desk.widget.search, Qt.Key.Key_Return)
+    QTest.keyClick(desk.widget.first(), Qt.Key.Key_Down)
+    QTest.keyClick(desk.widget.first(), Qt.Key.Key_Return)
 
     assert desk.value("comparison") == "not_equal"
 
@@ -56,14 +57,39 @@ def test_a_choice_is_made_with_the_mouse(controller_of) -> None:
     assert desk.value("comparison") == "greater_or_equal"
 
 
+def test_few_choices_have_no_search_box_and_are_chosen_by_a_letter(controller_of) -> None:
+    desk = controller_of("variable.set", variable="v1")
+
+    desk.click("variable")
+    popup = desk.widget
+    has_search = popup.search.isVisible()
+    QTest.keyClick(QApplication.focusWidget(), "c")
+    QTest.keyClick(QApplication.focusWidget(), Qt.Key.Key_Return)
+
+    assert not has_search
+    assert desk.value("variable") == "v2"
+    assert desk.widget is None
+
+
+def test_eight_choices_have_a_search_box(controller_of) -> None:
+    desk = controller_of("variable.set")
+    for number in range(6):
+        desk.editor.add_variable(f"other {number}")
+
+    desk.click("variable")
+
+    assert desk.widget.search.isVisible()
+    assert QApplication.focusWidget() is desk.widget.search
+
+
 def test_nothing_found_is_said_and_escape_leaves_the_choice(controller_of) -> None:
     desk = controller_of("robot.do")
     before = desk.value("posture")
 
     desk.click("posture")
-    QTest.keyClicks(desk.widget.search, "qqq")
+    QTest.keyClicks(desk.widget.first(), "qqq")
     said = labels(desk.widget)
-    QTest.keyClick(desk.widget.search, Qt.Key.Key_Escape)
+    QTest.keyClick(desk.widget.first(), Qt.Key.Key_Escape)
 
     assert said == ["Nothing is called “qqq”."]
     assert desk.value("posture") == before
@@ -92,8 +118,8 @@ def test_a_gesture_is_chosen_by_its_name(controller_of) -> None:
     desk = controller_of("event.gesture")
 
     desk.click("gesture")
-    QTest.keyClicks(desk.widget.search, "hand")
-    QTest.keyClick(desk.widget.search, Qt.Key.Key_Return)
+    QTest.keyClicks(desk.widget.first(), "hand")
+    QTest.keyClick(desk.widget.first(), Qt.Key.Key_Return)
 
     assert desk.value("gesture") == "hand_up"
 
@@ -125,11 +151,13 @@ def test_a_new_robot_is_put_on_the_robots_page_in_one_step(controller_of) -> Non
 def test_variables_are_found_without_their_accents(controller_of) -> None:
     desk = controller_of("variable.set")
     added = desk.editor.add_variable("Größe")
+    for number in range(6):
+        desk.editor.add_variable(f"other {number}")
 
     desk.click("variable")
-    QTest.keyClicks(desk.widget.search, "grosse")
+    QTest.keyClicks(desk.widget.first(), "grosse")
     found = labels(desk.widget)[0]
-    QTest.keyClick(desk.widget.search, Qt.Key.Key_Return)
+    QTest.keyClick(desk.widget.first(), Qt.Key.Key_Return)
 
     assert found == "Größe"
     assert desk.value("variable") == added
@@ -193,12 +221,12 @@ def test_a_state_is_typed_freely_or_chosen(controller_of) -> None:
     desk = controller_of("event.human_state")
 
     desk.click("state")
-    desk.widget.search.selectAll()
-    QTest.keyClicks(desk.widget.search, "waves_hello")
+    desk.widget.first().selectAll()
+    QTest.keyClicks(desk.widget.first(), "waves_hello")
     typed = desk.value("state")
     desk.fields.close()
     desk.click("state")
-    desk.widget.search.clear()
+    desk.widget.first().clear()
     desk.widget.fill("")
     choose(desk.widget, "karate")
 

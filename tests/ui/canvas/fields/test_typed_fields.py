@@ -11,6 +11,7 @@ from PySide6.QtWidgets import QApplication, QToolTip
 
 from nep_studio.blocks.edits.content import SetField
 from nep_studio.blocks.places import InStack
+from nep_studio.blocks.procedures import header_of
 from nep_studio.ui.canvas.fields.line_editor import LineEditor
 
 
@@ -324,3 +325,35 @@ def test_a_robot_that_python_cannot_follow_keeps_its_name_and_the_person_is_told
 
     assert desk.value("name") == "NAO" and desk.new_steps() == 0
     assert ["otto" in sentence for sentence in told] == [True]
+
+
+def test_the_page_stays_under_the_pointer_when_a_field_at_the_edge_is_pressed(
+    controller_of,
+) -> None:
+    desk = controller_of("robot.say")
+    place = desk.place("text")
+    desk.canvas.sight.pan(0, place.y() - 8)
+    before = desk.canvas.sight.camera.y
+
+    desk.click("text")
+
+    assert desk.widget is not None
+    assert desk.canvas.sight.camera.y == before
+    assert desk.widget.geometry().top() >= 0
+
+
+def test_a_press_means_what_was_seen_when_leaving_a_field_makes_its_block_wider(
+    controller_of,
+) -> None:
+    desk = controller_of("robot.say")
+    first, second = (desk.editor.new_parameter(name, "text") for name in "ab")
+    parts, place = ("greet", first, second), desk.editor.new_stack("behaviour", 40, 200)
+    header = header_of(desk.editor.project, desk.editor.add_procedure(parts, place=place))
+    desk.click(first.id, header)
+    retype(desk, "the name of somebody")
+    seen = desk.place(second.id, header)
+
+    desk.fields.widget.move(0, 0)  # it may lie over what is pressed
+    QTest.mouseClick(desk.canvas.viewport(), Qt.MouseButton.LeftButton, pos=seen)
+
+    assert desk.fields.place == (header, second.id)
