@@ -315,10 +315,10 @@ def faults(language: Language, table: Table, code: str = "") -> Iterator[Fault]:
             translated_parts(definition, sentence)
         except SentenceError as error:
             yield Fault(block_type, str(error))
-    said = _texts(table, "texts")
-    usual = {text for d in language.definitions.values() for _, text in usual_texts(d)}
-    yield from (Fault(text, "is not translated") for text in sorted(usual - said.keys()))
-    yield from (Fault(text, "is no text of a block") for text in sorted(said.keys() - usual))
+    texts_said = _texts(table, "texts")
+    spoken = {text for d in language.definitions.values() for _, text in usual_texts(d)}
+    yield from (Fault(text, "is not translated") for text in sorted(spoken - texts_said.keys()))
+    yield from (Fault(text, "is no text of a block") for text in sorted(texts_said.keys() - spoken))
     yield from (Fault(t, "is no block") for t in texts if t not in language.definitions)
     named = _texts(table, "categories")
     yield from (Fault(c.id, "is not translated") for c in language.categories if c.id not in named)

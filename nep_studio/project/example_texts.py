@@ -46,8 +46,10 @@ def translate(project: Project, name: str, language: Language, code: str) -> Non
         definition = own.definitions[block.type]
         for key, text in _texts_of_block(block, own):
             slot = split_slot(key)[0]
-            is_usual = text == definition.defaults.get(slot)
-            block.fields[key] = definition.beginning(slot) if is_usual else told.get(text, text)
+            said = told.get(text, text)
+            if text == definition.defaults.get(slot):
+                said = definition.said.get(slot, text)
+            block.fields[key] = said
     for variable in project.variables:
         variable.name = told.get(variable.name, variable.name)
     for note in list(project.notes.values()):

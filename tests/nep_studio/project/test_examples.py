@@ -18,8 +18,8 @@ from nep_studio.blocks.program import LANGUAGES, Project
 from nep_studio.project.example_texts import texts_in, texts_of_examples, translate
 from nep_studio.project.examples import Example, Try, examples
 from nep_studio.run.installation import all_problems, studio_language
-from nep_studio.ui.words import tr, use_language
 from nep_studio.run.plan import VIRTUAL_WATCH, Choices, plan
+from nep_studio.ui.words import tr, use_language
 
 EXAMPLES = examples()
 MOST_BLOCKS = 50

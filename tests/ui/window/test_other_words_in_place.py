@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from pathlib import Path
 
 import pytest
 from PySide6.QtCore import QObject, Qt
@@ -90,7 +91,7 @@ def opened(studio: Studio, qtbot: QtBot) -> MainWindow:
     made.resize(2400, 1400)
     made.show()
     made.start(None)
-    made.files.open_example(KARATE)
+    made.files.open(KARATE)  # an example would be in the language of the window
     made.workbench.panels.show(made.workbench.code)
     made.workbench.panels.show(made.workbench.problems)
     made.workbench.panels.row.setSizes([600, 1000, 800])
@@ -280,17 +281,24 @@ def test_the_panels_are_put_back_without_being_made_anew(karate: MainWindow) -> 
     assert not karate.settings.is_chosen(code.name)
 
 
-def test_the_first_page_shows_its_examples_in_other_words(window: MainWindow, qtbot: QtBot) -> None:
-    cards = list(window.start_page.cards.values())
-    qtbot.waitUntil(lambda: all(card.is_painted() for card in cards))
-    window.start_page.verticalScrollBar().setValue(150)
-    before = [card.picture.pixmap().cacheKey() for card in cards]
+def test_the_first_page_stays_in_its_place_in_other_words(
+    window: MainWindow, tmp_path: Path, qtbot: QtBot
+) -> None:
+    mine = tmp_path / "mine.nep"
+    mine.write_bytes(KARATE.read_bytes())
+    window.settings.add_recent(mine)
+    window.files.recent_changed.emit()
+    page = window.start_page
+    cards, card = list(page.cards.values()), page.recent_cards[mine]
+    qtbot.waitUntil(lambda: card.picture.pixmap().width() >= card.picture_size().width())
+    page.verticalScrollBar().setValue(150)
+    before = card.picture.pixmap().cacheKey()
 
     window.studio.choose_language("ja")
 
-    qtbot.waitUntil(lambda: not set(before) & {card.picture.pixmap().cacheKey() for card in cards})
-    assert list(window.start_page.cards.values()) == cards
-    assert window.start_page.verticalScrollBar().value() == 150
+    qtbot.waitUntil(lambda: card.picture.pixmap().cacheKey() != before)
+    assert list(page.cards.values()) == cards and page.recent_cards[mine] is card
+    assert page.verticalScrollBar().value() == 150
 
 
 def test_headings_of_the_first_page_begin_where_reading_begins(window: MainWindow) -> None:
