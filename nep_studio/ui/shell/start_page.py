@@ -72,12 +72,12 @@ class TourOffer(QWidget):
 # The first thing that is seen: a robot that acts, and one button that lets it.
 
 WIDE_LINES = 36
-"""A stage that is so wide has room for the button beside the robot."""
+"""A picture that is so wide has room for the button beside the robot."""
 ASIDE = 0.64
 """Where the robot stands then."""
 
 
-class Stage(QFrame):
+class BigPicture(QFrame):
     """A big picture of an example with one big button, which plays it."""
 
     pressed = Signal()
@@ -194,8 +194,8 @@ class RecentCard(PictureCard):
 
 
 MOST_RECENT = 4
-STAGE_SHARE, LOWEST_STAGE, HIGHEST_STAGE = 0.46, 9, 22
-"""How much of the height the stage takes; its least and most, in lines."""
+PICTURE_SHARE, LOWEST_PICTURE, HIGHEST_PICTURE = 0.46, 9, 22
+"""How much of the height the big picture takes; its least and most, in lines."""
 
 
 class StartPage(QScrollArea):
@@ -232,7 +232,7 @@ class StartPage(QScrollArea):
     @property
     def example_button(self) -> QPushButton:
         """The big button that plays the first example."""
-        return self.stage.play_button
+        return self.big_picture.play_button
 
     def _fill(self) -> None:
         line = self.fontMetrics().height()
@@ -241,15 +241,15 @@ class StartPage(QScrollArea):
         self.tour_offer = TourOffer(self._studio)
         self.tour_offer.accepted.connect(self.tour_requested)
         first = examples()[0].path
-        self.stage = Stage(first.stem, self._studio.look)
-        self.stage.pressed.connect(lambda: self.try_requested.emit(first))
+        self.big_picture = BigPicture(first.stem, self._studio.look)
+        self.big_picture.pressed.connect(lambda: self.try_requested.emit(first))
         self._recent_heading = _heading("Go on with", line)
         self._recent = Flow(spacing=line)
         gallery = self.gallery = Gallery(self._studio)
         gallery.opened.connect(self._files.open_example)
         gallery.try_requested.connect(self.try_requested)
         gallery.focus_moved.connect(lambda widget: self.ensureWidgetVisible(widget, 0, 50))
-        above = (self.stage, self._beginnings(line), self._recent_heading, self._recent)
+        above = (self.big_picture, self._beginnings(line), self._recent_heading, self._recent)
         heading = _heading("Examples to try and change", line)
         self._box = in_column(*above, heading, gallery, 1, of=inner, spacing=line)
         self._fill_recent()
@@ -285,8 +285,8 @@ class StartPage(QScrollArea):
         margin = min(line * 2, max(line // 2, self.viewport().width() // 20))
         self._box.setContentsMargins(margin, line, margin, line * 2)
         wide = self.viewport().width() - 2 * margin
-        high = round(self.viewport().height() * STAGE_SHARE)
-        self.stage.fit(wide, min(max(high, LOWEST_STAGE * line), HIGHEST_STAGE * line))
+        high = round(self.viewport().height() * PICTURE_SHARE)
+        self.big_picture.fit(wide, min(max(high, LOWEST_PICTURE * line), HIGHEST_PICTURE * line))
         self.gallery.show_in(wide)
         for card in self.recent_cards.values():
             card.set_width(self.gallery.card_width)

@@ -48,7 +48,7 @@ def seen(page: StartPage, widget: QWidget) -> bool:
 
 
 def test_one_press_plays_an_example(window: MainWindow, page: StartPage, qtbot: QtBot) -> None:
-    assert seen(page, page.stage) and seen(page, page.example_button)
+    assert seen(page, page.big_picture) and seen(page, page.example_button)
 
     click(page.example_button)
 
@@ -61,7 +61,7 @@ def test_a_press_on_the_big_picture_plays_it_too(page: StartPage, qtbot: QtBot) 
     page.try_requested.disconnect()
 
     with qtbot.waitSignal(page.try_requested) as asked:
-        QTest.mouseClick(page.stage, LEFT, pos=QPoint(30, 30))
+        QTest.mouseClick(page.big_picture, LEFT, pos=QPoint(30, 30))
 
     assert asked.args == [KARATE]
 
@@ -82,7 +82,7 @@ def test_the_first_sight_is_the_robot_and_what_can_be_done(
     window: MainWindow, page: StartPage, size: tuple[int, int], qtbot: QtBot
 ) -> None:
     window.resize(*size)
-    qtbot.waitUntil(lambda: seen(page, page.stage))
+    qtbot.waitUntil(lambda: seen(page, page.big_picture))
 
     for widget in (page.example_button, page.new_button, page.open_button, page.tour_offer):
         assert seen(page, widget)
@@ -100,7 +100,7 @@ def hash_of(picture: ActingPicture) -> int:
 def test_the_robot_of_the_big_picture_acts_while_somebody_sees_it(
     window: MainWindow, page: StartPage, qtbot: QtBot
 ) -> None:
-    picture = page.stage.picture
+    picture = page.big_picture.picture
     qtbot.waitUntil(lambda: picture.is_acting)
     before = hash_of(picture)
 
@@ -140,7 +140,7 @@ def test_the_robots_of_a_card_act_with_the_keyboard_on_it(page: StartPage, qtbot
 def test_nothing_moves_where_the_computer_is_set_to_move_little(
     window: MainWindow, page: StartPage, qtbot: QtBot
 ) -> None:
-    picture = page.stage.picture
+    picture = page.big_picture.picture
     qtbot.waitUntil(lambda: picture.is_acting)
     picture.act(False)
     picture.setStyleSheet("* { widget-animation-duration: 0; }")  # as the system's style says it
