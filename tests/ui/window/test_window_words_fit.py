@@ -116,7 +116,7 @@ def open_karate_with_problems(window: MainWindow, qtbot: QtBot) -> None:
     workbench = window.workbench
     window.files.open_example(paths.examples() / "karate_greeting.nep")
     qtbot.waitUntil(workbench.canvas.isVisible)
-    qtbot.waitUntil(lambda: "Impressive" in workbench.code.text.toPlainText())
+    qtbot.waitUntil(lambda: "nao.say" in workbench.code.text.toPlainText())
     workbench.panels.restore(window.fontMetrics().height())
     window.show_problems()
     qtbot.waitUntil(workbench.problems.isVisible)
