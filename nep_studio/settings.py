@@ -223,6 +223,10 @@ class Settings(SettingsFile):
         paths = [path, *(one for one in self.recent_files if one != path)][:MOST_RECENT]
         self._recent = [kept_name(one) for one in paths]
 
+    def remove_recent(self, path: Path) -> None:
+        """Take a project out of the list."""
+        self._recent = [kept_name(one) for one in self.recent_files if one != path]
+
     @property
     def last_folder(self) -> Path:
         """Where a project was opened or saved last."""

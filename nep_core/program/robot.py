@@ -17,6 +17,7 @@ from nep_core.wire.pubsub import Subscriber
 from .actions import ActionClient, action_client, not_answering
 from .human import LONGEST_WAIT_S, human_listener, next_word, plain, state_of_word
 from .tasks import POLL_S, Stamp, current_task
+from .values import spoken_language
 
 # Where the robots of a program are, and what their sensors measure, as last heard.
 
@@ -145,6 +146,8 @@ class Robot:
                 checklist=('Write Robot("NAO") or Robot(["NAO", "NAO2"]).',),
             )
         self._network = network
+        self._has_language = False
+        """Whether the program has set the language in which it speaks."""
         robot_listener(network)  # what robots tell from now on is known when it is asked for
 
     def stop(self) -> None:
@@ -164,10 +167,13 @@ class Robot:
     ) -> None:
         """Say a text aloud, perhaps with a gesture, in a language such as "en".
 
+        Without one it is the program's, as long as the robot speaks that and is set to no other.
         ``speed`` and ``pitch`` are percent of the usual ones, 50 to 200.
         """
         voice = {"speed": speed, "pitch": pitch}
-        changed = {name: value for name, value in voice.items() if value != 100.0}
+        changed: dict[str, object] = {name: to for name, to in voice.items() if to != 100.0}
+        if not language and not self._has_language and spoken_language() != "en":
+            changed["usual_language"] = spoken_language()
         self._perform("say", text=str(text), gesture=gesture, language=language, **changed)
 
     def ask(self, question: object, words: list[str] | None = None, seconds: float = 10.0) -> str:
@@ -218,6 +224,7 @@ class Robot:
     def set_language(self, language: str) -> None:
         """Set the language that it speaks and understands, such as "en"."""
         self._perform("language", language=language)
+        self._has_language = True
 
     def language(self) -> str:
         """The language that it speaks and understands."""

@@ -45,13 +45,18 @@ LONGEST = 40
 DEEPEST_LIST, MOST_LISTS = 100, 100_000
 """A list in more lists than these, or with more in it, is in itself or grows without end."""
 
-_words = WORDS["en"]
+_language = "en"
 
 
 def speak(language: str) -> None:
     """Tell values in a language from now on; in English where it is not known."""
-    global _words
-    _words = WORDS.get(language, WORDS["en"])
+    global _language
+    _language = language if language in WORDS else "en"
+
+
+def spoken_language() -> str:
+    """The code of the language in which the program tells values."""
+    return _language
 
 
 def as_text(value: object) -> str:
@@ -59,7 +64,7 @@ def as_text(value: object) -> str:
     if isinstance(value, str):
         return value
     if isinstance(value, bool):
-        return _words[0] if value else _words[1]
+        return WORDS[_language][0] if value else WORDS[_language][1]
     if isinstance(value, int):
         return _digits(value)
     if isinstance(value, float):
@@ -114,13 +119,13 @@ def _told_fraction(number: float) -> str:
     else:
         mantissa, _, exponent = f"{number:.{MOST_DIGITS - 1}e}".partition("e")
         text = f"{mantissa.rstrip('0').rstrip('.')}e{exponent}"
-    return text.replace(".", _words[3])
+    return text.replace(".", WORDS[_language][3])
 
 
 def _enumerated(items: Sequence[str]) -> str:
     if len(items) < 2:
         return "".join(items)
-    return f"{', '.join(items[:-1])} {_words[2]} {items[-1]}"
+    return f"{', '.join(items[:-1])} {WORDS[_language][2]} {items[-1]}"
 
 
 # What is refused, in the words that the program's own errors have.

@@ -348,6 +348,8 @@ class Definition:
     call: Call | None = None
     generator: str = ""
     translations: Mapping[str, str] = field(default_factory=dict)
+    said: Mapping[str, str] = field(default_factory=dict)
+    """Texts of ``defaults``, in the language of the person, by slot: a new block has these."""
     kinds: frozenset[str] = field(init=False)
     """The names of the kinds of its slots."""
     page: str = field(init=False)
@@ -410,11 +412,15 @@ class Definition:
         """
         groups = {**self.minimum, **(more or {})}
         fields = {
-            key: self.defaults[slot.name]
+            key: value
             for key, slot in self.keys(groups)
-            if slot.name in self.defaults
+            if (value := self.beginning(slot.name)) is not None
         }
         return Block(block_id, self.id, fields, groups=groups)
+
+    def beginning(self, slot: str) -> FieldValue | None:
+        """What the field of a slot holds in a new block, or None."""
+        return self.said.get(slot, self.defaults.get(slot))
 
     def value(self, block: Block, key: str) -> FieldValue | None:
         """What the field of a slot holds, or its default, or None when it has neither."""

@@ -233,11 +233,14 @@ def together(tables: Iterable[Tables]) -> dict[str, Mapping[str, str]]:
 #     posture_stand_init = "stehen, bereit zum Rollen"
 #     [words]
 #     define = "lege fest"
+#     [texts]
+#     "Hello" = "Hallo"
 #
 # A block may bring its sentences along (``translations`` by language), so that it is one entry of
 # one file; a table's own sentence goes before. A translated sentence has the slots and groups of
-# the English one, by their names only, each once; they may stand elsewhere. What a table does not
-# have, or has wrongly, stays English.
+# the English one, by their names only, each once; they may stand elsewhere. ``texts`` are what a
+# new block says at first: a block without the field means the English one, whoever looks at it.
+# What a table does not have, or has wrongly, stays English.
 
 Table = Mapping[str, Any]
 
@@ -263,7 +266,12 @@ def translated(language: Language, table: Table, code: str = "") -> Language:
     categories = {c.id: replace(c, title=titles.get(c.id, c.title)) for c in language.categories}
     return Language(
         {
-            block_type: _definition(definition, categories, _sentence(definition, table, code))
+            block_type: _definition(
+                definition,
+                categories,
+                _sentence(definition, table, code),
+                said_in(definition, table),
+            )
             for block_type, definition in language.definitions.items()
         },
         tuple(categories.values()),
@@ -307,6 +315,10 @@ def faults(language: Language, table: Table, code: str = "") -> Iterator[Fault]:
             translated_parts(definition, sentence)
         except SentenceError as error:
             yield Fault(block_type, str(error))
+    texts_said = _texts(table, "texts")
+    spoken = {text for d in language.definitions.values() for _, text in usual_texts(d)}
+    yield from (Fault(text, "is not translated") for text in sorted(spoken - texts_said.keys()))
+    yield from (Fault(text, "is no text of a block") for text in sorted(texts_said.keys() - spoken))
     yield from (Fault(t, "is no block") for t in texts if t not in language.definitions)
     named = _texts(table, "categories")
     yield from (Fault(c.id, "is not translated") for c in language.categories if c.id not in named)
@@ -357,7 +369,10 @@ def _sentence(definition: Definition, table: Table, code: str) -> str:
 
 
 def _definition(
-    definition: Definition, categories: Mapping[str, Category], sentence: str
+    definition: Definition,
+    categories: Mapping[str, Category],
+    sentence: str,
+    said: Mapping[str, str],
 ) -> Definition:
     category = categories.get(definition.category.id, definition.category)
     try:
@@ -366,7 +381,26 @@ def _definition(
         parts = definition.parts
     groups = groups_of(parts)  # in the English order: that of the buttons below the block
     known = {name: groups[name] for name in definition.groups}
-    return replace(definition, category=category, parts=parts, groups=known)
+    return replace(definition, category=category, parts=parts, groups=known, said=said)
+
+
+def said_in(definition: Definition, table: Table) -> dict[str, str]:
+    """The texts that a new block of this type begins with, by slot, as far as a table has them."""
+    texts = _texts(table, "texts")
+    return {slot: texts[usual] for slot, usual in usual_texts(definition) if texts.get(usual)}
+
+
+def usual_texts(definition: Definition) -> Iterator[tuple[str, str]]:
+    """The texts with letters among the defaults of a block that people say, hear or name."""
+    if definition.holds_python or definition.page != "behaviour":
+        return  # code, and names that nodes and robots have in every language
+    for slot, usual in definition.defaults.items():
+        is_text = definition.slots[slot].kind.name in _TEXT_KINDS
+        if is_text and isinstance(usual, str) and any(map(str.isalpha, usual)):
+            yield slot, usual
+
+
+_TEXT_KINDS = ("text", "line")
 
 
 def _profile(profile: RobotProfile, table: Table) -> RobotProfile:

@@ -16,7 +16,7 @@ from nep_studio.problems import problem_of
 from nep_studio.settings import Settings
 
 from .messages import Answer, Message, Messages
-from .words import tr
+from .words import language_code, tr
 
 if TYPE_CHECKING:
     from nep_studio.blocks.language import Language
@@ -123,9 +123,16 @@ class Files(QObject):
         self.guard(lambda: self._read(path.absolute(), on_opened))
 
     def open_example(self, path: Path, then: Then = lambda: None) -> None:
-        """Open a copy of an example: it has no file until it is saved; go on when it is open."""
+        """Open a copy of an example, in the language of the window; go on when it is open.
+
+        It has no file until it is saved.
+        """
 
         def show(path: Path, project: Project) -> None:
+            from nep_studio.project.example_texts import translate
+
+            translate(project, path.stem, self._language(), language_code())
+            project.name = tr(project.name)
             self._on_example_opened(path, project)
             then()
 

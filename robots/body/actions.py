@@ -328,11 +328,16 @@ FadeTime = Annotated[float, Meta(ge=0.0, le=60.0)]
 
 
 class Say(msgspec.Struct, frozen=True):
-    """Say a text, with gestures of the arms while speaking."""
+    """Say a text, with gestures of the arms while speaking.
+
+    ``usual_language``: that of the program, for a text without a ``language`` of its own; a robot
+    that does not speak it says the text as it can.
+    """
 
     text: Text
     gesture: str = "no_gesture"
     language: str = ""
+    usual_language: str = ""
     speed: VoicePercent = 100.0
     pitch: VoicePercent = 100.0
 

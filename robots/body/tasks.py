@@ -265,7 +265,7 @@ def say(robot: VirtualRobot, action: Say) -> Task:
     part = action.speed / 100.0
     seconds = speaking_time_s(action.text) / part
     voice = {"voice_speed": action.speed, "voice_pitch": action.pitch}
-    spoken_in = action.language or str(robot.settings["language"])
+    spoken_in = action.language or action.usual_language or str(robot.settings["language"])
     robot.settings |= voice | {"voice_language": spoken_in}
     tasks = [speak(robot, action.text, seconds)]
     if seconds > 0.0:

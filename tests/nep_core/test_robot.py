@@ -12,6 +12,7 @@ from nep_core.networks.zmq_networks import PeerNetwork
 from nep_core.program import actions
 from nep_core.program.robot import Robot
 from nep_core.program.tasks import Cancelled, Part, Task
+from nep_core.program.values import speak
 from tests.nep_core.robot_playing import PlayedRobot
 
 Join = Callable[[str], PeerNetwork]
@@ -44,6 +45,23 @@ def test_every_call_asks_for_its_action(nao: PlayedRobot) -> None:
         ("look", {"yaw_deg": 10, "pitch_deg": 5}),
         ("leds", {"group": "FaceLeds", "colour": "#ff0000"}),
     ]
+
+
+def test_a_program_in_german_speaks_german_until_it_sets_another_language(
+    nao: PlayedRobot,
+) -> None:
+    robot = Robot("NAO")
+    speak("de")
+    try:
+        robot.say("Hallo")
+        robot.say("Bonjour", language="fr")
+        robot.set_language("it")
+        robot.say("Ciao")
+    finally:
+        speak("en")
+
+    said = [args for action, args in nao.asked if action == "say"]
+    assert [args.get("usual_language") for args in said] == ["de", None, None]
 
 
 def test_a_call_to_two_robots_waits_for_both(nao: PlayedRobot, join: Join) -> None:

@@ -163,7 +163,8 @@ def add_part(editor: Editor, block_id: str, group: str) -> int:
     block, definition = _require(editor, block_id, group)
     number = block.groups.get(group, 0) + 1
     slots = definition.group_slots(group)
-    fields = {slot: definition.defaults[slot] for slot in slots if slot in definition.defaults}
+    beginnings = ((slot, definition.beginning(slot)) for slot in slots)
+    fields = {slot: value for slot, value in beginnings if value is not None}
     editor.apply(AddGroup(block_id, group, number, slots, fields), "add a part")
     return number
 

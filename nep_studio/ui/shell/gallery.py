@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections import Counter
 from pathlib import Path
 
-from PySide6.QtCore import QRectF, QSize, Qt, QTimer, Signal
+from PySide6.QtCore import QEvent, QRectF, QSize, Qt, QTimer, Signal
 from PySide6.QtGui import (
     QFont,
     QFontMetrics,
@@ -28,7 +28,6 @@ from PySide6.QtWidgets import (
 )
 
 from faults import text_of
-from nep_studio.blocks.errors import BlocksError
 from nep_studio.project.examples import Example, examples
 from nep_studio.ui.labels import follow_words, labelled
 from nep_studio.ui.messages import announce
@@ -38,6 +37,8 @@ from nep_studio.ui.theme.look import Look
 from nep_studio.ui.widgets.forms import hint, styled
 from nep_studio.ui.widgets.layouts import Flow, ReadingLabel, in_column, in_row
 from nep_studio.ui.words import count_words, is_right_to_left, tr
+
+from .acting import ActingPicture
 
 # How the gallery says what an example needs, how hard and how long it is, and what it is about.
 
@@ -106,9 +107,9 @@ def _length(example: Example) -> Feature:
     return "clock", count_words(round(example.seconds / 60), "1 minute", "{n} minutes")
 
 
-# The examples as cards: a picture of the blocks, what it is, what it needs, and what to do.
+# The examples as cards: robots that act, what it is, what it needs, and what to do.
 
-CARD_LINES, PICTURE_LINES = 17.0, 7.5
+CARD_LINES, PICTURE_LINES = 17.0, 8.5
 """How wide a card is, and how high its picture, in lines of text."""
 
 ARROWS = {
@@ -174,87 +175,35 @@ class Signs(QWidget):
         return round(metrics.height() * 1.25)
 
 
-class Card(QFrame):
-    """An example that can be opened by a click or with the keyboard, or tried at once.
+class PictureCard(QFrame):
+    """A card that is chosen by a click or with the keyboard.
 
     ``moved_on`` asks for the card on another side: "left", "right", "up", "down".
     """
 
     clicked = Signal()
-    try_requested = Signal()
     moved_on = Signal(str)
 
-    def __init__(self, example: Example, look: Look, parent: QWidget | None = None) -> None:
+    def __init__(self, look: Look, parent: QWidget | None = None) -> None:
         super().__init__(parent)
-        self.example, self._look = example, look
+        self._look = look
         styled(self, kind="card")
         self.setAttribute(Qt.WidgetAttribute.WA_Hover)
         self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
         self.setCursor(Qt.CursorShape.PointingHandCursor)
-        line = self.fontMetrics().height()
-        self.picture = QLabel(alignment=Qt.AlignmentFlag.AlignLeading | Qt.AlignmentFlag.AlignTop)
-        self.picture.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Fixed)
-        self.picture.setFixedHeight(round(line * PICTURE_LINES))
-        self.signs = Signs(example, self._look)
-        title = _label(example.title, "heading")
-        font = title.font()
-        font.setWeight(QFont.Weight.DemiBold)
-        title.setFont(font)
-        words = (title, _label(example.sentence, "hint"), self.signs, 1)
-        margins, buttons = (line // 2, line // 4, line // 2, 0), self._buttons(example.title, line)
-        inside = in_column(*words, buttons, margins=margins, spacing=line // 4)
-        in_column(self.picture, (inside, 1), of=self, margins=(2, 2, 2, line // 2), spacing=0)
-        self.set_width(round(line * CARD_LINES) + 4)
-        follow_words(self, self._say)
-
-    def _say(self) -> None:
-        title, sentence = tr(self.example.title), tr(self.example.sentence)
-        self.setAccessibleName(f"{title}. {sentence}")
-        self.setAccessibleDescription(self.signs.accessibleName())
-        self.setToolTip("\n".join(f"• {tr(each.words)}" for each in self.example.tries))
-        self._fit_height()
-
-    def _buttons(self, title: str, line: int) -> Flow:
-        row = Flow(spacing=line // 3)
-        row.setContentsMargins(0, line // 4, 0, 0)
-        named = text_of(title)
-        self.try_button = labelled(
-            QPushButton(),
-            text="Try on the simulator",
-            name=text_of("Try “{example}” on the simulator", example=named),
-        )
-        self.try_button.setIcon(icon("play", self._look.theme))
-        self.try_button.setIconSize(icon_room(line))
-        self.try_button.clicked.connect(self.try_requested)
-        self.open_button = labelled(
-            QPushButton(), text="Open", name=text_of("Open “{example}”", example=named)
-        )
-        self.open_button.clicked.connect(self.clicked)
-        for button in (self.try_button, self.open_button):
-            button.setCursor(Qt.CursorShape.ArrowCursor)
-            row.addWidget(button)
-        return row
 
     def set_width(self, width: int) -> None:
         """Be so wide, and as high as that needs."""
         if self.minimumWidth() != width:
             self.setFixedWidth(width)
-            self._fit_height()
+            self.fit_height()
 
-    def _fit_height(self) -> None:
+    def fit_height(self) -> None:
+        """Be as high as the words need now."""
         if (layout := self.layout()) is not None:
             layout.invalidate()  # it would keep the height of other words
-            self.setMinimumHeight(layout.totalHeightForWidth(self.minimumWidth()))
-
-    def picture_size(self) -> QSize:
-        """How large the picture is, in pixels of the window."""
-        return QSize(self.minimumWidth() - 4, self.picture.height())
-
-    def is_painted(self) -> bool:
-        """Whether the picture is as wide as the card."""
-        picture = self.picture.pixmap()
-        wide = round(picture.width() / picture.devicePixelRatio()) if picture else 0
-        return wide == self.picture_size().width()
+            high = layout.totalHeightForWidth(self.minimumWidth())
+            self.setMinimumHeight(high if high > 0 else layout.totalSizeHint().height())
 
     def mouseReleaseEvent(self, event: QMouseEvent) -> None:
         """A click."""
@@ -290,6 +239,72 @@ class Card(QFrame):
             painter.drawRoundedRect(inner, round_, round_)
 
 
+class Card(PictureCard):
+    """An example that can be opened, or tried at once; its robots act while it is looked at."""
+
+    try_requested = Signal()
+
+    def __init__(self, example: Example, look: Look, parent: QWidget | None = None) -> None:
+        super().__init__(look, parent)
+        self.example = example
+        line = self.fontMetrics().height()
+        self.picture = ActingPicture(example.path.stem, look, round_=line * 0.42)
+        self.picture.setFixedHeight(round(line * PICTURE_LINES))
+        self.signs = Signs(example, self._look)
+        title = _label(example.title, "heading")
+        font = title.font()
+        font.setWeight(QFont.Weight.DemiBold)
+        title.setFont(font)
+        words = (title, _label(example.sentence, "hint"), self.signs, 1)
+        margins, buttons = (line // 2, line // 4, line // 2, 0), self._buttons(example.title, line)
+        inside = in_column(*words, buttons, margins=margins, spacing=line // 4)
+        in_column(self.picture, (inside, 1), of=self, margins=(2, 2, 2, line // 2), spacing=0)
+        self.set_width(round(line * CARD_LINES) + 4)
+        follow_words(self, self._say)
+
+    def _say(self) -> None:
+        title, sentence = tr(self.example.title), tr(self.example.sentence)
+        self.setAccessibleName(f"{title}. {sentence}")
+        self.setAccessibleDescription(self.signs.accessibleName())
+        self.setToolTip("\n".join(f"• {tr(each.words)}" for each in self.example.tries))
+        self.fit_height()
+
+    def _buttons(self, title: str, line: int) -> Flow:
+        row = Flow(spacing=line // 3)
+        row.setContentsMargins(0, line // 4, 0, 0)
+        named = text_of(title)
+        self.try_button = labelled(
+            QPushButton(),
+            text="Try on the simulator",
+            name=text_of("Try “{example}” on the simulator", example=named),
+        )
+        self.try_button.setIcon(icon("play", self._look.theme))
+        self.try_button.setIconSize(icon_room(line))
+        self.try_button.clicked.connect(self.try_requested)
+        self.open_button = labelled(
+            QPushButton(), text="Open", name=text_of("Open “{example}”", example=named)
+        )
+        self.open_button.clicked.connect(self.clicked)
+        for button in (self.try_button, self.open_button):
+            button.setCursor(Qt.CursorShape.ArrowCursor)
+            row.addWidget(button)
+        return row
+
+    def event(self, event: QEvent) -> bool:
+        """Let the robots act while the pointer or the keyboard is here."""
+        is_done = super().event(event)
+        if event.type() in LOOKED_AT:
+            self.picture.act(self.underMouse() or self.hasFocus())
+        return is_done
+
+
+LOOKED_AT = (
+    *(QEvent.Type.Enter, QEvent.Type.Leave, QEvent.Type.HoverEnter, QEvent.Type.HoverLeave),
+    *(QEvent.Type.FocusIn, QEvent.Type.FocusOut),
+)
+"""The events after which a card may be looked at or not any more."""
+
+
 def _label(words: str, role: str) -> QLabel:
     label = labelled(styled(ReadingLabel(), role=role), text=words)
     label.setWordWrap(True)
@@ -298,10 +313,6 @@ def _label(words: str, role: str) -> QLabel:
 
 FEWEST_WITH_TAG = 2
 """A tag of fewer examples is found by the search only."""
-
-
-SETTLED_MS = 120
-"""So long after its last change a size counts as settled."""
 
 
 class SearchLine(QLineEdit):
@@ -334,12 +345,8 @@ class Gallery(QWidget):
         self._shown: list[Card] = []
         self.tag_buttons: dict[str, QPushButton] = {}
         self._columns = self._wide = 0
-        self._unpainted: list[Path] = []
-        self._has_pictures = True
-        self._painting = QTimer(self, interval=0)
-        self._painting.timeout.connect(self._on_paint_next)
-        self._settling = QTimer(self, singleShot=True, interval=SETTLED_MS)
-        self._settling.timeout.connect(self._on_settled)
+        self._building = QTimer(self, interval=0)
+        self._building.timeout.connect(self._on_build_next)
         line = self.fontMetrics().height()
         box = in_column(
             self._search_row(line), self._tag_row(line), of=self, margins=0, spacing=line // 2
@@ -351,12 +358,6 @@ class Gallery(QWidget):
         self._grid.setSpacing(line)
         self._grid.setAlignment(Qt.AlignmentFlag.AlignLeading | Qt.AlignmentFlag.AlignTop)
         box.addLayout(self._grid)
-        studio.words_changed.connect(self._on_words_changed)
-
-    def _on_words_changed(self) -> None:
-        """Paint the blocks in other words, one example at a time."""
-        self._unpainted = list(self._cards)
-        self._painting.start()
 
     @property
     def cards(self) -> dict[Path, Card]:
@@ -364,6 +365,11 @@ class Gallery(QWidget):
         while self._unbuilt:
             self._build_next()
         return self._cards
+
+    @property
+    def card_width(self) -> int:
+        """How wide each card is."""
+        return self._wide
 
     @property
     def is_complete(self) -> bool:
@@ -408,7 +414,6 @@ class Gallery(QWidget):
         card.clicked.connect(lambda: self.opened.emit(path))
         card.try_requested.connect(lambda: self.try_requested.emit(path))
         card.moved_on.connect(lambda side: self._on_moved(card, side))
-        self._unpainted.append(path)
         self._shown.append(card)
         if self._columns:
             card.set_width(self._wide)
@@ -426,7 +431,6 @@ class Gallery(QWidget):
         if columns != self._columns:
             self._columns = columns
             self._place()
-        self._settling.start()
 
     def _place(self) -> None:
         for card in self._cards.values():
@@ -471,60 +475,17 @@ class Gallery(QWidget):
         card.setFocus(Qt.FocusReason.TabFocusReason)
         self.focus_moved.emit(card)
 
-    # Pictures
-
-    def wait_with_pictures(self) -> None:
-        """Paint none before ``paint_pictures``: they need all that paints blocks."""
-        self._has_pictures = False
-
-    def paint_pictures(self) -> None:
-        """Paint them from now on."""
-        self._has_pictures = True
-        self._painting.start()
-
     def showEvent(self, event: QShowEvent) -> None:
-        """Go on painting."""
+        """Go on making cards."""
         super().showEvent(event)
-        self._painting.start()
+        self._building.start()
 
-    def _on_settled(self) -> None:
-        """Paint the pictures that are smaller or larger than their cards once more."""
-        waiting = set(self._unpainted)
-        self._unpainted = [
-            path for path, card in self._cards.items() if path in waiting or not card.is_painted()
-        ]
-        self._painting.start()
-
-    def _on_paint_next(self) -> None:
-        """Make one card or paint one picture at a time, so that the window is there at once."""
+    def _on_build_next(self) -> None:
+        """Make one card at a time, so that the window is there at once."""
         if self._unbuilt and self.isVisible():
             self._build_next()
-            return
-        if not self._unpainted or not self._has_pictures or not self.isVisible():
-            self._painting.stop()
-            return
-        self._paint(self._unpainted.pop(0))
-
-    def _paint(self, path: Path) -> None:
-        from nep_studio.blocks.editor import Editor  # all of the blocks: after the first page
-        from nep_studio.blocks.files import load
-        from nep_studio.ui.canvas.block_pictures import picture_of
-        from nep_studio.ui.workbench.workbench import block_font
-
-        card, language = self._cards[path], self._studio.language
-        try:
-            editor = Editor(load(path, language), language)
-        except BlocksError:
-            return  # it is told when somebody opens it
-        picture = picture_of(
-            editor,
-            self._studio.look.theme,
-            block_font(self._studio),
-            card.picture_size(),
-            self.devicePixelRatioF(),
-            is_mirrored=is_right_to_left(),
-        )
-        card.picture.setPixmap(picture)
+        else:
+            self._building.stop()
 
 
 def _fits(example: Example, wanted: list[str], tags: set[str]) -> bool:

@@ -293,7 +293,7 @@ class MainWindow(QMainWindow):
         self.restoreGeometry(self.settings.state("geometry"))
         self._build()
         if is_gradual:
-            self.start_page.gallery.wait_with_pictures()
+            self.start_page.wait_with_pictures()
             self.lazy.go_on_after_paint()
         else:
             self.lazy.finish()
@@ -342,6 +342,7 @@ class MainWindow(QMainWindow):
         add_language_of_program(self.menus["run"], self)
         self.menus["help"] = add_help_menu(self)
         self.toolbar: QToolBar = add_toolbar(self)
+        self.toolbar.hide()  # nothing of it has anything to do before a project is open
         fit_icons(self.pages)
 
     def follow_workbench(self) -> None:
@@ -356,7 +357,7 @@ class MainWindow(QMainWindow):
         self.message_area.covers.connect(workbench.leave_free)
         self.message_area.shown.connect(workbench.uncover)
         self.update_actions()
-        self.start_page.gallery.paint_pictures()
+        self.start_page.paint_pictures()
 
     def start(self, path: Path | None) -> None:
         """Begin with a project, or with the start page; offer what was lost the last time."""
@@ -408,6 +409,7 @@ class MainWindow(QMainWindow):
         self.lazy.finish()
         self.messages.leave_project()
         self.running.follow(document)
+        self.toolbar.setVisible(document is not None)
         self.pages.setCurrentIndex(0 if document is None else 1)  # first: it needs its size
         self.workbench.show_document(document)
         if document is not None:

@@ -68,7 +68,7 @@ def spoken_as(utterance: Utterance, request: ActionRequest | None) -> Utterance:
     """The utterance in the language, pitch and speed that were asked for."""
     if request is None:
         return utterance
-    language = request.args.get("language")
+    language = request.args.get("language") or request.args.get("usual_language")
     pitch = utterance.pitch * _spoken_percent(request.args.get("pitch"), 200.0)
     return replace(
         utterance,

@@ -49,6 +49,10 @@ def speak(robot: RealRobot, action: a.Say) -> Task:
     ]
     if action.language:
         told.append((yield from _language_name(robot, action.language)))
+    elif action.usual_language:
+        usual = NAMES.get(action.usual_language, action.usual_language)
+        if usual in (yield from robot.call("ALTextToSpeech", "getAvailableLanguages")):
+            told.append(usual)
     robot.known.saying = action.text
     try:
         yield from robot.call(

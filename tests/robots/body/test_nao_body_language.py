@@ -96,6 +96,18 @@ def test_the_voice_is_told_with_speed_pitch_and_language() -> None:
     assert state.settings["voice_language"] == "fr" and state.settings["language"] == "en"
 
 
+def test_a_text_is_told_in_the_language_of_the_program_unless_it_has_its_own() -> None:
+    for args, spoken in (({}, "de"), ({"language": "fr"}, "fr")):
+        stage = Stage()
+        stage.ask("1", "say", text="Hallo", usual_language="de", **args)
+        stage.pass_time(0.1)
+
+        state = stage.driver.state()
+
+        assert state is not None and state.settings["voice_language"] == spoken
+        assert state.settings["language"] == "en"
+
+
 def test_a_robot_without_words_for_gestures_has_none(tmp_path: Path) -> None:
     assert load_gesture_words(tmp_path).words == {}
 

@@ -158,6 +158,16 @@ def test_a_robot_that_sleeps_says_how_it_is_woken(robot: ServedNao, stage: Drive
     stage.until(lambda: stage.event == "connected")
 
 
+def test_a_text_in_a_language_that_it_does_not_speak_is_said_as_it_can(
+    robot: ServedNao, stage: DriverStage
+) -> None:
+    ends = [stage.do("say", text="Hallo", usual_language=code) for code in ("de", "xx")]
+    refused = stage.do("say", text="Hallo", language="xx")
+
+    assert [end.state for end in ends] == ["done", "done"]
+    assert refused.state == "failed"
+
+
 def test_joints_follow_angles_that_change_on_the_way(robot: ServedNao, stage: DriverStage) -> None:
     for yaw in (0.2, 0.4, 0.6):
         stage.ask(f"{yaw}", "set_angles", angles={"HeadYaw": yaw, "LShoulderPitch": 1.0})

@@ -205,6 +205,19 @@ def test_how_a_text_was_asked_to_be_said_is_how_it_is_spoken(
     assert (words[words.index("-p") + 1], words[words.index("-s") + 1]) == ("75", "330")
 
 
+def test_a_program_in_german_is_heard_in_german(
+    voices: RobotVoices, ears: Ears, qtbot: QtBot
+) -> None:
+    args = {"text": "Hallo", "language": "", "usual_language": "de"}
+    voices.hear(m.ActionRequest(id="1", robots=["NAO"], action="say", args=args))
+
+    voices.hear_state(state("Hallo", language="en"))
+
+    qtbot.waitUntil(lambda: bool(ears.told()))
+    [(_, words, _)] = ears.told()
+    assert words[:2] == ["-v", "de"]
+
+
 def test_what_a_robot_says_is_spoken_once_however_often_it_is_told(
     voices: RobotVoices, ears: Ears, qtbot: QtBot
 ) -> None:

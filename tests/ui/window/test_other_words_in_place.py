@@ -3,18 +3,20 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from pathlib import Path
 
 import pytest
-from PySide6.QtCore import QObject, Qt
+from PySide6.QtCore import QObject, QPoint, Qt
 from PySide6.QtGui import QAction
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QComboBox, QTabBar, QWidget
+from PySide6.QtWidgets import QComboBox, QMenu, QTabBar, QWidget
 from pytestqt.qtbot import QtBot
 from shiboken6 import isValid
 
 from nep_studio import paths
 from nep_studio.ui.services import Studio
 from nep_studio.ui.shell.main_window import MainWindow
+from nep_studio.ui.shell.settings_dialog import SettingsDialog
 from nep_studio.ui.widgets.layouts import ReadingLabel
 from nep_studio.ui.words import PSEUDO, tr
 from tests.conftest import a_part_of
@@ -90,7 +92,7 @@ def opened(studio: Studio, qtbot: QtBot) -> MainWindow:
     made.resize(2400, 1400)
     made.show()
     made.start(None)
-    made.files.open_example(KARATE)
+    made.files.open(KARATE)  # an example would be in the language of the window
     made.workbench.panels.show(made.workbench.code)
     made.workbench.panels.show(made.workbench.problems)
     made.workbench.panels.row.setSizes([600, 800, 600, 400])
@@ -190,6 +192,95 @@ def test_the_place_and_what_is_selected_stay(karate: MainWindow, qtbot: QtBot) -
     assert karate.focusWidget() is palette.search
 
 
+def press_in_menu(menu: QMenu, words: str) -> None:
+    """Choose an entry of an open menu with the mouse."""
+    action = next(one for one in menu.actions() if one.text().replace("&", "") == words)
+    menu.popup(menu.parentWidget().mapToGlobal(QPoint(0, 0)))
+    QTest.mouseClick(menu, Qt.MouseButton.LeftButton, pos=menu.actionGeometry(action).center())
+    menu.close()
+
+
+def test_a_language_chosen_with_the_mouse_keeps_the_window(
+    karate: MainWindow, qtbot: QtBot
+) -> None:
+    workbench = karate.workbench
+    canvas, panels = workbench.canvas, workbench.panels
+    karate.resize(1250, 740)
+    panels.show(workbench.problems)
+    qtbot.wait(50)
+    left, middle, right = panels.row.sizes()
+    panels.row.setSizes([left + 40, middle - 70, right + 30])
+    document = karate.files.document
+    canvas.selection.set([document.project.pages["behaviour"][1].body[2]])
+    canvas.commands.duplicate()
+    qtbot.wait(200)
+    camera = canvas.sight.camera
+
+    def kept() -> list[object]:
+        return [
+            karate.size(),
+            panels.row.sizes(),
+            panels.column.sizes(),
+            [panel.name for panel in panels.all if panel.widget.isVisible()],
+            canvas.selection.ids,
+            (camera.x, camera.y, camera.scale),
+            document.editor.history.position,
+            [note.text for note in document.project.notes.values()],
+            document.project.name,
+            karate.isWindowModified(),
+        ]
+
+    before = kept()
+    titles = {menu.title(): menu for menu in karate.menus["view"].findChildren(QMenu)}
+    press_in_menu(titles["Language"], "Deutsch")
+    qtbot.wait(200)
+
+    assert karate.menus["file"].title() == "&Datei"
+    assert karate.files.document is document
+    assert kept() == before
+
+
+def test_a_language_chosen_in_the_settings_leaves_them_open(karate: MainWindow) -> None:
+    karate.open_settings()
+    [dialog] = karate.findChildren(SettingsDialog)
+    before = karate.size()
+
+    dialog.language.setFocus()
+    while dialog.language.currentData() != "de":
+        QTest.keyClick(dialog.language, Qt.Key.Key_Down)
+    QTest.qWait(100)
+
+    assert dialog.isVisible() and karate.size() == before
+    assert dialog.windowTitle() == tr("Settings") == "Einstellungen"
+    assert dialog.focusWidget() is dialog.language
+    dialog.accept()
+
+
+def test_an_example_opens_in_the_language_of_the_window(window: MainWindow, qtbot: QtBot) -> None:
+    window.studio.choose_language("de")
+
+    QTest.mouseClick(window.start_page.cards[KARATE], Qt.MouseButton.LeftButton)
+
+    qtbot.waitUntil(lambda: "Karateschlag" in window.workbench.code.text.toPlainText())
+    project = window.files.document.project
+    assert (project.name, project.spoken_language) == ("Karate-Gruß", "de")
+    assert "Zuerst ändern" in next(iter(project.notes.values())).text
+    assert not window.files.document.is_modified
+
+
+def test_a_new_block_says_hello_in_the_language_of_the_window(window: MainWindow) -> None:
+    window.studio.choose_language("de")
+    QTest.mouseClick(window.start_page.new_button, Qt.MouseButton.LeftButton)
+    bar = window.workbench.helpers.insert_bar
+
+    QTest.keyClick(window.workbench.canvas, Qt.Key.Key_Space, Qt.KeyboardModifier.ControlModifier)
+    QTest.keyClicks(bar.line, "sagt")
+    QTest.keyClick(bar.line, Qt.Key.Key_Return)
+
+    blocks = window.files.document.project.blocks.values()
+    assert [one.fields["text"] for one in blocks if one.type == "robot.say"] == ["Hallo"]
+
+
 def test_what_is_searched_for_stays(karate: MainWindow) -> None:
     palette, bar = karate.workbench.helpers.palette, karate.workbench.helpers.find_bar
     palette.search.setText("wait")
@@ -280,17 +371,24 @@ def test_the_panels_are_put_back_without_being_made_anew(karate: MainWindow) -> 
     assert not karate.settings.is_chosen(code.name)
 
 
-def test_the_first_page_shows_its_examples_in_other_words(window: MainWindow, qtbot: QtBot) -> None:
-    cards = list(window.start_page.cards.values())
-    qtbot.waitUntil(lambda: all(card.is_painted() for card in cards))
-    window.start_page.verticalScrollBar().setValue(150)
-    before = [card.picture.pixmap().cacheKey() for card in cards]
+def test_the_first_page_stays_in_its_place_in_other_words(
+    window: MainWindow, tmp_path: Path, qtbot: QtBot
+) -> None:
+    mine = tmp_path / "mine.nep"
+    mine.write_bytes(KARATE.read_bytes())
+    window.settings.add_recent(mine)
+    window.files.recent_changed.emit()
+    page = window.start_page
+    cards, card = list(page.cards.values()), page.recent_cards[mine]
+    qtbot.waitUntil(lambda: card.picture.pixmap().width() >= card.picture_size().width())
+    page.verticalScrollBar().setValue(150)
+    before = card.picture.pixmap().cacheKey()
 
     window.studio.choose_language("ja")
 
-    qtbot.waitUntil(lambda: not set(before) & {card.picture.pixmap().cacheKey() for card in cards})
-    assert list(window.start_page.cards.values()) == cards
-    assert window.start_page.verticalScrollBar().value() == 150
+    qtbot.waitUntil(lambda: card.picture.pixmap().cacheKey() != before)
+    assert list(page.cards.values()) == cards and page.recent_cards[mine] is card
+    assert page.verticalScrollBar().value() == 150
 
 
 def test_headings_of_the_first_page_begin_where_reading_begins(window: MainWindow) -> None:

@@ -5,11 +5,13 @@ from __future__ import annotations
 import sys
 from collections.abc import Iterator
 from importlib.util import find_spec
+from pathlib import Path
 
 import pytest
 from PySide6.QtCore import Qt
 from pytestqt.qtbot import QtBot
 
+from nep_studio import paths
 from nep_studio.ui.plugins.tour.tour import Tour
 from nep_studio.ui.services import Studio
 from nep_studio.ui.shell.main_window import MODULES, MainWindow
@@ -132,13 +134,17 @@ def test_the_modules_that_are_loaded_step_by_step_exist(name: str) -> None:
     assert find_spec(name) is not None
 
 
-def test_pictures_of_examples_wait_for_what_paints_blocks(
-    gradual: MainWindow, qtbot: QtBot
+def test_pictures_of_projects_wait_for_what_paints_blocks(
+    gradual: MainWindow, tmp_path: Path, qtbot: QtBot
 ) -> None:
+    mine = tmp_path / "mine.nep"
+    mine.write_bytes((paths.examples() / "quiz.nep").read_bytes())
+    gradual.settings.add_recent(mine)
+    gradual.files.recent_changed.emit()
     gradual.show()
     gradual.start(None)
 
     qtbot.waitUntil(lambda: gradual.lazy.is_done, timeout=30_000)
 
-    cards = gradual.start_page.gallery.cards
-    qtbot.waitUntil(lambda: all(card.is_painted() for card in cards.values()), timeout=30_000)
+    card = gradual.start_page.recent_cards[mine]
+    qtbot.waitUntil(lambda: card.picture.pixmap().width() >= card.picture_size().width())

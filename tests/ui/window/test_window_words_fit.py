@@ -117,7 +117,7 @@ def open_karate_with_problems(window: MainWindow, qtbot: QtBot) -> None:
     window.files.open_example(paths.examples() / "karate_greeting.nep")
     qtbot.waitUntil(workbench.canvas.isVisible)
     workbench.panels.show(workbench.code)
-    qtbot.waitUntil(lambda: "Impressive" in workbench.code.text.toPlainText())
+    qtbot.waitUntil(lambda: "nao.say" in workbench.code.text.toPlainText())
     workbench.panels.restore(window.fontMetrics().height())
     window.show_problems()
     qtbot.waitUntil(workbench.problems.isVisible)

@@ -166,7 +166,7 @@ def _has_own_words(host: Host) -> bool:
     canvas, block = host.workbench.canvas, say_block(host)
     if block is None or canvas.fields.widget is not None:
         return False
-    usual = canvas.editor.language.definitions[SAY].defaults["text"]
+    usual = canvas.editor.language.definitions[SAY].beginning("text")
     return "text" in block.inputs or block.fields.get("text", usual) != usual
 
 
