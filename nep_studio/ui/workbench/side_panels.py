@@ -264,6 +264,7 @@ class Panels(QObject):
         self.row = QSplitter(Qt.Orientation.Horizontal)
         self._is_arranged = False
         """Whether somebody has moved a border of the row: then it is left as it is."""
+        self._is_closing = False
         # the outer ones first: a widget is dressed anew in each parent
         in_column(self.row, of=parent, margins=0)
         for beside in (self.areas["left"], self.column, self.areas["right"], self.stage):
@@ -392,6 +393,10 @@ class Panels(QObject):
         return super().eventFilter(watched, event)
 
     def _on_toggled(self, panel: Panel, is_on: bool) -> None:
+        is_behind = panel.area is self.rooms and self.rooms.shown is not panel.widget
+        if not is_on and is_behind and not self._is_closing:  # in the menu: somebody wants it
+            panel.action.setChecked(True)
+            return
         panel.area.show_panel(panel.widget, is_on)
         self._show_stage()
         if panel.area is self.areas["right"]:
@@ -399,9 +404,11 @@ class Panels(QObject):
         self._settings.set_shown(panel.name, is_on)
 
     def _on_close_asked(self, widget: QWidget) -> None:
+        self._is_closing = True
         for panel in self.all:
             if panel.widget is widget:
                 panel.action.setChecked(False)
+        self._is_closing = False
 
     def _on_rooms_changed(self) -> None:
         """A room has the whole page: what tells of the canvas stands back."""
