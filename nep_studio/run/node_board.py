@@ -1,4 +1,4 @@
-"""How every node of the network is doing, from what they tell; for the node panel."""
+"""How every node of the network is doing, from what they tell; for the panel What runs."""
 
 from __future__ import annotations
 

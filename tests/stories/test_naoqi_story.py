@@ -131,7 +131,7 @@ def test_a_program_made_for_a_real_nao_moves_the_robot_that_the_network_sees(
 
 
 def picture(qapp: QApplication, state: RobotState) -> NDArray[np.int_]:
-    """What the panel Robots paints of a state: red, green and blue of all pixels."""
+    """What the stage paints of a state: red, green and blue of all pixels."""
     room = RoomPicture(Look(qapp, "light"), drawing="painter")
     room.show_robot(state.robot, state)
     room.look_through(Camera(target=(0.0, 0.0, 0.3)))

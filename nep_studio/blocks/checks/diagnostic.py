@@ -187,12 +187,12 @@ SORTS = {
     "gesture_unrecognised": Sort(
         "warning",
         "Nothing recognises the gesture “{gesture}” yet.",
-        ("Teach it in the panel Gestures.", "Or choose another gesture in this block."),
+        ("Teach it on the page Gestures.", "Or choose another gesture in this block."),
     ),
     "gesture_untrained": Sort(
         "warning",
         "The gesture “{title}” is not learned yet.",
-        ("Record it five times in the panel Gestures.", "Press Train there."),
+        ("Record it five times on the page Gestures.", "Press Train there."),
     ),
 }
 """By ``kind``, what is always told in the same words."""

@@ -196,7 +196,7 @@ class CodePane(QWidget):
         self.note.hide()
         self.copy_button, self.edit_button = QPushButton(), QPushButton()
         self.apply_button, self.discard_button = QPushButton(), QPushButton()
-        labelled(self, name="Code")
+        labelled(self, name="Python")
         self.apply_button.setProperty("kind", "primary")
         gap = self.fontMetrics().height() // 3
         self.title = ElidedLabel()

@@ -121,7 +121,7 @@ class Scene:
 
 
 def scene_of(window: MainWindow, qtbot: QtBot) -> Scene:
-    """The scene of a window, which has the node panel."""
+    """The scene of a window, which has the panel What runs."""
     return Scene(window, qtbot)
 
 

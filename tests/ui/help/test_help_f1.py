@@ -261,6 +261,16 @@ def test_every_panel_of_the_window_has_a_page(karate, desk):
         assert page and desk.panel.book.resolve(page) == page, panel.name
 
 
+def test_person_and_motion_have_pages_of_their_own(karate, desk):
+    from nep_studio.ui.plugins.help.help_controller import page_at
+
+    pages = {panel.title: page_at(panel.widget) for panel in karate.workbench.panels.all}
+
+    assert pages["Person"] == "howto/window#person"
+    assert pages["Motion"] == "howto/make-a-motion"
+    assert pages["Gestures"] == "howto/teach-gestures"
+
+
 def test_trying_an_example_reaches_the_desk(karate, desk, qtbot):
     desk.open("block/robot.play")
 

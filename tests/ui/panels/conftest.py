@@ -1,4 +1,4 @@
-"""A window with the node and network panels, which really runs nodes."""
+"""A window with the panel What runs and the page Network, which really runs nodes."""
 
 from __future__ import annotations
 

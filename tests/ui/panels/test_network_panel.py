@@ -1,4 +1,4 @@
-"""The network panel in a real window: graph, list, messages of a topic, sending by hand."""
+"""The page Network in a real window: graph, list, messages of a topic, sending by hand."""
 
 from __future__ import annotations
 

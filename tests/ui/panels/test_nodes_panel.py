@@ -1,4 +1,4 @@
-"""The node panel in a real window with real nodes: cards, buttons, messages, logs."""
+"""The panel What runs in a real window with real nodes: cards, buttons, messages, logs."""
 
 from __future__ import annotations
 

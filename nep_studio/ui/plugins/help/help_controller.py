@@ -56,6 +56,9 @@ PAGES_OF_ACTIONS = {
     "howto/museum": "show_mode",
     "howto/cue-panel": "cues",
     "howto/connect-watch": "connect_watch",
+    "howto/teach-gestures": "teach_gesture",
+    "howto/make-a-motion": "make_motion",
+    "howto/drive-by-hand": "teleoperate",
 }
 
 PAGES_OF_WIDGETS = {
@@ -66,7 +69,8 @@ PAGES_OF_WIDGETS = {
     f"{WINDOW}#nodes": "NodesPanel",
     f"{WINDOW}#network": "NetworkPanel",
     f"{WINDOW}#sensors": "SensorsPanel FieldChooser",
-    f"{WINDOW}#robots": "RobotsPanel HumanPanel",
+    f"{WINDOW}#robots": "RobotsPanel",
+    f"{WINDOW}#person": "HumanPanel",
     f"{WINDOW}#log": "LogPanel MessageArea",
     f"{WINDOW}#pages": "PagesBar",
     f"{WINDOW}#find": "FindBar",
@@ -84,6 +88,7 @@ PAGES_OF_WIDGETS = {
     "howto/cue-panel": "CuePanel CueBoard ArrangeDialog",
     "howto/first-steps": "StartPage",
     "howto/teach-gestures": "TrainerPanel",
+    "howto/make-a-motion": "MotionRoom",
     "howto/connect-watch": "WatchDialog",
 }
 

@@ -88,7 +88,7 @@ def needs(definition: Definition) -> Iterator[str]:
     if "needs_real_robot" in definition.flags:
         yield tr("Needs a real robot: the one on the screen cannot do it.")
     if any(slot.kind.name == "gesture" for slot in definition.slots.values()):
-        yield tr("A node must recognise the gesture: launch one on the page Nodes.")
+        yield tr("A node must recognise the gesture: Run adds one where none is on the page Nodes.")
 
 
 def _shape(definition: Definition) -> str:

@@ -1,4 +1,4 @@
-"""The network panel: the graph or the list of what talks, and the messages of one topic."""
+"""The page Network: the graph or the list of what talks, and the messages of one topic."""
 
 from __future__ import annotations
 

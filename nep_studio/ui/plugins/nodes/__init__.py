@@ -1,4 +1,4 @@
-"""The node panel: a card for each node, its log, and what is told when one comes to grief."""
+"""What runs: a card for each node, its log, and what is told when one comes to grief."""
 
 from __future__ import annotations
 

@@ -30,7 +30,7 @@ from nep_studio.ui.widgets.forms import ElidedLabel
 from nep_studio.ui.widgets.layouts import in_column, in_row
 from nep_studio.ui.words import count_words, tr
 
-# What the node panel has cards for: nodes that the project needs, and nodes that are there.
+# What the panel What runs has cards for: nodes that the project needs, and nodes that are there.
 
 ORDER: Mapping[str, int] = {name: place for place, name in enumerate(get_args(NodeType))}
 

@@ -1,4 +1,4 @@
-"""The node panel: a card for each node, and the log of one beside them."""
+"""What runs: a card for each node, and the log of one beside them."""
 
 from __future__ import annotations
 

@@ -186,7 +186,7 @@ class ThingsBox(QWidget):
 
     def _lay_out(self) -> None:
         marked, sounds = in_row(self.mark, self.number, 1), Buttons(self.sounds.values())
-        more = hint("Other things are placed in the scene of the robots.")
+        more = hint("Other things are placed on the stage.")
         in_column(self.ball, marked, sounds, more, of=self, margins=0)
 
     def refresh(self) -> None:

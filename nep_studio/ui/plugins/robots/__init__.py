@@ -1,4 +1,4 @@
-"""The robots: one scene with all robots of the project, and a card for each."""
+"""The stage: one scene with all robots of the project, and a card for each."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from nep_studio.ui.speech import sound_of
 
 
 def make(host: Host) -> Parts:
-    """The stage beside the canvas; it follows the Robots page."""
+    """The panel at the far side of the canvas; it follows the page Robots."""
     from .panel import RobotsPanel
     from .participants import Starts
 

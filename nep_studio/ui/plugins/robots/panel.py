@@ -1,4 +1,4 @@
-"""The robots panel: one scene with all robots of the project, and a card for each."""
+"""The stage: one scene with all robots of the project, and a card for each."""
 
 from __future__ import annotations
 
@@ -149,9 +149,10 @@ class RobotsPanel(InLines):
         follow_words(self, self.refresh)
 
     def _lay_out(self) -> None:
-        labelled(self, name="Robots")
+        labelled(self, name="Stage")
         self.hint = hint(
-            "No robot takes part yet. Add one on the Robots page: it may be one on this screen."
+            "No robot takes part yet. Press + beside the tabs, open the page Robots and add one:"
+            " it may be one on this screen."
         )
         self.hint.setAlignment(Qt.AlignmentFlag.AlignCenter)
         self.elsewhere.hide()

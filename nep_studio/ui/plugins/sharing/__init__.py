@@ -58,7 +58,7 @@ def joined_words(keys: Keys) -> str:
 
 
 def make(host: Host) -> Parts:
-    """The action, in the Robots menu; the network panel shows that the network is open."""
+    """The action, in the Robots menu; the page Network shows that the network is open."""
     kit = SharingKit(host)
     kit.told.connect(lambda told: host.ask("network.show_sharing", *astuple(told)))
     kit.tell()

@@ -240,7 +240,7 @@ def silence_steps(
         found.append(tr("Is Bluetooth on, on this computer? Is the sensor free of its phone?"))
         return tuple(found)
     if connector.node != WATCH:
-        return (tr("Look into the log of the node in the panel Nodes."),)
+        return (tr("Look into the log of the node in the panel What runs."),)
     found.append(tr("Is the screen of the device on, and is it sending?"))
     if connector.needs_address:
         found.append(tr("Is {address} still what the app shows?", address=address or UNKNOWN))

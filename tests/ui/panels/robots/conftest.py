@@ -1,4 +1,4 @@
-"""The robots panel by itself, over a floor that a real project keeps."""
+"""The stage by itself, over a floor that a real project keeps."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The robots panel, with a real node of a virtual robot on a real network, and by itself."""
+"""The stage, with a real node of a virtual robot on a real network, and by itself."""
 
 from __future__ import annotations
 
@@ -41,7 +41,7 @@ def test_a_project_without_robots_says_how_one_takes_part(
     assert panel.cards == {}
     assert not panel.stage.view.room.robots
     assert panel.hint.isVisible()
-    assert "Robots page" in panel.hint.text()
+    assert "page Robots" in panel.hint.text()
 
 
 def test_what_a_robot_says_and_how_it_is_can_be_read_and_heard(panel: RobotsPanel) -> None:

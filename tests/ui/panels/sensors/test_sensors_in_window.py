@@ -1,4 +1,4 @@
-"""The sensors panel in the real window: opened late, kept when the language changes."""
+"""The page Sensors in the real window: opened late, kept when the language changes."""
 
 import subprocess
 import sys

@@ -1,4 +1,4 @@
-"""The sensors panel with real nodes: a watch, a recording that is made and played, a robot."""
+"""The page Sensors with real nodes: a watch, a recording that is made and played, a robot."""
 
 import csv
 import time
