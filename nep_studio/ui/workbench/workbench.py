@@ -86,7 +86,8 @@ class CanvasHelpers(QObject):
         from nep_studio.ui.robot_view.small_pictures import small_picture
 
         editor, theme = self.canvas.editor, self.canvas.look.theme.name
-        asked = editor.language.robot_of(editor.project.blocks[block])
+        changed = editor.project.blocks.get(block)  # it may have been deleted meanwhile
+        asked = editor.language.robot_of(changed) if changed is not None else ""
         entries = robot_entries(editor.project, editor.language)
         models = [one.model for one in entries if one.name == asked] or [e.model for e in entries]
         ratio = self.canvas.devicePixelRatioF()

@@ -204,7 +204,7 @@ def lines_across(desk, start: QPointF, end: QPointF) -> int:
         at = (start + (end - start) * step / steps).toPoint()
         seen = picture.pixelColor(at)
         apart = abs(seen.red() - ink.red()) + abs(seen.blue() - ink.blue())
-        is_line = apart + abs(seen.green() - ink.green()) < 60
+        is_line = apart + abs(seen.green() - ink.green()) < 40
         count, was_line = count + (is_line and not was_line), is_line
     return count
 

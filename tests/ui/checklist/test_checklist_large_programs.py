@@ -83,8 +83,8 @@ def test_a_stack_of_ten_thousand_statements_is_saved_and_opened(
     person.qtbot.waitUntil(lambda: person.window.files.document is not None, timeout=20_000)
 
     assert person.file == before
-    assert len(load(path, person.editor.language).stacks) == 1
+    assert len(load(path, person.editor.language).pages["behaviour"]) == 1
     person.look_at_corner()
     person.put(person.body()[1], QPoint(450, 300))
-    assert [len(stack.body) for stack in person.project.stacks.values()] == [1, 9_999]
+    assert [len(stack.body) for stack in person.project.pages["behaviour"]] == [1, 9_999]
     assert person.undo() == before

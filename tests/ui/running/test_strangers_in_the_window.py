@@ -412,6 +412,7 @@ def test_who_writes_python_beside_a_strangers_does_not_take_that_over(
 ) -> None:
     trap = stranger(in_a_loop)
     code = window.workbench.code
+    window.workbench.panels.show(code)
     qtbot.waitUntil(lambda: "marker" in code.text.toPlainText())
     code.begin_editing()
     code.text.setPlainText(

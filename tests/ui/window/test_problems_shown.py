@@ -226,7 +226,7 @@ def test_a_block_is_not_left_alone_by_what_is_put_into_it(beginner: Person, qtbo
 
 
 def test_run_tells_all_at_once(beginner: Person, qtbot: QtBot) -> None:
-    beginner.from_palette("control.wait_until", QPoint(120, 120))
+    beginner.from_palette("control.if", QPoint(120, 120))
     is_checked(beginner)
     window = beginner.window
     run = window.toolbar.widgetForAction(window.actions_by_name["run"])

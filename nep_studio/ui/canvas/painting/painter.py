@@ -24,12 +24,20 @@ DARKEST_TINTED = 0.02
 """Blocks that are darker have choices that are brighter than they are."""
 
 
+LIGHTEST_TINT, DARKEST_WORDS = 219, 48
+"""Greys. A choice that is lighter could be taken for a white field of text: it is darker than its
+block then, where the words are so dark that they can be read on it."""
+
+
 def choice_tint(colours: BlockColours) -> QColor:
     """What a choice is filled with: the block's colour, farther from that of its words."""
     away = QColor("black" if qGray(colours.text.rgb()) > 128 else "white")
     if colours.fill.lightnessF() < DARKEST_TINTED:
         return mixed(colours.fill, colours.line, TINT)  # there is hardly a darker colour
-    return mixed(colours.fill, away, TINT)
+    tint = mixed(colours.fill, away, TINT)
+    if qGray(tint.rgb()) > LIGHTEST_TINT and qGray(colours.text.rgb()) < DARKEST_WORDS:
+        return mixed(colours.fill, QColor("black"), TINT)
+    return tint
 
 
 # Paint what is inside a block: words, fields, sockets and buttons.

@@ -407,12 +407,12 @@ class HelpPanel(InLines):
         self.search.selectAll()
 
     def refresh(self) -> None:
-        """Take the look in use; a hidden panel does so when it is seen."""
+        """Take the look in use; the pages of a hidden panel do so when it is seen."""
+        self.tools.dress(self._look.theme)
+        self.example.dress(self._look.theme)
         self._is_stale = not self.isVisible()
         if self._is_stale:
             return
-        self.tools.dress(self._look.theme)
-        self.example.dress(self._look.theme)
         if self._book is not None:
             self.contents.fill(self._book.contents(), self._look.theme)
             self.browser.refresh()
