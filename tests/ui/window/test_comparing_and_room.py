@@ -11,6 +11,7 @@ from pytestqt.qtbot import QtBot
 from nep_studio.blocks.edits.content import SetField
 from nep_studio.blocks.edits.placing import DeleteBlocks
 from nep_studio.blocks.edits.project import RenameProject
+from nep_studio.ui.robot_view.view import RobotView
 from nep_studio.ui.shell.help_dialogs import ComparingDialog
 from nep_studio.ui.shell.main_window import MainWindow
 
@@ -191,3 +192,55 @@ def test_the_first_blocks_leave_more_than_half_of_a_small_screen_to_the_page(
     assert abs(palette.width() - few) < 10
     assert window.width() - few - 270 >= 0.55 * window.width()
     end(window)
+
+
+def test_the_first_window_gives_the_page_the_most_and_the_robot_its_place(
+    studio, chooser, qtbot: QtBot
+):
+    window = started(studio, chooser, 1280, qtbot)
+    workbench = window.workbench
+    qtbot.waitUntil(lambda: workbench.canvas.width() >= 0.55 * window.width())
+
+    stage = workbench.panels.areas["stage"]
+    small = stage.width()
+    assert stage.x() + stage.mapTo(window, QPoint()).x() > workbench.canvas.width()
+    assert small >= 0.18 * window.width()
+
+    window.resize(1920, 1000)
+    qtbot.waitUntil(lambda: stage.width() > 1.3 * small)
+    assert workbench.canvas.width() >= 0.55 * window.width()
+    end(window)
+
+
+def test_the_person_is_under_the_robot_and_both_are_seen_whole(studio, chooser, qtbot: QtBot):
+    window = started(studio, chooser, 1366, qtbot)
+    panels = window.workbench.panels
+    person = next(one for one in panels.all if one.title == "Person")
+    panels.show(person.widget)
+    stage, below = panels.areas["stage"], panels.areas["person"]
+    qtbot.waitUntil(lambda: below.height() > 150)
+
+    view = window.findChild(RobotView)
+    assert stage.mapTo(window, QPoint()).y() < below.mapTo(window, QPoint()).y()
+    assert stage.width() == below.width()
+    assert view.isVisible() and view.height() > 120
+    end(window)
+
+
+def test_where_a_border_was_moved_is_kept(studio, chooser, qtbot: QtBot):
+    first = started(studio, chooser, 1280, qtbot)
+    row = first.workbench.panels.row
+    handle = row.handle(3)
+    qtbot.mousePress(handle, LEFT, pos=handle.rect().center())
+    for step in (20, 60, 100):
+        qtbot.mouseMove(handle, handle.rect().center() - QPoint(step, 0))
+    qtbot.mouseRelease(handle, LEFT, pos=handle.rect().center())
+    chosen = first.workbench.panels.areas["stage"].width()
+    first.workbench.panels.remember()
+    end(first)
+
+    second = started(studio, chooser, 1280, qtbot)
+
+    assert chosen > 300
+    qtbot.waitUntil(lambda: second.workbench.panels.areas["stage"].width() == chosen)
+    end(second)
