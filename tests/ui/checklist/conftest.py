@@ -19,8 +19,9 @@ __all__ = ["home", "studio"]
 
 @pytest.fixture
 def window(studio: Studio, qtbot: QtBot) -> MainWindow:
-    """The window as it is at the first start, large enough to work in, with all blocks."""
+    """The window, large enough to work in, with all blocks and the Python beside them."""
     studio.settings.palette_level = "all"
+    studio.settings.set_shown("CodePane", True)
     made = MainWindow(studio)
     qtbot.addWidget(made, before_close_func=put_away)
     made.resize(1700, 950)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from PySide6.QtCore import QPoint, Qt
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QDialogButtonBox, QPushButton
+from PySide6.QtWidgets import QApplication, QDialogButtonBox, QMenu, QPushButton
 
 from nep_studio.blocks.text import sentence
 from tests.blocks.block_building import B
@@ -195,6 +195,9 @@ def test_several_pages_of_blocks_in_one_project(person: Person) -> None:
     titles = [bar.tabs.tabText(n) for n in range(bar.tabs.count())]
 
     QTest.mouseClick(bar.add_button, LEFT)
+    more = QApplication.activePopupWidget()
+    assert isinstance(more, QMenu)
+    QTest.mouseClick(more, LEFT, pos=more.actionGeometry(more.actions()[0]).center())
     added = person.canvas.page
     person.from_palette("event.started", QPoint(200, 200))
     assert person.project.kind_of_page(added) == "behaviour"
