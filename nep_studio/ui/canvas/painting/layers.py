@@ -71,9 +71,12 @@ class StaticLayer:
             whole = self._pixmap.rect()
             exposed = QRegion(whole) - QRegion(whole.translated(dx, dy))
             self._pixmap.scroll(dx, dy, whole)
-            shift = QPoint(round(dx / self._ratio), round(dy / self._ratio))
-            self._dirty = self._dirty.translated(shift)
-            for rect in rects_of(exposed):
+            moved = [_scaled(rect, self._ratio) for rect in rects_of(self._dirty)]
+            self._dirty = QRegion()
+            for rect in (
+                *(one.translated(dx, dy) for one in moved),
+                *map(QRectF, rects_of(exposed)),
+            ):
                 self.invalidate(_scaled(rect, 1 / self._ratio))
         self.camera = replace(camera)
 
@@ -120,7 +123,7 @@ def rects_of(region: QRegion) -> list[QRect]:
     return rects
 
 
-def _scaled(rect: QRect, by: float) -> QRectF:
+def _scaled(rect: QRect | QRectF, by: float) -> QRectF:
     return QRectF(rect.x() * by, rect.y() * by, rect.width() * by, rect.height() * by)
 
 
@@ -288,6 +291,8 @@ class Layers:
         """
         camera, margin = self._host.sight.camera, 4 * self._host.look.measures.unit
         changed = [camera.view_rect(rect.grown(margin)) for rect in rects]
+        if changed and self._rest.camera.scale == camera.scale:
+            self._rest.scroll_to(camera)  # the places are those of where it looks now
         for rect in changed:
             self._rest.invalidate(rect)
         if changed:
