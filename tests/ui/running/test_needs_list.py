@@ -134,7 +134,7 @@ def test_the_words_are_those_of_everybody(window: MainWindow, qtbot: QtBot) -> N
     window.files.new()
     qtbot.waitUntil(lambda: window.workbench.canvas.isVisible())
     person = Person(window, qtbot)
-    person.from_palette("control.wait_until", QPoint(120, 120))
+    person.from_palette("control.if", QPoint(120, 120))
     dialog = shown(window, qtbot)
     qtbot.waitUntil(lambda: len(dialog.needs or ()) == 2)
 

@@ -204,7 +204,7 @@ def test_nothing_is_wrong_with_a_block_that_was_just_dropped(beginner: Person, m
 
 
 def test_what_a_block_lacks_is_told_once_it_is_left_alone(beginner: Person, qtbot: QtBot) -> None:
-    beginner.from_palette("control.wait_until", QPoint(120, 120))
+    beginner.from_palette("control.if", QPoint(120, 120))
     is_checked(beginner)
 
     beginner.click(QPoint(400, 300))
