@@ -143,8 +143,8 @@ def update_edit_actions(window: MainWindow) -> None:
     actions.enable(is_canvas and data is not None and bool(data.formats()), "paste")
     actions.enable(document is not None, "add_page", "picture")
     actions.enable(is_canvas, *NEEDS_CANVAS)
-    history = workbench.rooms.history if workbench else None
-    history = history or (document.editor.history if document else None)
+    of_room = workbench.rooms.history if workbench else None
+    history = of_room or (document.editor.history if document else None)
     _label(window, "undo", history.undo_label if history else "", "Undo", "Undo “{step}”")
     _label(window, "redo", history.redo_label if history else "", "Redo", "Redo “{step}”")
 
