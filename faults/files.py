@@ -13,7 +13,6 @@ import contextlib
 import errno
 import os
 import re
-import secrets
 import stat
 import sys
 import time
@@ -38,7 +37,7 @@ def whole_file(path: Path, *, is_private: bool = False) -> Iterator[BinaryIO]:
     ``is_private`` is this user's alone at every moment, and another is for those whom the old one
     was for.
     """
-    new = path.with_name(f".{path.name[:40]}.{secrets.token_hex(4)}")
+    new = path.with_name(f".{path.name[:40]}.{os.urandom(4).hex()}")
     mode = 0o600 if is_private else 0o666
     try:
         with open(new, "xb", opener=lambda name, flags: os.open(name, flags, mode)) as file:

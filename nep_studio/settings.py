@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import contextlib
-import hashlib
 import math
 import os
 import re
@@ -323,4 +322,6 @@ class Settings(SettingsFile):
 
 def _disguised(pin: str) -> str:
     """A PIN that nobody reads by chance in the file; who may change the file may leave anyway."""
+    import hashlib  # it loads all of OpenSSL, which a start needs for nothing
+
     return hashlib.sha256(f"nep-studio {pin}".encode()).hexdigest()

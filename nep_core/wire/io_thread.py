@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import logging
 import socket
+import struct
 import threading
 import time
 from collections.abc import Callable
 from functools import partial
+from typing import NamedTuple
 
 import zmq
 
@@ -16,6 +18,21 @@ log = logging.getLogger(__name__)
 TICK_MS = 20
 HURRIED_TICK_MS = 1
 HURRY_S = 0.05
+
+
+class SocketEvent(NamedTuple):
+    """What happened to a connection of a socket: zmq's number of it, and what zmq adds."""
+
+    kind: int
+    value: int
+    endpoint: str
+
+
+def socket_event(frames: list[bytes]) -> SocketEvent:
+    """Read what the monitor of a socket tells; zmq's own reader would load asyncio and ssl."""
+    numbers, endpoint = frames
+    kind, value = struct.unpack("=Hi", numbers)
+    return SocketEvent(kind, value, endpoint.decode())
 
 
 class Wake:

@@ -9,7 +9,6 @@ it (docs/gesture_models.md); nothing in here looks into it.
 from __future__ import annotations
 
 import binascii
-import hashlib
 import math
 import re
 import sys
@@ -205,6 +204,8 @@ def training_digest(project: Project) -> str:
 
 
 def _digest(project: Project) -> str:
+    import hashlib  # slow to load
+
     gestures = {name: one.takes for name, one in own_gestures(project).items() if one.takes}
     recordings = {key: (one, one.samples) for key, one in own_recordings(project).items()}
     data = msgspec.json.encode([sorted(gestures.items()), sorted(recordings.items())])

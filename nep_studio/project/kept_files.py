@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import binascii
-import hashlib
 import os
 import re
 import shutil
@@ -105,6 +104,8 @@ def recogniser_file(project: Project) -> RecogniserFile | None:
 
 def file_of(recogniser: OwnRecogniser) -> RecogniserFile:
     """A recogniser as the file that its node reads."""
+    import hashlib  # slow to load
+
     digest = hashlib.sha256(recogniser.file.encode()).hexdigest()[:16]
     return RecogniserFile(cache_folder() / GESTURES_FOLDER / digest, recogniser.file)
 
@@ -230,6 +231,8 @@ class AnimationFiles:
 
 def animation_files(project: Project) -> AnimationFiles | None:
     """The files of a project's animations; None when it has none."""
+    import hashlib  # slow to load
+
     texts = {f"{name}.toml": to_toml(one) for name, one in own_animations(project).items()}
     if not texts:
         return None

@@ -8,7 +8,6 @@ is asked about before it runs, wherever it came from: a download, a stick, a pic
 from __future__ import annotations
 
 import errno
-import hashlib
 import logging
 import os
 import sys
@@ -71,6 +70,8 @@ class Brought(NamedTuple):
 
 def key_of(*parts: str) -> str:
     """What tells this content from all other; parts cannot run into each other."""
+    import hashlib  # it loads all of OpenSSL, which a start needs for nothing
+
     digest = hashlib.sha256()
     for part in parts:
         data = part.encode("utf-8", "surrogatepass")

@@ -7,7 +7,6 @@ has looked at does not start. So a new way to start something cannot forget it.
 from __future__ import annotations
 
 import ast
-import hashlib
 import ipaddress
 import os
 import re
@@ -228,6 +227,8 @@ Stamp = tuple[int, int, int, int]
 
 def _digest(path: Path) -> str:
     """The bytes of a file, or of all files of a folder; "" where there is none."""
+    import hashlib  # slow to load
+
     folder = path if path.is_dir() else path.parent
     files = sorted(path.rglob("*"))[:MOST_FILES] if path.is_dir() else [path]
     digest = hashlib.sha256()
@@ -252,6 +253,8 @@ def _stamp(found: os.stat_result) -> Stamp:
 
 @lru_cache(maxsize=4096)
 def _bytes_of(path: Path, _stamp: Stamp) -> bytes:
+    import hashlib  # slow to load
+
     digest = hashlib.sha256()
     with opened(path) as file:
         while piece := file.read(PIECE_BYTES):

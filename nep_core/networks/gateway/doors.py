@@ -15,10 +15,10 @@ from typing import Any, Literal, cast
 
 import msgspec
 import zmq
-from zmq.utils.monitor import parse_monitor_message
 
 from nep_core.errors import BadMessage, NetworkError
 from nep_core.wire.frames import CANNOT_DECODE, CANNOT_ENCODE, check_topic, to_json
+from nep_core.wire.io_thread import socket_event
 from nep_core.wire.outbox import bind
 
 # How programs of the original put messages into frames, and how our values become such frames.
@@ -320,9 +320,9 @@ class Door(ABC):
         """Take what the socket has."""
 
     def _note(self) -> None:
-        event = parse_monitor_message(self._monitor.recv_multipart(zmq.NOBLOCK))
-        change = set.add if event["event"] & ARRIVALS else set.discard
-        change(self.connections, int(event["value"]))
+        event = socket_event(self._monitor.recv_multipart(zmq.NOBLOCK))
+        change = set.add if event.kind & ARRIVALS else set.discard
+        change(self.connections, event.value)
         self._on_change()
 
 

@@ -15,11 +15,10 @@ from weakref import WeakSet
 
 import zmq
 from zmq.utils import z85
-from zmq.utils.monitor import parse_monitor_message
 
 from faults import Fault, Text, text_of, verbatim
 from nep_core.errors import NetworkError, NotLetIn
-from nep_core.wire.io_thread import Wake
+from nep_core.wire.io_thread import Wake, socket_event
 
 from . import key_file_path
 from .addresses import host_of, is_loopback, is_ours, own_addresses
@@ -255,8 +254,7 @@ class Doorkeeper:
 
     def _read_events(self, watched: _Watched) -> None:
         while watched.events.poll(0):
-            event = parse_monitor_message(watched.events.recv_multipart())
-            number, kind = event["value"], event["event"]
+            kind, number, endpoint = socket_event(watched.events.recv_multipart())
             if kind == zmq.EVENT_MONITOR_STOPPED:
                 self._poller.unregister(watched.events)
                 del self._watched[watched.events]
@@ -265,7 +263,7 @@ class Doorkeeper:
             if kind == zmq.EVENT_ACCEPTED:
                 watched.addresses[number] = _address_behind(number)
             elif kind == zmq.EVENT_DISCONNECTED:
-                self._on_disconnected(watched, number, event["endpoint"].decode())
+                self._on_disconnected(watched, number, endpoint)
             else:
                 # Not one that left without reading what we had said: it was killed, or just
                 # knocked. A plain program reads our greeting and leaves because of it.

@@ -8,10 +8,7 @@ With the secret both prove to each other what they tell: their keys and where th
 from __future__ import annotations
 
 import contextlib
-import hashlib
-import hmac
 import logging
-import secrets
 import socket
 import threading
 import time
@@ -191,11 +188,16 @@ def _told(text: str, kind: type[T]) -> T:
 
 
 def _mac(secret: bytes, role: bytes, *texts: str) -> str:
+    import hashlib  # with all of OpenSSL, which few programs need
+    import hmac
+
     key = hmac.digest(secret, role, hashlib.sha256)
     return hmac.new(key, "\n".join(texts).encode(), hashlib.sha256).hexdigest()
 
 
 def _check(told: str, right: str) -> None:
+    import hmac
+
     if not hmac.compare_digest(told.encode(), right.encode()):
         raise wrong_code()
 
@@ -340,6 +342,8 @@ class Door:
 
     def new_code(self, seconds: float = CODE_S) -> Code:
         """Make a code for one computer; the one before holds no more."""
+        import secrets
+
         digits = f"{secrets.randbelow(1_000_000):06d}"
         code = Code(f"{digits[:3]} {digits[3:]}", time.monotonic() + seconds)
         with self._lock:

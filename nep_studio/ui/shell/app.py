@@ -7,6 +7,7 @@ import logging
 import signal
 import socket
 import sys
+from contextlib import suppress
 from pathlib import Path
 from types import TracebackType
 from typing import TYPE_CHECKING, Any
@@ -122,6 +123,17 @@ def _collect_from_now_on() -> None:
     """Collect garbage, but never look through what stays: that would hold the window up."""
     gc.freeze()
     gc.enable()
+    _give_back()
+
+
+def _give_back() -> None:
+    """Give the system the memory that only the start has needed: glibc would keep it."""
+    if sys.platform != "linux":
+        return
+    import ctypes
+
+    with suppress(OSError, AttributeError):  # other C libraries have no such function
+        ctypes.CDLL(None).malloc_trim(0)
 
 
 # Lets a signal of the system, as at the end of a session, close the program in an orderly way.

@@ -134,17 +134,17 @@ def _in_texts_too(commands: Callable[[], Commands]) -> tuple[Callable[[], object
 def update_edit_actions(window: MainWindow) -> None:
     """Enable what can be done, and say what undo and redo would do."""
     actions, document = window.actions_by_name, window.files.document
-    made = window.lazy.made_workbench
-    rooms = made.rooms if made is not None else None
-    is_room = rooms is not None and rooms.shown is not None  # blocks that nobody sees stay
-    is_canvas = document is not None and not is_room
-    selected = len(window.workbench.canvas.selection.ids) if is_canvas else 0
+    workbench = window.lazy.made_workbench  # the first page does not make it: nothing is open
+    room = workbench.rooms.shown if workbench else None
+    is_canvas = document is not None and room is None  # blocks that nobody sees stay
+    selected = len(workbench.canvas.selection.ids) if workbench and is_canvas else 0
     data = QGuiApplication.clipboard().mimeData()
     actions.enable(bool(selected), *NEEDS_SELECTION)
     actions.enable(is_canvas and data is not None and bool(data.formats()), "paste")
     actions.enable(document is not None, "add_page", "picture")
     actions.enable(is_canvas, *NEEDS_CANVAS)
-    history = (rooms and rooms.history) or (document.editor.history if document else None)
+    of_room = workbench.rooms.history if workbench else None
+    history = of_room or (document.editor.history if document else None)
     _label(window, "undo", history.undo_label if history else "", "Undo", "Undo “{step}”")
     _label(window, "redo", history.redo_label if history else "", "Redo", "Redo “{step}”")
 

@@ -26,7 +26,6 @@ from nep_studio.blocks.editor import Editor
 from nep_studio.project.journal import Recoverable
 from nep_studio.settings import usual_folder
 from nep_studio.support import portable, safe_mode
-from nep_studio.support.report import FILE, Report, report_of
 from nep_studio.support.updates import UpdateChoice
 from nep_studio.ui import words
 from nep_studio.ui.canvas.block_pictures import picture_of
@@ -44,6 +43,8 @@ from nep_studio.ui.workbench.workbench import block_font
 from .dialogs import show_report
 
 if TYPE_CHECKING:
+    from nep_studio.support.report import Report
+
     from .main_window import MainWindow
 
 
@@ -55,6 +56,8 @@ class SupportDialog(QDialog):
     """Lets ``nep-studio doctor`` make the report, in a process of its own, and shows it all."""
 
     def __init__(self, parent: QWidget | None, folder: Path | None = None) -> None:
+        from nep_studio.support.report import FILE  # each start looks into this module
+
         super().__init__(parent)
         self._suggested = (folder or usual_folder("projects")) / FILE
         self.report: Report | None = None
@@ -121,6 +124,8 @@ class SupportDialog(QDialog):
         self.resize(width + 2 * line, height + 6 * line)
 
     def _on_finished(self) -> None:
+        from nep_studio.support.report import report_of
+
         try:
             self.report = report_of(bytes(self._process.readAllStandardOutput().data()))
         except ValueError:

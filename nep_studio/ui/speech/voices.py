@@ -12,8 +12,8 @@ import zlib
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import partial
+from html import escape
 from typing import Any, Protocol
-from xml.sax.saxutils import escape
 
 from PySide6.QtCore import QLocale, QObject, QProcess, Signal, SignalInstance
 
@@ -160,11 +160,11 @@ def _say(program: str, said: Utterance) -> Command:
 
 def _powershell(program: str, said: Utterance) -> Command:
     """The voice of Windows reads SSML, which says the language, pitch and speed."""
-    language = escape(said.language.replace("_", "-"), {'"': "&quot;"})
+    language = escape(said.language.replace("_", "-"))
     pitch, rate = f"{_percent(said.pitch):+d}%", f"{_percent(said.speed):+d}%"
     ssml = (
         f'<speak version="1.0" xmlns="http://www.w3.org/2001/10/synthesis" xml:lang="{language}">'
-        f'<prosody pitch="{pitch}" rate="{rate}">{escape(said.text)}</prosody></speak>'
+        f'<prosody pitch="{pitch}" rate="{rate}">{escape(said.text, quote=False)}</prosody></speak>'
     )
     script = (
         "[Console]::InputEncoding = [Text.Encoding]::UTF8; "

@@ -9,7 +9,8 @@ import pytest
 from pytestqt.qtbot import QtBot
 
 from nep_studio.run.plan import PlannedNode
-from nep_studio.ui.plugins.network.panel import NetworkPanel
+from nep_studio.ui.plugins.network import NetworkPanel
+from nep_studio.ui.plugins.network.panel import NetworkWorkspace
 from nep_studio.ui.plugins.nodes.panel import NodesPanel
 from nep_studio.ui.shell.main_window import MainWindow
 from tests.ui.window.conftest import answer, chooser, home, karate, studio, window
@@ -27,7 +28,11 @@ class Bench:
 
     window: MainWindow
     nodes: NodesPanel
-    network: NetworkPanel
+    room: NetworkPanel
+
+    @property
+    def network(self) -> NetworkWorkspace:
+        return self.room.opened()
 
     @property
     def runner(self):

@@ -27,7 +27,7 @@ Start = Callable[[PlannedNode], None]
 
 
 def show(bench: Bench, qtbot: QtBot) -> None:
-    bench.window.workbench.panels.show(bench.network)
+    bench.window.workbench.panels.show(bench.room)
     qtbot.waitUntil(bench.network.isVisible)
 
 

@@ -14,6 +14,7 @@ from hypothesis import strategies as st
 from PySide6.QtCore import QByteArray
 from PySide6.QtGui import QGuiApplication, QImage
 from PySide6.QtSvg import QSvgRenderer
+from pytestqt.qtbot import QtBot
 
 from nep_core.errors import RecordingError
 from nep_studio.blocks.editor import Editor
@@ -282,3 +283,12 @@ def test_what_is_only_called_like_a_file_holds_nobody_up(tmp_path, name):
 
 def test_a_file_that_is_not_there_is_no_program():
     assert project_bytes_from(Path("nowhere.png")) is None
+
+
+def test_a_dialog_that_is_closed_is_gone(canvas: Canvas, tmp_path: Path, qtbot: QtBot) -> None:
+    dialog = PictureDialog(canvas, tmp_path, "karate", canvas)
+    dialog.open()
+
+    dialog.reject()
+
+    qtbot.waitUntil(lambda: not canvas.findChildren(PictureDialog))

@@ -11,7 +11,7 @@ from PySide6.QtGui import QGuiApplication
 from pytestqt.qtbot import QtBot
 
 from nep_core.networks.security.curve import Refusals
-from nep_studio.ui.plugins.network.panel import NetworkPanel
+from nep_studio.ui.plugins.network import NetworkPanel
 from nep_studio.ui.plugins.sharing import SharingKit
 from nep_studio.ui.shell.main_window import MainWindow
 from nep_studio.ui.shell.settings_dialog import SettingsDialog
@@ -41,7 +41,8 @@ def told(window: MainWindow) -> list[str]:
 def test_a_network_is_opened_a_computer_let_in_and_removed_and_all_closed(
     window: MainWindow, kit: SharingKit, here_only, tmp_path: Path, qtbot: QtBot
 ) -> None:
-    [panel] = window.findChildren(NetworkPanel)
+    [room] = window.findChildren(NetworkPanel)
+    panel = room.opened()
     dialog = opened_dialog(window, kit)
     page = dialog.open_page
     qtbot.keyClick(dialog.main_button, Qt.Key.Key_Space)
@@ -168,3 +169,14 @@ def test_programs_of_the_original_nep_join_when_that_is_chosen(
 
     assert (before, during) == ([], ["--original"])
     assert list(options()) == (["--original"] if is_kept else [])
+
+
+def test_a_page_opened_later_knows_that_the_network_is_open(window: MainWindow) -> None:
+    [room] = window.findChildren(NetworkPanel)
+    room.show_sharing("Open to 1 computer", "", "share-2")
+    assert room.page is None
+
+    page = room.opened()
+
+    assert not page.sharing_button.isHidden()
+    assert page.sharing_button.text() == "Open to 1 computer"

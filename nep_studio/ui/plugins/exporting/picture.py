@@ -350,6 +350,7 @@ class PictureDialog(QDialog):
     ) -> None:
         super().__init__(parent or canvas.area.window())
         self._canvas, self._folder, self._name = canvas, folder, name
+        self.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
         self.setWindowTitle(tr("Picture of the blocks"))
         self.what = QComboBox(self)
         self.what.addItem(tr("This page"), "page")

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-import secrets
+import os
 from collections.abc import Collection, Iterable, Sequence
 from datetime import datetime
 
@@ -250,7 +250,7 @@ class Keeping:
 
 def new_id(letter: str) -> str:
     """An id that no take and no recording has."""
-    return f"{letter}{secrets.token_hex(5)}"
+    return f"{letter}{os.urandom(5).hex()}"
 
 
 def _take(recording: str, span: Span, begin: float, last_s: float) -> OwnTake:

@@ -5,10 +5,10 @@ from __future__ import annotations
 import time
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QEvent, QObject, QSize, Qt, QTimer, Signal
 from PySide6.QtGui import QAction, QIcon, QKeyEvent, QPageLayout, QResizeEvent, QShowEvent
-from PySide6.QtPrintSupport import QPrintDialog, QPrinter
 from PySide6.QtWidgets import (
     QAbstractItemView,
     QDialog,
@@ -38,6 +38,9 @@ from nep_studio.ui.words import is_right_to_left, tr
 
 from .browser import ZOOM_STEP, ExampleBar, HelpBrowser
 from .repository import Book, Content, Rows
+
+if TYPE_CHECKING:
+    from PySide6.QtPrintSupport import QPrinter
 
 # The contents of the help as a tree, and what a search found as a list.
 
@@ -562,6 +565,8 @@ class HelpPanel(InLines):
 
 def ask_to_print(browser: HelpBrowser, parent: QWidget) -> None:
     """Let the person choose a printer, then print."""
+    from PySide6.QtPrintSupport import QPrintDialog, QPrinter  # few people print
+
     printer = QPrinter()  # Qt's dialog only points at it: what is connected keeps it
     dialog = QPrintDialog(printer, parent)
     dialog.accepted.connect(lambda: print_page(browser, printer))

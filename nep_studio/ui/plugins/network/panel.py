@@ -27,7 +27,7 @@ from nep_studio.ui.running.runner import Runner
 from nep_studio.ui.theme.icons import icon
 from nep_studio.ui.theme.look import Look
 from nep_studio.ui.widgets.forms import plain_label
-from nep_studio.ui.widgets.layouts import InLines, in_column, in_row
+from nep_studio.ui.widgets.layouts import in_column, in_row
 from nep_studio.ui.words import count_words, tr
 
 from .graph import Graph, Key, graph_of
@@ -35,14 +35,12 @@ from .graph_view import ZOOM_STEP, GraphView
 from .topics import TopicPane
 
 
-class NetworkPanel(InLines):
+class NetworkWorkspace(QWidget):
     """Looks at the network while it is visible.
 
     Whoever can do it is connected with its buttons, views and ``pane``. ``sharing_button`` asks
     which other computers come in, ``empty`` is the first step where nothing is there to see.
     """
-
-    usual_lines = (40, 18)
 
     def __init__(self, feed: NetworkFeed, runner: Runner, look: Look) -> None:
         super().__init__()
