@@ -53,7 +53,8 @@ class Area(QTabWidget):
         self.setDocumentMode(True)
         self.setUsesScrollButtons(True)
         self.setTabBarAutoHide(name == "left")
-        self.setFocusProxy(None)  # a hidden row of tabs would keep the Tab key for ever
+        # a hidden row of tabs would keep the Tab key for ever
+        self.setFocusProxy(None)  # type: ignore[arg-type]  # none, which PySide6's types forget
         self.setFocusPolicy(Qt.FocusPolicy.NoFocus)
         labelled(self.tabBar(), name="Panels")
         self.close_button = QToolButton(self)  # without a parent it would keep this area for ever
