@@ -20,6 +20,8 @@ class Choices(QComboBox):
         super().__init__(parent)
         self._offered = offered
         """What there is, with its words in the language that is used now."""
+        # longer words of another language have their room as well
+        self.setSizeAdjustPolicy(QComboBox.SizeAdjustPolicy.AdjustToContents)
         follow_words(self, self.refill)
 
     def refill(self) -> None:

@@ -53,6 +53,10 @@ class Area(QTabWidget):
         self.setDocumentMode(True)
         self.setUsesScrollButtons(True)
         self.setTabBarAutoHide(name == "left")
+        # a hidden row of tabs would keep the Tab key for ever
+        self.setFocusProxy(None)  # type: ignore[arg-type]  # none, which PySide6's types forget
+        self.setFocusPolicy(Qt.FocusPolicy.NoFocus)
+        labelled(self.tabBar(), name="Panels")
         self.close_button = QToolButton(self)  # without a parent it would keep this area for ever
         self.close_button.setVisible(name != "left")
         labelled(self.close_button, tip="Hide this panel", name="Hide this panel")

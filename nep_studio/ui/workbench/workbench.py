@@ -226,6 +226,8 @@ class Workbench(QWidget):
     def uncover(self) -> None:
         """Scroll the block that is meant above what lies over the foot of the canvas."""
         canvas, block = self.canvas, self.canvas.selection.cursor
+        if self.rooms.shown is not None:
+            return  # what is shown of the canvas would take the place of the room
         rect = canvas.sight.view_rect_of(block)
         if rect is not None and rect.intersects(canvas.viewport().rect()):
             canvas.show_block(block)
@@ -255,7 +257,8 @@ class Workbench(QWidget):
 
     def show_change(self, block: str, title: str) -> None:
         """Say what the last step did to a block, with Undo; no other page is shown for it."""
-        if self.canvas.editor.project.page_of(block) == self.canvas.page:
+        is_seen = self.rooms.shown is None
+        if is_seen and self.canvas.editor.project.page_of(block) == self.canvas.page:
             self.show_block(block)
         history = self.canvas.editor.history
         step = history.position

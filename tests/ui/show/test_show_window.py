@@ -414,6 +414,27 @@ def test_the_operator_has_cues_and_their_keys(open_program, show: Begin, qtbot: 
     qtbot.waitUntil(lambda: any("Ha" in line for line in shown.words.lines), timeout=WAIT_MS)
 
 
+def test_a_cue_of_its_operator_invites_nobody_and_its_buttons_have_the_room(
+    open_program, show: Begin, qtbot: QtBot
+) -> None:
+    open_program(
+        WAITS, [B("event.human_state", {"state": "cue_storm"}), B("robot.say", {"text": "Oh"})]
+    )
+    shown = show(runs_at_once=True)
+    state_is(shown, qtbot, "playing")
+    qtbot.waitUntil(lambda: len(shown.invitations.lines) == 1, timeout=WAIT_MS)
+    assert "karate" in shown.invitations.lines[0].lower()
+
+    QTest.mouseMove(shown, QPoint(300, 300))
+    qtbot.waitUntil(shown.cues_button.isVisible)
+    qtbot.mouseClick(shown.cues_button, Qt.MouseButton.LeftButton)
+
+    assert shown.cues.isVisible() and not shown.invitations.isVisible()
+    assert len([one for one in shown.cues.board.buttons if one.isVisible()]) == 2
+    qtbot.mouseClick(shown.cues_button, Qt.MouseButton.LeftButton)
+    assert shown.invitations.isVisible()
+
+
 def test_the_action_begins_the_show(window: MainWindow, open_program, qtbot: QtBot) -> None:
     open_program(SAY)
 

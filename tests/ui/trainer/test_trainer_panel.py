@@ -5,6 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 import pytest
+from PySide6.QtCore import QPoint, Qt
+from PySide6.QtTest import QTest
+from PySide6.QtWidgets import QPushButton
 from pytestqt.qtbot import QtBot
 from shiboken6 import isValid
 
@@ -41,7 +44,8 @@ def test_the_panel_is_made_when_it_is_shown_and_follows_the_project(
     page.cards.refresh()
     page.cards.cards["wave"].chip.add_block()
     blocks = window.workbench.canvas.editor.project.blocks.values()
-    assert [block.fields["gesture"] for block in blocks] == ["wave"]
+    hats = [block for block in blocks if block.type == "event.gesture"]
+    assert [block.fields["gesture"] for block in hats] == ["wave"]
     assert window.files.document.editor.history.steps == 2
 
     window.files.document.editor.history.drop(0)
@@ -71,3 +75,45 @@ def test_in_another_language_the_panel_goes_on_with_what_was_heard(
     assert panel.page.strip.samples.t.size == 2
     panel.page.grab()
     panel.page.training.close()
+
+
+def test_a_gesture_dragged_out_of_the_room_is_seen_in_the_program(
+    panel: TrainerPanel, window: MainWindow, qtbot: QtBot
+) -> None:
+    window.files.new()
+    window.workbench.panels.show(panel)
+    panel.page.keeping.new_gesture("Wave")
+    panel.page.cards.refresh()
+    chip = panel.page.cards.cards["wave"].chip
+    qtbot.waitUntil(chip.isVisible)
+    canvas, start = window.workbench.canvas, chip.rect().center()
+
+    QTest.mousePress(chip, Qt.MouseButton.LeftButton, pos=start)
+    for step in (20, 60, 120):
+        QTest.mouseMove(chip, start + QPoint(step, -step))
+    QTest.mouseRelease(chip, Qt.MouseButton.LeftButton, pos=start + QPoint(120, -120))
+
+    blocks = canvas.editor.project.blocks.values()
+    [block] = [one for one in blocks if one.type == "event.gesture"]
+    assert block.fields["gesture"] == "wave"
+    assert canvas.isVisible() and canvas.pointing.gesture is None
+    shown = canvas.sight.view_rect_of(block.id)
+    assert canvas.viewport().rect().contains(shown.center().toPoint())
+
+
+def test_what_is_next_to_record_has_no_second_button(
+    panel: TrainerPanel, window: MainWindow, qtbot: QtBot
+) -> None:
+    window.files.new()
+    window.workbench.panels.show(panel)
+    page = panel.page
+    page.keeping.new_gesture("Wave")
+    page.cards.refresh()
+    page.controller.hear(
+        [Heard(0.0, Imu(source="watch", rate_hz=50, t=[0.0], acc=[(0, 0, 9.8)]), "")]
+    )
+    page.head.hint.refresh()
+    qtbot.waitUntil(page.bar.button.isVisible)
+
+    buttons = [one for one in page.findChildren(QPushButton) if one.isVisible()]
+    assert [one.text() for one in buttons if "Record" in one.text()] == ["Record “Wave”"]

@@ -78,6 +78,21 @@ def test_a_room_has_the_whole_page_beside_the_robot(
     assert workbench.canvas.isVisible() and seen(bar) == ["Behaviour"]
 
 
+def test_a_message_leaves_the_room_that_is_open(karate: MainWindow, bar, qtbot: QtBot) -> None:
+    canvas = karate.workbench.canvas
+    qtbot.mouseClick(
+        canvas.viewport(), LEFT, pos=canvas.sight.view_rect_of("b4").center().toPoint()
+    )
+    choose(bar, "Gestures", qtbot)
+    room = karate.workbench.rooms.shown
+
+    karate.messages.confirm("“watch” is ready")
+    karate.workbench.show_change("b4", "Done: something")
+
+    qtbot.waitUntil(lambda: len(karate.message_area.cards) == 2)
+    assert karate.workbench.rooms.shown is room and not canvas.isVisible()
+
+
 def test_delete_in_a_room_leaves_the_blocks_alone(karate: MainWindow, bar, qtbot: QtBot) -> None:
     canvas = karate.workbench.canvas
     block = karate.files.document.project.pages["behaviour"][0].body[1]

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import pytest
 from PySide6.QtCore import QPoint, Qt
+from PySide6.QtGui import QAccessible
 from PySide6.QtTest import QTest
+from PySide6.QtWidgets import QApplication
 
 from nep_studio import paths
 from nep_studio.ui.services import Studio
@@ -218,3 +220,33 @@ def test_nothing_but_the_window_is_a_window_for_a_moment(
             qtbot.wait(20)
 
     assert eye.seen == ["MainWindow"]
+
+
+def test_all_blocks_stay_where_they_are_first_shown(fresh: MainWindow, qtbot) -> None:
+    fresh.resize(1280, 800)
+    palette = fresh.workbench.helpers.palette
+    qtbot.waitUntil(lambda: fresh.workbench.canvas.width() > 700)
+
+    QTest.mouseClick(palette.levels.buttons["all"], LEFT)
+    qtbot.waitUntil(lambda: palette.categories.isVisible() and palette.shelf.width() < 250)
+    first = palette.shelf.geometry()
+    insert(fresh, "says")
+    QTest.keyClick(palette.search, Qt.Key.Key_Escape)
+
+    assert palette.shelf.geometry() == first
+    assert first.width() > palette.categories.width()
+
+
+def test_tab_goes_round_all_that_is_seen_and_each_stop_has_a_name(fresh: MainWindow, qtbot) -> None:
+    canvas = fresh.workbench.canvas
+    canvas.setFocus()
+
+    stops = []
+    while len(stops) < 60 and (not stops or not canvas.hasFocus()):
+        stops.append(QApplication.focusWidget())
+        QTest.keyClick(stops[-1], Qt.Key.Key_Tab)
+
+    assert canvas.hasFocus(), stops[-1]
+    assert len(set(stops)) == len(stops) > 12
+    names = [QAccessible.queryAccessibleInterface(one).text(QAccessible.Text.Name) for one in stops]
+    assert all(names), dict(zip(map(str, stops), names, strict=True))

@@ -90,11 +90,18 @@ class GestureChip(QAbstractButton):
 
     def mousePressEvent(self, event: QMouseEvent) -> None:
         """Begin a click or a drag."""
-        if event.button() == Qt.MouseButton.LeftButton:
+        if event.button() == Qt.MouseButton.LeftButton and self._canvas.isVisible():
             self._show_behaviour()
             place = event.globalPosition().toPoint()
             self._canvas.begin_external_drag(self.clip(), place, self)
         super().mousePressEvent(event)
+
+    def mouseReleaseEvent(self, event: QMouseEvent) -> None:
+        """Where the page cannot be seen, what is dragged away is added as by a click."""
+        super().mouseReleaseEvent(event)
+        is_away = not self.rect().contains(event.position().toPoint())
+        if is_away and event.button() == Qt.MouseButton.LeftButton and not self._canvas.isVisible():
+            self.add_block()
 
     def sizeHint(self) -> QSize:
         """Room for its words; long names are cut."""
@@ -220,6 +227,7 @@ class GestureCard(QFrame):
         if is_recording != self._is_recording:
             labelled(self.record, text="Stop" if is_recording else "Record")
         self._is_current, self._is_recording = is_current, is_recording
+        self.record.setVisible(not is_current)  # the large button below the graph is for this one
         self.dress()
         self.update()
 

@@ -23,7 +23,7 @@ from PySide6.QtWidgets import (
 
 from nep_studio.blocks.own_gestures import OwnGesture
 from nep_studio.ui.canvas.canvas import Canvas
-from nep_studio.ui.labels import explained, follow_words
+from nep_studio.ui.labels import explained, follow_words, labelled
 from nep_studio.ui.theme.icons import fit_icons, icon
 from nep_studio.ui.watch_view.status import WatchStatus
 from nep_studio.ui.widgets.layouts import in_column, in_row, scrolled
@@ -111,17 +111,15 @@ def hint_words(controller: GestureController) -> str:
         ),
         "another": tr("Add another gesture: what can be confused can be told apart."),
         "train": tr("Train: the program learns from the takes."),
-        "try": tr("Try it, then drag “when …” of a gesture onto the page."),
+        "try": tr("Try it, then press “when …” of a gesture: it is in your program."),
     }
     return said[step]
 
 
 def button_words(step: Step) -> str:
-    """What the button beside the words says; empty for none."""
+    """What the button beside the words says; empty for none: Record has its own below."""
     return {
         "name": tr("New gesture"),
-        "record": tr("Record"),
-        "more": tr("Record"),
         "another": tr("New gesture"),
         "train": tr("Train"),
         "try": tr("Try it"),
@@ -225,6 +223,7 @@ class TrainerPage(QWidget):
         self.results, self.trial = ResultsView(controller, training), TryOut(controller, training)
         self.beeps = False
         self.tabs = QTabWidget(documentMode=True)
+        labelled(self.tabs.tabBar(), name="Gestures")
         for tab in (self.trial, self.results):
             self.tabs.addTab(tab, "")
         self.inner = QSplitter(childrenCollapsible=False)
@@ -254,7 +253,7 @@ class TrainerPage(QWidget):
         margins = (line // 2, line // 3, line // 2, line // 3)
         parts = (self.head, (self.strip, 1), self.bar)
         in_column(*parts, of=top, margins=margins, spacing=line // 3)
-        area = scrolled(top)
+        area = labelled(scrolled(top), name="Record")
         area.setMinimumSize(line * 15, line * 4)
         return area
 

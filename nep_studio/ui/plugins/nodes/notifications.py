@@ -186,9 +186,7 @@ class NodeNotifier(QObject):
         has_begun = self._is_begin_untold and self._runner.state in ("running", "paused")
         ready, self._ready, self._is_begin_untold = self._ready, [], False
         if has_begun:
-            well = [one.name for one in self._runner.board.nodes.values() if one.health in WELL]
-            count = len(well) - (PROGRAM in well)
-            confirm(count_words(count, "It runs: 1 node is ready", "It runs: {n} nodes are ready"))
+            confirm(tr("The program runs"))
         elif len(ready) == 1:
             confirm(tr("“{name}” is ready", name=ready[0]))
         elif ready:

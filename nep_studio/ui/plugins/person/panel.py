@@ -157,7 +157,8 @@ class HumanPanel(QScrollArea):
         self.robot.setMinimumContentsLength(8)
         self.run_button.setProperty("kind", "run")
         self.told.setProperty("role", "hint")
-        self.told.hide()
+        # no button moves when it speaks
+        self.told.setMinimumHeight(self.fontMetrics().lineSpacing() + 1)
         top = in_row((self.state, 1), self.run_button)
         self._which = QWidget()
         in_row(labelled(QLabel(), text="Before"), (self.robot, 1), of=self._which, margins=0)
@@ -169,6 +170,7 @@ class HumanPanel(QScrollArea):
 
     def _connect(self) -> None:
         self._open_project.changed.connect(self.refresh)
+        self._host.services.files.document_changed.connect(self.told.clear)
         self.stimuli.changed.connect(self._show_state)
         self.stimuli.told.connect(self._on_told)
         self.stimuli.refused.connect(self._on_refused)
@@ -259,7 +261,6 @@ class HumanPanel(QScrollArea):
 
     def _on_told(self, words: str) -> None:
         self.told.setText(words)
-        self.told.show()
         announce(self, words)
 
     def _on_refused(self, reason: str) -> None:

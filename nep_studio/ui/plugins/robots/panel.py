@@ -131,6 +131,8 @@ class RobotsPanel(InLines):
         self._doings = Doings(language)
         self._tap: Tap | None = None
         self._is_arranged = False
+        self._most_wanted = 0
+        """The room that the cards needed at most since the run began."""
         self._heard: dict[str, m.RobotState] = {}
         self._begin_at: dict[str, Base] = {}
         self.cards: dict[str, RobotCard] = {}
@@ -159,7 +161,7 @@ class RobotsPanel(InLines):
         inner = QWidget()
         self._cards_box = in_column(self.hint, 1, of=inner, margins=0)
         inner.installEventFilter(self)
-        self.area = scrolled(inner)
+        self.area = labelled(scrolled(inner), name="Robots")
         self.area.setMinimumHeight(self.fontMetrics().height() * 2)  # Qt's leaves the robot less
         self.split = QSplitter(Qt.Orientation.Vertical, childrenCollapsible=False)
         self.split.addWidget(self.stage)
@@ -201,9 +203,13 @@ class RobotsPanel(InLines):
         self.hint.setVisible(not self.cards)
 
     def _give_room(self) -> None:
-        """Let the cards have the room that they need, unless somebody has chosen it."""
-        total = sum(self.split.sizes())
-        wanted = min(self._cards_box.sizeHint().height(), round(total * MOST_FOR_CARDS))
+        """Let the cards have the room that they need, unless somebody has chosen it.
+
+        As long as a program runs they keep it: what is said comes and goes, the scene stays.
+        """
+        total, needed = sum(self.split.sizes()), self._cards_box.sizeHint().height()
+        self._most_wanted = max(needed, self._most_wanted * (self._runner.state != "idle"))
+        wanted = min(self._most_wanted, round(total * MOST_FOR_CARDS))
         if total and not self._is_arranged and self.large is None:
             self.split.setSizes([total - wanted, wanted])
 

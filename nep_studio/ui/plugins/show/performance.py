@@ -329,4 +329,6 @@ class Performance(QObject):
             return []
         marks = self._marks or Marks()
         running = marks.glowing | marks.around
-        return cues_now(document.project, document.editor.language, running)
+        waited = cues_now(document.project, document.editor.language, running)
+        # a cue without a meaning of its own is its operator's: no visitor can do it
+        return [cue for cue in waited if cue.kind != "state" or cue.label]

@@ -332,6 +332,7 @@ class ShowWindow(QWidget):
         self.holding.held.connect(self._on_held)
         self.corner.clicked.connect(self._on_corner_clicked)
         self.cues_button.toggled.connect(self.cues.setVisible)
+        self.cues_button.toggled.connect(self._show_lines)
         self.pointing.changed.connect(self._show_what_the_pointer_needs)
         self.pin.right.connect(self.leave)
         self._host.services.look.theme_changed.connect(self._dress)
@@ -365,6 +366,8 @@ class ShowWindow(QWidget):
         if not lines and show.state == "ready":
             lines = [tr("Press Run to begin.")]
         self.words.show_lines(lines)
+        # the buttons of the cues say the same, and need the room
+        self.invitations.setVisible(not self.cues_button.isChecked())
         self.invitations.show_cues(show.invited)
 
     def _show_what_the_pointer_needs(self) -> None:

@@ -434,13 +434,19 @@ class Palette(QWidget):
     def _fit(self) -> None:
         """Be no wider than the signs while the palette is narrow; give the list its room."""
         self.categories.setVisible(self._has_categories)
-        least = self.categories.wide_width + LEAST_SHELF_LINES * self.fontMetrics().height()
-        self.categories.set_narrow(self.is_narrow or self.width() < least)
+        self.categories.set_narrow(self.is_narrow or self._is_tight())
+        # names that are shown for the first time may be wider than they were measured
+        self.categories.set_narrow(self.is_narrow or self._is_tight())
         widest = self.categories.maximumWidth() + 4 if self.is_narrow else WIDEST
         if widest != self.maximumWidth():
             self.setMaximumWidth(widest)
             if self.is_narrow:  # the signs have another size: a new font, the first look
                 self.room_asked.emit()
+
+    def _is_tight(self) -> bool:
+        """Whether the names of the categories would leave the list too little room."""
+        least = self.categories.wide_width + LEAST_SHELF_LINES * self.fontMetrics().height()
+        return self.width() < least
 
     def _show_fold(self) -> None:
         is_wide = not self.is_narrow

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 
 import pytest
-from PySide6.QtCore import Qt
+from PySide6.QtCore import QPoint, Qt
 from pytestqt.qtbot import QtBot
 
 from nep_core.wire import messages as m
@@ -57,6 +57,22 @@ def test_every_hat_is_set_off_by_its_control(human: Human, run: Run, qtbot: QtBo
         qtbot.waitUntil(lambda hat=hat: hat in said(heard), timeout=RUN_MS)
 
     assert set(HATS) <= set(said(heard))
+
+
+def test_what_is_told_moves_no_button_and_goes_with_its_project(
+    human: Human, window: MainWindow, run: Run, qtbot: QtBot
+) -> None:
+    panel = human(rule("robot_events.heard", word="hello"))
+    heard = run()
+    [button] = panel.waiting.buttons
+    before = button.mapToGlobal(QPoint())
+
+    click(qtbot, button)
+    qtbot.waitUntil(lambda: "robot_events.heard" in said(heard), timeout=RUN_MS)
+
+    assert panel.told.text() and button.mapToGlobal(QPoint()) == before
+    window.files.new()
+    assert panel.told.text() == ""
 
 
 def test_when_nothing_happens_the_idle_rule_begins(human: Human, run: Run, qtbot: QtBot) -> None:

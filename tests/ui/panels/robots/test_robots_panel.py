@@ -237,3 +237,16 @@ def test_another_kind_of_robot_is_drawn_from_its_own_folder(
 
     figures = {one.name: one.figure for one in panel.stage.view.room.scene().robots}
     assert set(figures["P"].body.names) != set(figures["NAO"].body.names)
+
+
+def test_the_scene_stays_where_it_is_while_robots_say_one_thing_after_the_other(
+    panel: RobotsPanel, runner: Runner, monkeypatch: pytest.MonkeyPatch, qtbot: QtBot
+) -> None:
+    monkeypatch.setattr(runner, "state", "running")
+    hear(panel, state(saying="Hello"))
+    qtbot.wait(300)
+    scene = panel.stage.geometry()
+
+    hear(panel, state(saying=""))
+    qtbot.wait(300)
+    assert panel.stage.geometry() == scene
