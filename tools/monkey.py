@@ -151,7 +151,7 @@ class Monkey(QObject):
     def step(self) -> None:
         """Do one thing; the next one follows also when this one waits for an answer to it."""
         loops = QThread.currentThread().loopLevel()
-        if self._busy is not None and loops <= self._busy and not self.faults:
+        if self._busy is not None and loops <= self._busy:
             QTimer.singleShot(20, self.step)  # Qt only looks for events: hands are still full
             return
         faulthandler.dump_traceback_later(LONGEST_STEP_S, exit=True)
@@ -266,7 +266,7 @@ class Monkey(QObject):
         self._pause_ms = self.random.choice((20, 100, 400))
 
     def _drop(self, top: QWidget) -> None:
-        self._hands.drop(top, self.random.choice(self._examples()))
+        self._hands.drop(top, self._own_project())
 
     def _trigger(self, _top: QWidget) -> None:
         """Do what a menu has; what it has done least before."""
@@ -325,6 +325,12 @@ class Monkey(QObject):
 
         return sorted(paths.examples().glob("*.nep"))
 
+    def _own_project(self) -> Path:
+        """A copy of an example: what is opened as a file may be saved there."""
+        path = self.folder / f"own{self.done}.nep"
+        shutil.copy(self.random.choice(self._examples()), path)
+        return path
+
     def _strangers_project(self) -> Path:
         """A copy of the karate story with Python in it that nobody has seen before."""
         from nep_studio import paths
@@ -348,7 +354,7 @@ class Monkey(QObject):
         if dialog.fileMode() is QFileDialog.FileMode.Directory:
             path = self.folder
         elif dialog.acceptMode() == QFileDialog.AcceptMode.AcceptOpen:  # one that is there
-            shutil.copy(self.random.choice(self._examples()), path)
+            path = self._own_project()
         self._note(f"answer the file dialog: {path.name}")
         line.setText(str(path))
         QTest.keyClick(line, Qt.Key.Key_Return)

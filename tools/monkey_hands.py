@@ -23,6 +23,7 @@ from PySide6.QtWidgets import (
     QTabBar,
     QWidget,
 )
+from shiboken6 import isValid
 
 SAYINGS = ("hello", "nao says", "when", "repeat 3", "karate", "12", "-0.5", "<b>&", "日本語", "…")
 KEYS = (
@@ -60,7 +61,12 @@ class Hands:
     def let_go(self) -> None:
         """Let the button go, if it is down and its window is still there."""
         held, self.held = self.held, None
-        if held is not None and held[0].isVisible() and held[0].windowHandle() is not None:
+        if (
+            held is not None
+            and isValid(held[0])
+            and held[0].isVisible()
+            and held[0].windowHandle() is not None
+        ):
             QTest.mouseRelease(held[0].windowHandle(), LEFT, pos=held[1])
 
     def within(self, top: QWidget, kinds: Sequence[type[QWidget]]) -> QWidget | None:
@@ -96,6 +102,15 @@ class Hands:
         self.note(f"click {what} of {type(top).__name__} at {place.x()},{place.y()}")
         self.press(top, place)
         self.let_go()
+
+    def key(self, top: QWidget, key: Qt.Key, modifier: Qt.KeyboardModifier = NONE) -> None:
+        """Press a key, and let it go where it does not close the window.
+
+        WORKAROUND: QTest's own click lets go of Ctrl in a window that is gone, and crashes.
+        """
+        QTest.keyPress(top.windowHandle(), key, modifier)
+        if isValid(top) and top.isVisible() and top.windowHandle() is not None:
+            QTest.keyRelease(top.windowHandle(), key)
 
     # What is done at random
 
@@ -134,28 +149,27 @@ class Hands:
         self.note(f"drag in {type(top).__name__} {places}")
         self.press(top, start)
         for part in range(1, 6):
-            if self.held is None or not top.isVisible():
+            if self.held is None or not isValid(top) or not top.isVisible():
                 return
             self.held = (top, start + (end - start) * part / 5)
             QTest.mouseMove(top.windowHandle(), self.held[1])
         if self.held is not None and self.random.random() < 0.1:
-            QTest.keyClick(top.windowHandle(), Qt.Key.Key_Escape)
+            self.key(top, Qt.Key.Key_Escape)
         self.let_go()
 
     def type_keys(self, top: QWidget) -> None:
         """Press a key, or one with Ctrl."""
-        handle = top.windowHandle()
         if self.random.random() < 0.3:
             letter = self.random.choice(WITH_CONTROL)
             self.note(f"Ctrl+{letter} in {type(top).__name__}")
-            QTest.keyClick(handle, Qt.Key(ord(letter)), Qt.KeyboardModifier.ControlModifier)
+            self.key(top, Qt.Key(ord(letter)), Qt.KeyboardModifier.ControlModifier)
             return
         key = self.random.choice(KEYS)
         if key is Qt.Key.Key_Slash and isinstance(QApplication.focusWidget(), QLineEdit):
             return  # no name of a file may lead out of the monkey's folder
         modifier = Qt.KeyboardModifier.ShiftModifier if self.random.random() < 0.2 else NONE
         self.note(f"{key.name} {modifier.name or ''} in {type(top).__name__}")
-        QTest.keyClick(handle, key, modifier)
+        self.key(top, key, modifier)
 
     def say(self, top: QWidget) -> None:
         """Type some words to where the keyboard is, and often Return."""
@@ -169,7 +183,7 @@ class Hands:
                 QApplication.sendEvent(focus, QKeyEvent(kind, 0, NONE, letter))
             focus = QApplication.focusWidget()
         if self.random.random() < 0.3 and top.windowHandle() is not None:
-            QTest.keyClick(top.windowHandle(), Qt.Key.Key_Return)
+            self.key(top, Qt.Key.Key_Return)
 
     def wheel(self, top: QWidget) -> None:
         """Turn the wheel over any place."""
