@@ -64,6 +64,9 @@ MOST_TRIES_TO_LEAVE = 40
 MOST_AWAY = 25
 """After so many steps in what lies over the window, it leaves: there is more to see."""
 
+HELD_MS = 3000
+"""So long is Esc held to leave the show."""
+
 WAYS_BACK = ("cancel", "close", "discard", "don", "no", "not now", "ok", "leave", "back", "done")
 """How buttons begin that lead back, in English."""
 
@@ -113,7 +116,11 @@ class Monkey(QObject):
         self._pause_ms, self._away = 0, 0
         self._busy: int | None = None
         """How many event loops there were when the step began that is being done."""
-        self._began, self._waited_s = time.monotonic(), 0.0
+        self._began = time.monotonic()
+        self._tries_left = 0
+        """How often it tries yet to come back to the window; 0 while it plays."""
+        self._left: QWidget | None = None
+        """Where it has pressed Esc last to leave."""
         app = QApplication.instance()
         assert isinstance(app, QApplication)
         settings = Settings(self.folder / "home")
@@ -157,16 +164,19 @@ class Monkey(QObject):
         faulthandler.dump_traceback_later(LONGEST_STEP_S, exit=True)
         self._take_time()
         self._hands.let_go()
-        if self.faults or self.done >= self.steps:
+        if self.faults or (self.done >= self.steps and not self._tries_left):
             self._end()
             return
-        self.done += 1
         QTimer.singleShot(0, self._next)
         around, self._busy = self._busy, loops
         try:
-            self._do_something()
+            if self._tries_left:
+                self._go_back()
+                return
+            self.done += 1
             if self.done % 250 == 0 or self.done == self.steps:
-                self._find_the_way_back()
+                self._tries_left = MOST_TRIES_TO_LEAVE
+            self._do_something()
         except RuntimeError as error:  # a widget that was deleted by what was done to it
             if "already deleted" not in str(error):
                 raise
@@ -180,10 +190,10 @@ class Monkey(QObject):
     def _take_time(self) -> None:
         """Remember the step that has held the window up longest."""
         now = time.monotonic()
-        took = now - self._began - self._pause_ms / 1000 - self._waited_s
+        took = now - self._began - self._pause_ms / 1000
         if self.last and took > self.slowest[0]:
             self.slowest = (took, self.last[-1])
-        self._began, self._waited_s, self._pause_ms = now, 0.0, 0
+        self._began, self._pause_ms = now, 0
 
     def _end(self) -> None:
         for widget in QApplication.topLevelWidgets():
@@ -270,20 +280,19 @@ class Monkey(QObject):
 
     def _trigger(self, _top: QWidget) -> None:
         """Do what a menu has; what it has done least before."""
-        actions: list[QAction] = list(self.window.actions_by_name.by_name.values())
-        actions += [panel.action for panel in self.window.workbench.panels.all]
-        names = {action: action.objectName() or action.text() for action in actions}
-        self.offered |= {*names.values()} - NEVER
-        known = [one for one in actions if one.isEnabled() and names[one] not in NEVER]
+        actions: dict[str, QAction] = dict(self.window.actions_by_name.by_name)
+        panels = self.window.workbench.panels.all
+        actions |= {f"panel {panel.name}": panel.action for panel in panels}
+        self.offered |= {*actions} - NEVER
+        known = [name for name, one in actions.items() if one.isEnabled() and name not in NEVER]
         if not known:
             return
-        least = min(self.used.get(names[one], 0) for one in known)
-        rare = [one for one in known if self.used.get(names[one], 0) <= least + 1]
-        chosen = self.random.choice(rare)
-        name = names[chosen]
+        least = min(self.used.get(name, 0) for name in known)
+        rare = [name for name in known if self.used.get(name, 0) <= least + 1]
+        name = self.random.choice(rare)
         self.used[name] = self.used.get(name, 0) + 1
         self._note(f"choose {name}")
-        QTimer.singleShot(0, chosen.trigger)  # a question that waits does not hold this up
+        QTimer.singleShot(0, actions[name].trigger)  # a question that waits does not hold this up
 
     def _build(self, top: QWidget) -> None:
         """Drag something of the palette onto the canvas."""
@@ -348,7 +357,7 @@ class Monkey(QObject):
         line = dialog.findChild(QLineEdit)
         if line is None or self.random.random() < 0.5:
             self._note("leave the file dialog")
-            QTest.keyClick(dialog.windowHandle(), Qt.Key.Key_Escape)
+            self._hands.key(dialog, Qt.Key.Key_Escape)
             return
         path = self.folder / f"monkey{self.done}.nep"
         if dialog.fileMode() is QFileDialog.FileMode.Directory:
@@ -357,55 +366,57 @@ class Monkey(QObject):
             path = self._own_project()
         self._note(f"answer the file dialog: {path.name}")
         line.setText(str(path))
-        QTest.keyClick(line, Qt.Key.Key_Return)
+        line.setFocus()
+        self._hands.key(dialog, Qt.Key.Key_Return)
 
     # The way back
 
-    def _find_the_way_back(self) -> None:
-        """From wherever it is, the window with its menus can be reached again."""
-        for _ in range(MOST_TRIES_TO_LEAVE):
-            top = QApplication.activePopupWidget() or QApplication.activeModalWidget()
-            others = [
-                widget
-                for widget in QApplication.topLevelWidgets()
-                if widget is not self.window and self._is_window(widget)
-            ]
-            if top is None and not others:
-                break
-            target = top or others[0]
-            self._leave(target)
-            QTest.qWait(10)
-        else:
+    def _go_back(self) -> None:
+        """Leave one thing that lies over the window: each step, until there is none.
+
+        So a question that was opened by another one has ended before that is left, too.
+        """
+        popup = QApplication.activePopupWidget() or QApplication.activeModalWidget()
+        others = [w for w in QApplication.topLevelWidgets() if self._is_window(w)]
+        others = [widget for widget in others if widget is not self.window]
+        if popup is None and not others:
+            self._tries_left = 0
+            if self.window.isVisible() and not self.window.menuBar().isEnabled():
+                raise Broken("The menus cannot be used.")
+            return
+        target = popup or others[0]
+        self._tries_left -= 1
+        if not self._tries_left:
             raise Broken(f"There is no way back from {type(target).__name__}.")
-        if self.window.isVisible() and not self.window.menuBar().isEnabled():
-            raise Broken("The menus cannot be used.")
+        self._pause_ms = 10
+        self._leave(target)
 
     def _leave(self, target: QWidget) -> None:
-        handle = target.windowHandle()
-        if handle is None:
+        """Press Esc; the next time what says Cancel or Close, else the window's own button."""
+        if target.windowHandle() is None:
             return
         self._note(f"leave {type(target).__name__}")
         if target.isFullScreen():  # the show: Esc, held for a while
-            QTest.keyPress(handle, Qt.Key.Key_Escape)
-            QTest.qWait(3000)
-            self._waited_s += 3.0
-            if target.isVisible():
-                QTest.keyRelease(handle, Qt.Key.Key_Escape)
+            self._pause_ms = HELD_MS + 200  # before Qt looks for what comes next
+            QTimer.singleShot(HELD_MS, lambda: self._hands.let_key_go(target, Qt.Key.Key_Escape))
+            QTest.keyPress(target.windowHandle(), Qt.Key.Key_Escape)
             return
-        QTest.keyClick(handle, Qt.Key.Key_Escape)
-        QTest.qWait(5)
-        if not target.isVisible():
+        if self._left is not target:
+            self._left = target
+            self._hands.key(target, Qt.Key.Key_Escape)
             return
+        self._left = None
         ways = [
             button
             for button in target.findChildren(QAbstractButton)
             if button.isVisible()
             and button.isEnabled()
+            and not button.visibleRegion().isEmpty()
             and button.text().replace("&", "").lower().startswith(WAYS_BACK)
         ]
         if ways:
             way = self.random.choice(ways)
-            QTest.mouseClick(handle, Qt.MouseButton.LeftButton, pos=self._hands.place(target, way))
+            self._hands.click(target, self._hands.place(target, way), f"“{way.text()}”")
         elif not isinstance(target, QMenu):
             target.close()  # what the window's own button does
 

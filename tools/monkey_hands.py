@@ -109,6 +109,10 @@ class Hands:
         WORKAROUND: QTest's own click lets go of Ctrl in a window that is gone, and crashes.
         """
         QTest.keyPress(top.windowHandle(), key, modifier)
+        self.let_key_go(top, key)
+
+    def let_key_go(self, top: QWidget, key: Qt.Key) -> None:
+        """Let a key go, if its window is still there."""
         if isValid(top) and top.isVisible() and top.windowHandle() is not None:
             QTest.keyRelease(top.windowHandle(), key)
 
