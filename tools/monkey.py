@@ -139,8 +139,16 @@ class Monkey(QObject):
         self.windows += 1
         return window
 
-    def _reopen(self) -> None:
+    def _close(self) -> None:
+        """End as the program does, with all that was begun since the window was closed."""
+        for widget in QApplication.topLevelWidgets():
+            widget.hide()
         self.window.close_now()
+        if self.window.services.made_running is not None:
+            self.window.running.close()
+
+    def _reopen(self) -> None:
+        self._close()
         self.window.deleteLater()
         self.window = self._open()
 
@@ -196,9 +204,7 @@ class Monkey(QObject):
         self._began, self._pause_ms = now, 0
 
     def _end(self) -> None:
-        for widget in QApplication.topLevelWidgets():
-            widget.hide()
-        self.window.close_now()
+        self._close()
         QTimer.singleShot(0, QApplication.exit)
 
     def _note(self, what: str) -> None:
@@ -209,7 +215,8 @@ class Monkey(QObject):
     # What it can do
 
     def _do_something(self) -> None:
-        if not self.window.isVisible() and self._top() is None:
+        is_show = any(widget.isFullScreen() for widget in QApplication.topLevelWidgets())
+        if not self.window.isVisible() and not is_show:
             self._note("the window was closed: another one")
             self._reopen()
             return
