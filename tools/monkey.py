@@ -10,15 +10,20 @@ from __future__ import annotations
 
 import argparse
 import faulthandler
+import json
+import logging
 import os
 import random
 import shutil
+import socket
 import sys
 import tempfile
+import threading
 import time
 import traceback
-from collections import deque
-from collections.abc import Callable, Iterator
+from collections import Counter, deque
+from collections.abc import Callable
+from contextlib import suppress
 from pathlib import Path
 from types import TracebackType
 from typing import TYPE_CHECKING
@@ -26,40 +31,23 @@ from typing import TYPE_CHECKING
 os.environ.setdefault("QT_QPA_PLATFORM", "offscreen")
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
 
+import psutil
 from PySide6.QtCore import (
-    QEvent,
-    QMimeData,
     QObject,
-    QPoint,
-    QPointF,
     Qt,
+    QThread,
     QTimer,
     QtMsgType,
     QUrl,
     Slot,
     qInstallMessageHandler,
 )
-from PySide6.QtGui import (
-    QAction,
-    QDesktopServices,
-    QDragEnterEvent,
-    QDropEvent,
-    QKeyEvent,
-    QWheelEvent,
-)
+from PySide6.QtGui import QAction, QDesktopServices
+from PySide6.QtPrintSupport import QPrintDialog, QPrinterInfo
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import (
-    QAbstractButton,
-    QAbstractSpinBox,
-    QApplication,
-    QComboBox,
-    QFileDialog,
-    QLineEdit,
-    QMenu,
-    QSlider,
-    QTabBar,
-    QWidget,
-)
+from PySide6.QtWidgets import QAbstractButton, QApplication, QFileDialog, QLineEdit, QMenu, QWidget
+
+from tools.monkey_hands import Hands
 
 if TYPE_CHECKING:
     from nep_studio.ui.shell.main_window import MainWindow
@@ -73,22 +61,33 @@ LONGEST_STEP_S = 60.0
 MOST_TRIES_TO_LEAVE = 40
 """So often it presses Esc, and what says Cancel or Close, before there is no way back."""
 
+MOST_AWAY = 25
+"""After so many steps in what lies over the window, it leaves: there is more to see."""
+
+HELD_MS = 3000
+"""So long is Esc held to leave the show."""
+
 WAYS_BACK = ("cancel", "close", "discard", "don", "no", "not now", "ok", "leave", "back", "done")
 """How buttons begin that lead back, in English."""
 
-SAYINGS = ("hello", "nao says", "when", "repeat 3", "karate", "12", "-0.5", "<b>&", "日本語", "…")
-KEYS = (
-    *(Qt.Key.Key_Return, Qt.Key.Key_Escape, Qt.Key.Key_Tab, Qt.Key.Key_Backtab, Qt.Key.Key_Space),
-    *(Qt.Key.Key_Up, Qt.Key.Key_Down, Qt.Key.Key_Left, Qt.Key.Key_Right, Qt.Key.Key_Home),
-    *(Qt.Key.Key_Delete, Qt.Key.Key_Backspace, Qt.Key.Key_Slash, Qt.Key.Key_Menu, Qt.Key.Key_F1),
-    *(Qt.Key.Key_F2, Qt.Key.Key_F5, Qt.Key.Key_F6, Qt.Key.Key_F8, Qt.Key.Key_F10, Qt.Key.Key_End),
-)
-WITH_CONTROL = "ZYACVXDFNSPGKL0+-"
 NEVER = frozenset({"quit"})
 """Actions that are left alone: the window would be gone, as it should."""
 
-HARMLESS = ("This plugin does not support", "QFont", "font", "libpng", "Wayland", "OpenType")
+HARMLESS = (
+    *("This plugin does not support", "QFont", "font", "libpng", "Wayland", "OpenType"),
+    "QPageSetupDialog: Cannot be used on non-native printers",  # it works all the same
+)
 """Words in what Qt tells that are no mistake of ours."""
+
+SCHEMES = ("http", "https", "file", "mailto")
+"""How addresses begin that would open elsewhere."""
+
+
+OWN_FOLDER = (
+    *("HOME", "XDG_CONFIG_HOME", "XDG_DATA_HOME", "XDG_CACHE_HOME", "XDG_STATE_HOME"),
+    *("XDG_RUNTIME_DIR", "TMPDIR"),
+)
+"""Where programs look for the folders to write to."""
 
 
 class Broken(Exception):
@@ -100,35 +99,58 @@ class Monkey(QObject):
 
     def __init__(self, seed: int, steps: int, folder: Path, *, is_told: bool) -> None:
         super().__init__()
+        from nep_studio.settings import Settings
+        from nep_studio.ui.services import Studio
+
         self.random = random.Random(seed)
         self.steps, self.done, self.folder, self.is_told = steps, 0, folder, is_told
         self.last: deque[str] = deque(maxlen=REMEMBERED)
         self.used: dict[str, int] = {}
+        self.offered: set[str] = set()
         self.faults: list[str] = []
         self.windows = 0
-        self.seen: set[str] = set()
-        """The kinds of windows and dialogs that it was in."""
-        self._pause_ms, self._is_leaving = 0, False
-        self.window = self._open()
-
-    # The window
-
-    def _open(self) -> MainWindow:
-        from nep_studio.settings import Settings
-        from nep_studio.ui.services import Studio
-        from nep_studio.ui.shell.main_window import MainWindow
-
+        self.seen: Counter[str] = Counter()
+        """In how many steps it was in a kind of window, a dialog, a panel, a running program."""
+        self.slowest = (0.0, "")
+        self._hands = Hands(self.random, self._note)
+        self._pause_ms, self._away = 0, 0
+        self._busy: int | None = None
+        """How many event loops there were when the step began that is being done."""
+        self._began = time.monotonic()
+        self._tries_left = 0
+        """How often it tries yet to come back to the window; 0 while it plays."""
+        self._left: QWidget | None = None
+        """Where it has pressed Esc last to leave."""
         app = QApplication.instance()
         assert isinstance(app, QApplication)
         settings = Settings(self.folder / "home")
         settings.language = "en"
         self.studio = Studio(app, settings)
+        self.window = self._open()
+
+    # The window
+
+    def _open(self) -> MainWindow:
+        from nep_studio.ui.shell.main_window import MainWindow
+
         window = MainWindow(self.studio)
-        window.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose, False)
         window.show()
         window.start(None)
         self.windows += 1
         return window
+
+    def _close(self) -> None:
+        """End as the program does, with all that was begun since the window was closed."""
+        for widget in QApplication.topLevelWidgets():
+            widget.hide()
+        self.window.close_now()
+        if self.window.services.made_running is not None:
+            self.window.running.close()
+
+    def _reopen(self) -> None:
+        self._close()
+        self.window.deleteLater()
+        self.window = self._open()
 
     def run(self) -> None:
         """Do all steps; raises Broken."""
@@ -143,35 +165,46 @@ class Monkey(QObject):
     @Slot()
     def step(self) -> None:
         """Do one thing; the next one follows also when this one waits for an answer to it."""
+        loops = QThread.currentThread().loopLevel()
+        if self._busy is not None and loops <= self._busy:
+            QTimer.singleShot(20, self.step)  # Qt only looks for events: hands are still full
+            return
         faulthandler.dump_traceback_later(LONGEST_STEP_S, exit=True)
-        if self.faults or self.done >= self.steps:
+        self._take_time()
+        self._hands.let_go()
+        if self.faults or (self.done >= self.steps and not self._tries_left):
             self._end()
             return
-        if self._is_leaving:
-            QTimer.singleShot(20, self.step)
-            return
-        self.done += 1
-        self._pause_ms = 0
         QTimer.singleShot(0, self._next)
+        around, self._busy = self._busy, loops
         try:
-            self._do_something()
+            if self._tries_left:
+                self._go_back()
+                return
+            self.done += 1
             if self.done % 250 == 0 or self.done == self.steps:
-                self._is_leaving = True
-                self._find_the_way_back()
+                self._tries_left = MOST_TRIES_TO_LEAVE
+            self._do_something()
         except RuntimeError as error:  # a widget that was deleted by what was done to it
             if "already deleted" not in str(error):
                 raise
         finally:
-            self._is_leaving = False
+            self._busy = around
 
     @Slot()
     def _next(self) -> None:
         QTimer.singleShot(self._pause_ms, self.step)
 
+    def _take_time(self) -> None:
+        """Remember the step that has held the window up longest."""
+        now = time.monotonic()
+        took = now - self._began - self._pause_ms / 1000
+        if self.last and took > self.slowest[0]:
+            self.slowest = (took, self.last[-1])
+        self._began, self._pause_ms = now, 0
+
     def _end(self) -> None:
-        for widget in QApplication.topLevelWidgets():
-            widget.hide()
-        self.window.close_now()
+        self._close()
         QTimer.singleShot(0, QApplication.exit)
 
     def _note(self, what: str) -> None:
@@ -182,33 +215,53 @@ class Monkey(QObject):
     # What it can do
 
     def _do_something(self) -> None:
-        if not self.window.isVisible() and self._top() is None:
+        is_show = any(widget.isFullScreen() for widget in QApplication.topLevelWidgets())
+        if not self.window.isVisible() and not is_show:
             self._note("the window was closed: another one")
-            self.window.close_now()
-            self.window = self._open()
+            self._reopen()
             return
         top = self._top() or self.window
-        self.seen.add(type(top).__name__)
+        self._look_around(top)
         if isinstance(top, QFileDialog):
             self._answer_file_dialog(top)
             return
+        self._away = 0 if top is self.window else self._away + 1
+        is_printing = isinstance(top, QPrintDialog) and bool(QPrinterInfo.availablePrinterNames())
+        if is_printing or self._away > MOST_AWAY or (self._away and self.random.random() < 0.04):
+            self._leave(top)
+            return
+        hands = self._hands
         choices: list[tuple[int, Callable[[QWidget], None]]] = [
-            (34, self._click_something),
-            (14, self._click_anywhere),
-            (16, self._drag),
-            (10, self._type_keys),
-            (6, self._say),
-            (5, self._wheel),
-            (3, self._double_click),
-            (4, self._right_click),
+            (34, hands.click_something),
+            (12, hands.click_anywhere),
+            (12, hands.drag),
+            (10, hands.type_keys),
+            (6, hands.say),
+            (5, hands.wheel),
+            (3, hands.double_click),
+            (4, hands.right_click),
             (3, self._wait),
-            (1, self._resize),
+            (1, hands.resize),
             (1, self._drop),
         ]
         if top is self.window:
-            choices += [(10, self._trigger), (1, self._example)]
+            choices += [(10, self._trigger), (6, self._build), (2, self._play), (1, self._restart)]
         weights, does = zip(*choices, strict=True)
         self.random.choices(does, weights)[0](top)
+
+    def _look_around(self, top: QWidget) -> None:
+        """Remember where it is."""
+        self.seen[type(top).__name__] += 1
+        window = self.window
+        if top is not window or not window.lazy.is_done:
+            return
+        if window.start_page.isVisible():
+            self.seen["the start page"] += 1
+        for panel in window.workbench.panels.all:
+            if panel.widget.isVisible():
+                self.seen[f"the panel {panel.name}"] += 1
+        if window.actions_by_name["stop"].isEnabled():
+            self.seen["a program that runs"] += 1
 
     def _top(self) -> QWidget | None:
         """What takes the mouse now: a popup, else a question, else a window besides."""
@@ -225,229 +278,152 @@ class Monkey(QObject):
         is_tip = widget.windowType() in (Qt.WindowType.ToolTip, Qt.WindowType.SplashScreen)
         return widget.isVisible() and handle is not None and not is_tip
 
-    def _within(self, top: QWidget, kinds: tuple[type[QWidget], ...]) -> QWidget | None:
-        found = [
-            widget
-            for kind in kinds
-            for widget in top.findChildren(kind)
-            if widget.isVisible() and widget.isEnabled() and widget.window() is top
-        ]
-        return self.random.choice(found) if found else None
-
-    def _place(self, top: QWidget, widget: QWidget) -> QPoint:
-        """A place in a widget, in its window."""
-        seen = widget.visibleRegion().boundingRect()
-        if seen.isEmpty():
-            seen = widget.rect()
-        x = self.random.randint(seen.left(), max(seen.left(), seen.right()))
-        y = self.random.randint(seen.top(), max(seen.top(), seen.bottom()))
-        return widget.mapTo(top, QPoint(x, y)) if widget is not top else QPoint(x, y)
-
-    def _click(self, top: QWidget, place: QPoint, what: str) -> None:
-        self._note(f"click {what} of {type(top).__name__} at {place.x()},{place.y()}")
-        QTest.mouseClick(top.windowHandle(), Qt.MouseButton.LeftButton, pos=place)
-
-    def _click_something(self, top: QWidget) -> None:
-        kinds = (QAbstractButton, QComboBox, QLineEdit, QTabBar, QAbstractSpinBox, QSlider)
-        chosen = self._within(top, (self.random.choice(kinds),)) or self._within(top, kinds)
-        if chosen is None:
-            self._click_anywhere(top)
-            return
-        words = getattr(chosen, "text", str)()
-        self._click(top, self._place(top, chosen), f"{type(chosen).__name__} “{words}”")
-
-    def _click_anywhere(self, top: QWidget) -> None:
-        self._click(top, self._place(top, top), "a place")
-
-    def _double_click(self, top: QWidget) -> None:
-        place = self._place(top, top)
-        self._note(f"double click {type(top).__name__} at {place.x()},{place.y()}")
-        QTest.mouseDClick(top.windowHandle(), Qt.MouseButton.LeftButton, pos=place)
-
-    def _right_click(self, top: QWidget) -> None:
-        place = self._place(top, top)
-        self._note(f"menu of {type(top).__name__} at {place.x()},{place.y()}")
-        handle = top.windowHandle()
-        QTest.mouseClick(handle, Qt.MouseButton.RightButton, pos=place)
-
-    def _drag(self, top: QWidget) -> None:
-        start, end = self._place(top, top), self._place(top, top)
-        self._note(
-            f"drag in {type(top).__name__} from {start.x()},{start.y()} to {end.x()},{end.y()}"
-        )
-        handle, button = top.windowHandle(), Qt.MouseButton.LeftButton
-        QTest.mousePress(handle, button, pos=start)
-        for part in range(1, 6):
-            if not top.isVisible() or top.windowHandle() is None:
-                return
-            QTest.mouseMove(handle, start + (end - start) * part / 5)
-        if self.random.random() < 0.1:
-            QTest.keyClick(handle, Qt.Key.Key_Escape)
-        QTest.mouseRelease(handle, button, pos=end)
-
-    def _type_keys(self, top: QWidget) -> None:
-        handle = top.windowHandle()
-        if self.random.random() < 0.3:
-            letter = self.random.choice(WITH_CONTROL)
-            self._note(f"Ctrl+{letter} in {type(top).__name__}")
-            QTest.keyClick(handle, Qt.Key(ord(letter)), Qt.KeyboardModifier.ControlModifier)
-            return
-        key = self.random.choice(KEYS)
-        shift = Qt.KeyboardModifier.ShiftModifier
-        modifier = shift if self.random.random() < 0.2 else Qt.KeyboardModifier.NoModifier
-        self._note(f"{key.name} {modifier.name or ''} in {type(top).__name__}")
-        QTest.keyClick(handle, key, modifier)
-
-    def _say(self, top: QWidget) -> None:
-        focus = QApplication.focusWidget()
-        text = self.random.choice(SAYINGS)
-        self._note(f"type “{text}” into {type(focus).__name__}")
-        none = Qt.KeyboardModifier.NoModifier
-        for letter in text:  # QTest knows those of Latin-1 alone
-            if not isinstance(focus, QWidget) or focus.window() is not top:
-                return
-            for kind in (QEvent.Type.KeyPress, QEvent.Type.KeyRelease):
-                QApplication.sendEvent(focus, QKeyEvent(kind, 0, none, letter))
-            focus = QApplication.focusWidget()
-
-    def _wheel(self, top: QWidget) -> None:
-        place = self._place(top, top)
-        target = top.childAt(place) or top
-        steps = self.random.choice((-120, 120, -360, 360))
-        self._note(f"wheel {steps} over {type(target).__name__}")
-        local = target.mapFrom(top, place)
-        none = Qt.KeyboardModifier.NoModifier
-        modifier = self.random.choice((none, none, none, Qt.KeyboardModifier.ControlModifier))
-        event = QWheelEvent(
-            QPointF(local),
-            QPointF(target.mapToGlobal(local)),
-            QPoint(),
-            QPoint(0, steps),
-            Qt.MouseButton.NoButton,
-            modifier,
-            Qt.ScrollPhase.NoScrollPhase,
-            False,
-        )
-        QApplication.sendEvent(target, event)
-
     def _wait(self, _top: QWidget) -> None:
         self._note("wait")
         self._pause_ms = self.random.choice((20, 100, 400))
 
-    def _resize(self, top: QWidget) -> None:
-        size = self.random.choice(((1280, 800), (1366, 728), (1024, 640), (1920, 1040)))
-        self._note(f"resize {type(top).__name__} to {size}")
-        if not top.isFullScreen():
-            top.resize(*size)
-
     def _drop(self, top: QWidget) -> None:
-        """Drop a project onto whatever is there."""
-        place = self._place(top, top)
-        target: QWidget | None = top.childAt(place) or top
-        self._note(f"drop a project on {type(target).__name__}")
-        mime = QMimeData()
-        mime.setUrls([QUrl.fromLocalFile(str(self.random.choice(self._examples())))])
-        copy, left = Qt.DropAction.CopyAction, Qt.MouseButton.LeftButton
-        none = Qt.KeyboardModifier.NoModifier
-        while target is not None and not target.acceptDrops():
-            target = target.parentWidget()
-        if target is None:
-            return
-        enter = QDragEnterEvent(QPoint(5, 5), copy, mime, left, none)
-        QApplication.sendEvent(target, enter)
-        if enter.isAccepted():
-            QApplication.sendEvent(target, QDropEvent(QPointF(5, 5), copy, mime, left, none))
+        self._hands.drop(top, self._own_project())
 
     def _trigger(self, _top: QWidget) -> None:
         """Do what a menu has; what it has done least before."""
-        known: list[QAction] = [
-            action
-            for action in self.window.actions_by_name.by_name.values()
-            if action.isEnabled() and action.objectName() not in NEVER
-        ]
-        panels = [panel.action for panel in self.window.workbench.panels.all]
-        known += [action for action in panels if action.isEnabled()]
+        actions: dict[str, QAction] = dict(self.window.actions_by_name.by_name)
+        panels = self.window.workbench.panels.all
+        actions |= {f"panel {panel.name}": panel.action for panel in panels}
+        self.offered |= {*actions} - NEVER
+        known = [name for name, one in actions.items() if one.isEnabled() and name not in NEVER]
         if not known:
             return
-        names = {id(action): action.objectName() or action.text() for action in known}
-        least = min(self.used.get(name, 0) for name in names.values())
-        rare = [one for one in known if self.used.get(names[id(one)], 0) <= least + 1]
-        chosen = self.random.choice(rare)
-        name = names[id(chosen)]
+        least = min(self.used.get(name, 0) for name in known)
+        rare = [name for name in known if self.used.get(name, 0) <= least + 1]
+        name = self.random.choice(rare)
         self.used[name] = self.used.get(name, 0) + 1
         self._note(f"choose {name}")
-        QTimer.singleShot(0, chosen.trigger)  # a question that waits does not hold this up
+        QTimer.singleShot(0, actions[name].trigger)  # a question that waits does not hold this up
 
-    def _example(self, _top: QWidget) -> None:
-        path = self.random.choice(self._examples())
-        self._note(f"open {path.name}")
-        self.window.files.open_example(path)
+    def _build(self, top: QWidget) -> None:
+        """Drag something of the palette onto the canvas."""
+        canvas, shelf = self.window.workbench.canvas, self.window.workbench.helpers.palette.shelf
+        if not canvas.isVisible() or shelf.visibleRegion().isEmpty():
+            self._trigger(top)
+            return
+        hands = self._hands
+        hands.drag_between(top, hands.place(top, shelf), hands.place(top, canvas))
+
+    def _play(self, _top: QWidget) -> None:
+        """Open an example, or a stranger's project, and often run it."""
+        if self.random.random() < 0.3:
+            path = self._strangers_project()
+            self._note("open a stranger's project")
+            self.window.files.open(path)
+        else:
+            path = self.random.choice(self._examples())
+            self._note(f"open {path.name}")
+            self.window.files.open_example(path)
+        if self.random.random() < 0.6:
+            self._pause_ms = 300
+            QTimer.singleShot(200, self.window.actions_by_name["run"].trigger)
+
+    def _restart(self, _top: QWidget) -> None:
+        """Close the window; or end the program as by a signal, which offers the work again."""
+        document = self.window.files.document
+        if self.random.random() < 0.5:
+            self._note("close the window")
+            self.window.close()
+            return
+        self._note("end the program, and start it again")
+        if document is not None:
+            document.close(keep=document.is_modified)
+        self._reopen()
 
     def _examples(self) -> list[Path]:
         from nep_studio import paths
 
         return sorted(paths.examples().glob("*.nep"))
 
+    def _own_project(self) -> Path:
+        """A copy of an example: what is opened as a file may be saved there."""
+        path = self.folder / f"own{self.done}.nep"
+        shutil.copy(self.random.choice(self._examples()), path)
+        return path
+
+    def _strangers_project(self) -> Path:
+        """A copy of the karate story with Python in it that nobody has seen before."""
+        from nep_studio import paths
+
+        told = json.loads((paths.examples() / "karate_greeting.nep").read_text(encoding="utf-8"))
+        for block in told["blocks"]:
+            if block["type"] == "robot.do":
+                block.update(type="code.lines", fields={"code": f"x = {self.done}"})
+        path = self.folder / f"stranger{self.done}.nep"
+        path.write_text(json.dumps(told), encoding="utf-8")
+        return path
+
     def _answer_file_dialog(self, dialog: QFileDialog) -> None:
         """Give a name in the monkey's own folder, or leave: nothing else may be touched."""
         line = dialog.findChild(QLineEdit)
         if line is None or self.random.random() < 0.5:
             self._note("leave the file dialog")
-            QTest.keyClick(dialog.windowHandle(), Qt.Key.Key_Escape)
+            self._hands.key(dialog, Qt.Key.Key_Escape)
             return
         path = self.folder / f"monkey{self.done}.nep"
-        if dialog.acceptMode() == QFileDialog.AcceptMode.AcceptOpen:  # one that is there
-            shutil.copy(self.random.choice(self._examples()), path)
+        if dialog.fileMode() is QFileDialog.FileMode.Directory:
+            path = self.folder
+        elif dialog.acceptMode() == QFileDialog.AcceptMode.AcceptOpen:  # one that is there
+            path = self._own_project()
         self._note(f"answer the file dialog: {path.name}")
         line.setText(str(path))
-        QTest.keyClick(line, Qt.Key.Key_Return)
+        line.setFocus()
+        self._hands.key(dialog, Qt.Key.Key_Return)
 
     # The way back
 
-    def _find_the_way_back(self) -> None:
-        """From wherever it is, the window with its menus can be reached again."""
-        for _ in range(MOST_TRIES_TO_LEAVE):
-            top = QApplication.activePopupWidget() or QApplication.activeModalWidget()
-            others = [
-                widget
-                for widget in QApplication.topLevelWidgets()
-                if widget is not self.window and self._is_window(widget)
-            ]
-            if top is None and not others:
-                break
-            target = top or others[0]
-            self._note(f"leave {type(target).__name__}")
-            self._leave(target)
-            QTest.qWait(10)
-        else:
+    def _go_back(self) -> None:
+        """Leave one thing that lies over the window: each step, until there is none.
+
+        So a question that was opened by another one has ended before that is left, too.
+        """
+        popup = QApplication.activePopupWidget() or QApplication.activeModalWidget()
+        others = [w for w in QApplication.topLevelWidgets() if self._is_window(w)]
+        others = [widget for widget in others if widget is not self.window]
+        if popup is None and not others:
+            self._tries_left = 0
+            if self.window.isVisible() and not self.window.menuBar().isEnabled():
+                raise Broken("The menus cannot be used.")
+            return
+        target = popup or others[0]
+        self._tries_left -= 1
+        if not self._tries_left:
             raise Broken(f"There is no way back from {type(target).__name__}.")
-        if self.window.isVisible() and not self.window.menuBar().isEnabled():
-            raise Broken("The menus cannot be used.")
+        self._pause_ms = 10
+        self._leave(target)
 
     def _leave(self, target: QWidget) -> None:
-        handle = target.windowHandle()
-        if handle is None:
+        """Press Esc; the next time what says Cancel or Close, else the window's own button."""
+        if target.windowHandle() is None:
             return
+        self._note(f"leave {type(target).__name__}")
         if target.isFullScreen():  # the show: Esc, held for a while
-            QTest.keyPress(handle, Qt.Key.Key_Escape)
-            QTest.qWait(3000)
-            if target.isVisible():
-                QTest.keyRelease(handle, Qt.Key.Key_Escape)
+            self._pause_ms = HELD_MS + 200  # before Qt looks for what comes next
+            QTimer.singleShot(HELD_MS, lambda: self._hands.let_key_go(target, Qt.Key.Key_Escape))
+            QTest.keyPress(target.windowHandle(), Qt.Key.Key_Escape)
             return
-        QTest.keyClick(handle, Qt.Key.Key_Escape)
-        QTest.qWait(5)
-        if not target.isVisible():
+        if self._left is not target:
+            self._left = target
+            self._hands.key(target, Qt.Key.Key_Escape)
             return
+        self._left = None
         ways = [
             button
             for button in target.findChildren(QAbstractButton)
             if button.isVisible()
             and button.isEnabled()
+            and not button.visibleRegion().isEmpty()
             and button.text().replace("&", "").lower().startswith(WAYS_BACK)
         ]
         if ways:
             way = self.random.choice(ways)
-            QTest.mouseClick(handle, Qt.MouseButton.LeftButton, pos=self._place(target, way))
+            self._hands.click(target, self._hands.place(target, way), f"“{way.text()}”")
         elif not isinstance(target, QMenu):
             target.close()  # what the window's own button does
 
@@ -469,11 +445,33 @@ def watch(monkey: Monkey) -> None:
         if is_bad or (is_warning and not any(word in text for word in HARMLESS)):
             monkey.faults.append(f"Qt: {text}")
 
+    class Logged(logging.Handler):
+        """Hears of errors that were caught and logged."""
+
+        def emit(self, record: logging.LogRecord) -> None:
+            """Take it for a fault."""
+            monkey.faults.append(f"{record.getMessage()}\n{record.exc_text or record.exc_info}")
+
+    logging.getLogger().addHandler(Logged(logging.ERROR))
+    threading.excepthook = lambda one: on_error(
+        one.exc_type, one.exc_value or one.exc_type(), one.exc_traceback
+    )
     sys.excepthook = on_error
     sys.unraisablehook = lambda one: on_error(
         one.exc_type, one.exc_value or one.exc_type(), one.exc_traceback
     )
     qInstallMessageHandler(on_message)
+
+
+def processes_left() -> list[str]:
+    """What the monkey has started and still runs; it is ended."""
+    _, left = psutil.wait_procs(psutil.Process().children(recursive=True), timeout=10)
+    told = []
+    for one in left:
+        with suppress(psutil.NoSuchProcess):
+            told.append(" ".join(one.cmdline()) or one.name())
+            one.kill()
+    return told
 
 
 class Nowhere(QObject):
@@ -482,11 +480,6 @@ class Nowhere(QObject):
     @Slot(QUrl)
     def open(self, url: QUrl) -> None:
         """Open nothing."""
-
-
-def schemes() -> Iterator[str]:
-    """What addresses begin with."""
-    yield from ("http", "https", "file", "mailto")
 
 
 def main(arguments: list[str]) -> int:
@@ -498,9 +491,13 @@ def main(arguments: list[str]) -> int:
     asked = parser.parse_args(arguments)
     with tempfile.TemporaryDirectory(prefix="monkey") as name:
         folder = Path(name)
-        for variable in ("HOME", "XDG_CONFIG_HOME", "XDG_DATA_HOME", "XDG_RUNTIME_DIR"):
+        for variable in OWN_FOLDER:
             os.environ[variable] = name
         os.environ["NEP_STUDIO_FOLDER"] = str(folder / "home")
+        os.environ["NEP_ORIGINAL"] = "0"
+        with socket.socket() as free:  # not where a studio of somebody's own may be
+            free.bind(("127.0.0.1", 0))
+            os.environ["NEP_MASTER"] = f"tcp://127.0.0.1:{free.getsockname()[1]}"
         os.chdir(name)
         return play(asked.seed, asked.steps, folder, is_told=asked.tell)
 
@@ -511,24 +508,30 @@ def play(seed: int, steps: int, folder: Path, *, is_told: bool) -> int:
 
     app = make_application()
     nowhere = Nowhere()
-    for scheme in schemes():
-        QDesktopServices.setUrlHandler(scheme, nowhere, b"open")
+    for scheme in SCHEMES:
+        QDesktopServices.setUrlHandler(scheme, nowhere, "open")  # type: ignore[arg-type]  # Qt's stub is wrong
     began = time.monotonic()
     monkey = Monkey(seed, steps, folder, is_told=is_told)
     watch(monkey)
     try:
         monkey.run()
+        if left := processes_left():
+            raise Broken(f"It has left behind: {', '.join(left)}")
     except Broken as broken:
         print(f"seed {seed}, step {monkey.done} of {steps}: it broke.\n{broken}\nThe last steps:")
         print("\n".join(monkey.last))
         return 1
     finally:
+        processes_left()
         qInstallMessageHandler(None)
         sys.excepthook = sys.__excepthook__
-    rooms = ", ".join(sorted(monkey.seen))
+    places = ", ".join(f"{name} ({count})" for name, count in sorted(monkey.seen.items()))
+    unused = ", ".join(sorted(monkey.offered - {*monkey.used})) or "none"
     print(
         f"seed {seed}: {monkey.done} steps in {time.monotonic() - began:.0f} s, "
-        f"{monkey.windows} windows, {len(monkey.used)} commands; it was in {rooms}"
+        f"{monkey.windows} windows, {len(monkey.used)} commands; never chosen: {unused}\n"
+        f"The slowest step took {monkey.slowest[0]:.1f} s: {monkey.slowest[1]}\n"
+        f"Steps in each place: {places}"
     )
     app.processEvents()
     return 0

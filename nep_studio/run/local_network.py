@@ -160,7 +160,8 @@ class LocalNetwork:
     """A master, this program's place in its network, and the nodes it started; any thread.
 
     ``open`` raises NepError when the master cannot start; ``close`` stops all nodes, then the
-    master. Closed, it can be opened again. What it starts has passed its ``gate``.
+    master. Closed, it can be opened again, unless that was for good. What it starts has passed its
+    ``gate``.
     """
 
     def __init__(
@@ -192,6 +193,7 @@ class LocalNetwork:
         self._end_listeners: tuple[EndListener, ...] = ()
         self._stack = contextlib.ExitStack()
         self._opening = threading.RLock()
+        self._is_over = False
         self._make_launchers()
 
     def _make_launchers(self) -> None:
@@ -218,6 +220,8 @@ class LocalNetwork:
     def open(self) -> None:
         """Start the master and join it, unless that is done; one that is gone is replaced."""
         with self._opening:
+            if self._is_over:
+                raise _closed()
             if self.network is not None:
                 # Start one where the last one was, if that is gone: all who were there come to it
                 if self.shared_master and ask_master(self.shared_master) is None:
@@ -278,8 +282,12 @@ class LocalNetwork:
             raise
         return network
 
-    def close(self) -> None:
-        """Stop all nodes, leave the network, stop the master."""
+    def close(self, *, for_good: bool = False) -> None:
+        """Stop all nodes, leave the network, stop the master.
+
+        ``for_good``: also who waits already for its turn to open it comes too late.
+        """
+        self._is_over = self._is_over or for_good
         with self._opening:
             self.network = None
             self._stack.close()
@@ -316,7 +324,7 @@ class LocalNetwork:
             self.gate.check_node(one)
         with self._opening:
             if self.network is None:
-                raise NodeStartError("The network is closed.", checklist=("Start it again.",))
+                raise _closed()
             launched = []
             for one in nodes:
                 running = self.launcher.nodes.get(one.name)
@@ -391,6 +399,10 @@ class LocalNetwork:
             time.sleep(LOOK_S)
         if is_up(launched, endpoint) and not launched.stopping:
             self.on_master("back", "")
+
+
+def _closed() -> NodeStartError:
+    return NodeStartError("The network is closed.", checklist=("Start it again.",))
 
 
 # What it takes to use keys: a key file for each other computer, and the variables that name it.

@@ -389,7 +389,7 @@ class Runner(QObject):
         for tap in list(self._taps):
             tap.close()
         self._sender.close()
-        self.local.close()
+        self.local.close(for_good=True)
         self._monitor.end()
 
     def _forget(self, tap: Tap) -> None:

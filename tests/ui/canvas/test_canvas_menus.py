@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 from PySide6.QtCore import QPoint, Qt
-from PySide6.QtGui import QAction, QContextMenuEvent
+from PySide6.QtGui import QAction, QContextMenuEvent, QGuiApplication
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication, QMenu
 
@@ -193,6 +193,20 @@ def test_the_menu_of_the_canvas_undoes(shown):
     entry(right_click(shown, EMPTY), "undo").trigger()
 
     assert shown.file == before
+
+
+def test_a_clipboard_on_which_nothing_ever_was_is_told_of_and_breaks_nothing(shown):
+    QGuiApplication.clipboard().clear()  # what is on it is None then
+    before, told = shown.file, []
+    shown.canvas.news.refused.connect(told.append)
+
+    entry(right_click(shown, EMPTY), "paste").trigger()
+    shown.canvas.menu.close()
+    QTest.keyClick(shown.canvas, Qt.Key.Key_V, Qt.KeyboardModifier.ControlModifier)
+
+    assert shown.file == before
+    assert ["nothing on the clipboard" in str(one) for one in told] == [True] * len(told)
+    assert told
 
 
 def test_blocks_are_pasted_where_the_menu_was_opened(shown):

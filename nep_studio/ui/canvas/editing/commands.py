@@ -58,13 +58,16 @@ def _keep_text_only() -> None:
     gone.
     """
     clipboard = QGuiApplication.clipboard() if QGuiApplication.instance() is not None else None
-    if clipboard is not None and clipboard.mimeData().hasFormat(BLOCKS):
+    data = clipboard.mimeData() if clipboard is not None else None
+    if clipboard is not None and data is not None and data.hasFormat(BLOCKS):
         clipboard.setText(clipboard.text())
 
 
 def clip_from_clipboard(editor: Editor) -> Clip:
     """What is on the clipboard as blocks; raises EditRefused when it is none."""
     data = QGuiApplication.clipboard().mimeData()
+    if data is None:  # nothing was copied since the computer started
+        return clip_of_text(editor, "")
     if data.hasFormat(BLOCKS):
         return clip_of_text(editor, bytes(data.data(BLOCKS).data()).decode(errors="replace"))
     return clip_of_text(editor, data.text())

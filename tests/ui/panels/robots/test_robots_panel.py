@@ -2,18 +2,20 @@
 
 from __future__ import annotations
 
+import psutil
 import pytest
 from PySide6.QtCore import QPoint, Qt
 from PySide6.QtWidgets import QMainWindow
 from pytestqt.qtbot import QtBot
 
+from nep_core.errors import NodeStartError
 from nep_core.wire import messages as m
 from nep_studio.run.plan import PlannedNode
 from nep_studio.ui.plugins.robots.panel import RobotsPanel
 from nep_studio.ui.running.runner import Runner
 from nep_studio.ui.theme.look import Look
 from robots.body.limbs import TOUCH_SENSORS
-from tests.ui.panels.robots.conftest import NAO, hear, state
+from tests.ui.panels.robots.conftest import NAO, WATCH, hear, state
 
 pytestmark = pytest.mark.long
 
@@ -250,3 +252,15 @@ def test_the_scene_stays_where_it_is_while_robots_say_one_thing_after_the_other(
     hear(panel, state(saying=""))
     qtbot.wait(300)
     assert panel.stage.geometry() == scene
+
+
+def test_who_still_waits_for_the_network_starts_nothing_after_the_end(runner: Runner) -> None:
+    runner.start_node(WATCH)
+    before = set(psutil.Process().children(recursive=True))
+
+    runner.close()
+    with pytest.raises(NodeStartError):
+        runner.local.open()  # what a thread does whose turn comes now
+
+    assert not runner.is_connected
+    assert set(psutil.Process().children(recursive=True)) <= before
