@@ -18,6 +18,7 @@ from PySide6.QtWidgets import (
     QStyle,
     QVBoxLayout,
     QWidget,
+    QWidgetItem,
 )
 
 Part = (
@@ -146,6 +147,15 @@ class Flow(QLayout):
         self.setSpacing(spacing)
         for widget in widgets:
             self.addWidget(widget)
+
+    def addWidget(self, widget: QWidget) -> None:
+        """Take a widget, the last one.
+
+        Its item is made here. One that Qt makes is known to Python by its place in memory, where
+        another one was before: it would be taken for that, and be gone when that is thrown away.
+        """
+        self.addChildWidget(widget)
+        self.addItem(QWidgetItem(widget))
 
     def addItem(self, item: QLayoutItem) -> None:
         """Take an item, the last one."""

@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+import gc
+import random
+
 import pytest
-from PySide6.QtCore import Qt
-from PySide6.QtWidgets import QFrame, QWidget
+from PySide6.QtCore import QEvent, Qt
+from PySide6.QtWidgets import QApplication, QFrame, QHBoxLayout, QLayout, QPushButton, QWidget
 from pytestqt.qtbot import QtBot
 
-from nep_studio.ui.widgets.layouts import COLUMN_LINES, Columns, FlowLayout
+from nep_studio.ui.widgets.layouts import COLUMN_LINES, Columns, Flow, FlowLayout
 
 
 @pytest.fixture
@@ -62,3 +65,36 @@ def test_columns_are_as_many_as_fit_and_keep_the_order(qtbot: QtBot) -> None:
     places = [widgets[number].parentWidget().x() for number in range(6)]
     assert places == sorted(places)
     assert len(set(places)) == 3
+
+
+def test_widgets_that_come_and_go_leave_the_others_in_their_places(qtbot: QtBot) -> None:
+    """Qt makes and throws away so many items that one is where another one was in memory."""
+    chance = random.Random(1)
+    holders: list[tuple[QWidget, QLayout]] = []
+    for number in range(300):
+        holder = QWidget()
+        if chance.random() < 0.5:
+            layout: QLayout = Flow(holder, 4, [QPushButton("x") for _ in range(3)])
+        else:
+            layout = QHBoxLayout(holder)
+            for _ in range(2):
+                layout.addWidget(QPushButton("y"))
+            chance.choice([layout.itemAt(0), layout.itemAt(1)]).widget().deleteLater()
+        holders.append((holder, layout))
+        if len(holders) > 20:
+            holders.pop(chance.randrange(len(holders)))[0].deleteLater()
+        for _, flow in holders:
+            if isinstance(flow, Flow) and chance.random() < 0.3:
+                gone = flow.itemAt(0).widget()
+                flow.removeWidget(gone)
+                gone.deleteLater()
+                flow.addWidget(QPushButton("new"))
+                assert flow.minimumSize().height() > 0
+        QApplication.sendPostedEvents(None, QEvent.Type.DeferredDelete)
+        if number % 50 == 0:
+            gc.collect()
+
+    flows = [flow for _, flow in holders if isinstance(flow, Flow)]
+    assert flows and all(flow.count() == 3 for flow in flows)
+    for holder, _ in holders:
+        holder.deleteLater()
