@@ -90,7 +90,8 @@ class NewPanel:
 
     ``icon_name`` is a picture in ``resources/icons``. The widget's property ``help_page`` is the
     page of the help that F1 opens there. It hears nothing while it is hidden. A page with a
-    ``history`` is asked when somebody undoes something while it is shown.
+    ``history`` is asked when somebody undoes something while it is shown; beside one that
+    ``has_own_robot`` the stage would show it a second time.
     """
 
     widget: QWidget
@@ -99,6 +100,7 @@ class NewPanel:
     area: AreaName
     is_shown: bool = False
     history: OwnHistory | None = None
+    has_own_robot: bool = False
 
 
 @dataclass(frozen=True)

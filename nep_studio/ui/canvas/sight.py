@@ -127,12 +127,21 @@ class Sight:
         """Let the scroll bars reach over the page, and say where the camera is."""
         scale, view, area = self.camera.scale, self._viewport.size(), self._host.area
         bounds, seen = self._host.page_layout.bounds(), self.visible_page_rect()
-        whole = seen if bounds is None else bounds.grown(MARGIN / scale).united(seen)
+        bounds = seen if bounds is None else bounds
+        whole = bounds.grown(MARGIN / scale).united(seen)
         self._is_scrolling = True
-        for bar, start, length, value, page in (
-            (area.horizontalScrollBar(), whole.x, whole.width, seen.x, view.width()),
-            (area.verticalScrollBar(), whole.y, whole.height, seen.y, view.height()),
+        for bar, start, length, value, page, is_all_seen in (
+            (
+                *(area.horizontalScrollBar(), whole.x, whole.width, seen.x, view.width()),
+                seen.x <= bounds.x and bounds.right <= seen.right,
+            ),
+            (
+                *(area.verticalScrollBar(), whole.y, whole.height, seen.y, view.height()),
+                seen.y <= bounds.y and bounds.bottom <= seen.bottom,
+            ),
         ):
+            if is_all_seen:
+                start, length = value, 0.0
             first = int(start * scale)
             bar.setRange(first, max(first, int((start + length) * scale) - page))
             bar.setPageStep(page)

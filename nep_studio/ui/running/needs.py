@@ -25,7 +25,7 @@ from nep_studio.blocks.operations.fixes import add_start
 from nep_studio.run.plan import PlannedNode
 from nep_studio.ui.background import Background
 from nep_studio.ui.theme.icons import icon, icon_room
-from nep_studio.ui.widgets.forms import breakable, keep_bold_room
+from nep_studio.ui.widgets.forms import breakable, fit_on_screen, keep_bold_room
 from nep_studio.ui.widgets.layouts import in_column, in_row
 from nep_studio.ui.words import tr
 
@@ -231,7 +231,9 @@ class NeedsDialog(QDialog):
         in_column(*rows, 1, of=inner, margins=(0, 0, line // 2, 0), spacing=line // 2)
         self._scroll.setWidget(inner)
         self._scroll.setVisible(bool(rows))
-        self.resize(line * 34, line * 26 if rows else self.minimumSizeHint().height())
+        fit_on_screen(self, 34, 26)
+        if not rows:
+            self.resize(self.width(), self.minimumSizeHint().height())
         # Let Enter do what comes next: the first thing that is missing, at last Run
         button = inner.findChild(QPushButton) if missing else self.run_button
         if button is not None:

@@ -10,6 +10,7 @@ from PySide6.QtCore import QSize, Qt, qVersion
 from PySide6.QtWidgets import (
     QAbstractItemView,
     QDialog,
+    QHeaderView,
     QLabel,
     QListWidget,
     QListWidgetItem,
@@ -26,7 +27,7 @@ from nep_studio.blocks.operations.finding import Difference, compare
 from nep_studio.blocks.program import Project
 from nep_studio.ui.documents import Document
 from nep_studio.ui.theme.icons import application_icon
-from nep_studio.ui.widgets.forms import styled
+from nep_studio.ui.widgets.forms import fit_on_screen, styled
 from nep_studio.ui.widgets.layouts import in_column
 from nep_studio.ui.words import tr
 
@@ -52,11 +53,12 @@ class ShortcutsDialog(QDialog):
         for number, row in enumerate(known):
             for column, words in enumerate(row):
                 self.table.setItem(number, column, QTableWidgetItem(words))
-        self.table.resizeColumnsToContents()
-        self.table.horizontalHeader().setStretchLastSection(True)
-        line = self.fontMetrics().height()
+        self.table.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
+        header = self.table.horizontalHeader()
+        header.setSectionResizeMode(0, QHeaderView.ResizeMode.Stretch)
+        header.setSectionResizeMode(1, QHeaderView.ResizeMode.ResizeToContents)
         in_column(self.table, (_closer(self), 0, Qt.AlignmentFlag.AlignTrailing), of=self)
-        self.resize(line * 28, line * 30)
+        fit_on_screen(self, 40, 30)
 
 
 class AboutDialog(QDialog):
@@ -130,7 +132,7 @@ class ComparingDialog(QDialog):
         closer = (close, 0, Qt.AlignmentFlag.AlignTrailing)
         in_column(self.words, (self.list, 1), closer, of=self, margins=line, spacing=line // 2)
         self.list.setVisible(bool(self.differences))
-        self.resize(line * WIDTH_LINES, line * (HEIGHT_LINES if self.differences else 6))
+        fit_on_screen(self, WIDTH_LINES, HEIGHT_LINES if self.differences else 6)
         document.destroyed.connect(self.close)
 
     def _told(self) -> str:

@@ -8,7 +8,7 @@ from importlib import import_module
 from pathlib import Path
 from typing import TYPE_CHECKING, TypeGuard
 
-from PySide6.QtCore import QEvent, QObject, Qt, QTimer, Signal
+from PySide6.QtCore import QEvent, QObject, QSize, Qt, QTimer, Signal
 from PySide6.QtGui import (
     QCloseEvent,
     QDragEnterEvent,
@@ -38,6 +38,7 @@ from nep_studio.ui.messages import Answer, Message
 from nep_studio.ui.running.actions import fill_run_menu, follow_running
 from nep_studio.ui.services import Services, Studio
 from nep_studio.ui.theme.icons import fit_icons
+from nep_studio.ui.widgets.forms import room_around
 from nep_studio.ui.words import tr
 
 from .dialogs import offer_recovery, open_settings
@@ -264,7 +265,10 @@ def _take_no_focus_by_wheel(widget: QObject) -> None:
         widget.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
 
 
-FIRST_SIZE = (1280, 800)
+FIRST_SIZE = QSize(1280, 800)
+
+FRAME = QSize(0, 40)
+"""What the title of a window takes of the screen."""
 
 
 class MainWindow(QMainWindow):
@@ -289,7 +293,7 @@ class MainWindow(QMainWindow):
         self._pointer_rules = PointerRules(self)
         self.lazy = LazyInitialiser(self)
         self.setAcceptDrops(True)
-        self.resize(*FIRST_SIZE)
+        self.resize(FIRST_SIZE.boundedTo(room_around(None).size() - FRAME))
         self.restoreGeometry(self.settings.state("geometry"))
         self._build()
         if is_gradual:

@@ -94,6 +94,8 @@ class WindowHost:
     def _add_panel(self, new: NewPanel) -> None:
         panels = self.workbench.panels
         panels.add(new.widget, new.title, new.icon_name, new.area, is_shown=new.is_shown)
+        if new.has_own_robot:
+            panels.rooms.with_own_robot.add(new.widget)
         if new.history is not None:
             panels.rooms.histories[new.widget] = new.history
             new.history.history_changed.connect(self._window.update_actions)

@@ -14,7 +14,7 @@ from nep_studio.support import startup
 from nep_studio.support.startup import Place, StartupFile, startup_files
 from nep_studio.ui.labels import labelled
 from nep_studio.ui.theme.look import code_font
-from nep_studio.ui.widgets.forms import plain_label
+from nep_studio.ui.widgets.forms import fit_on_screen, plain_label
 from nep_studio.ui.widgets.layouts import in_column, in_row
 from nep_studio.ui.words import tr
 
@@ -120,4 +120,4 @@ class FilesDialog(QDialog):
         close.clicked.connect(self.accept)
         line = self.fontMetrics().height()
         in_column((self.text, 1), in_row(1, close), of=self, margins=line)
-        self.resize(line * 40, line * 24)
+        fit_on_screen(self, 40, 24)

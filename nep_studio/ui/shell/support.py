@@ -34,7 +34,7 @@ from nep_studio.ui.messages import Answer, Message
 from nep_studio.ui.services import Studio
 from nep_studio.ui.theme.icons import icon
 from nep_studio.ui.theme.look import code_font, load_fonts
-from nep_studio.ui.widgets.forms import hint, plain_label, room_around, styled
+from nep_studio.ui.widgets.forms import fit_on_screen, hint, plain_label, styled
 from nep_studio.ui.widgets.layouts import in_column, in_row
 from nep_studio.ui.widgets.questions import ask_for_path
 from nep_studio.ui.words import count_words, is_right_to_left, tr
@@ -118,10 +118,9 @@ class SupportDialog(QDialog):
         buttons = in_row((self.state, 1), self.copy_button, self.save_button, self.close_button)
         in_column(told, (self.preview, 1), buttons, of=self, margins=line, spacing=line // 2)
         letter = self.preview.fontMetrics()
-        room = room_around(self.parentWidget())
-        width = min(letter.averageCharWidth() * COLUMNS, room.width())
-        height = min(letter.lineSpacing() * LINES, room.height() * 3 // 4)
-        self.resize(width + 2 * line, height + 6 * line)
+        width = letter.averageCharWidth() * COLUMNS + 2 * line
+        height = letter.lineSpacing() * LINES + 6 * line
+        fit_on_screen(self, width / line, height / line)
 
     def _on_finished(self) -> None:
         from nep_studio.support.report import report_of

@@ -133,11 +133,14 @@ FEWEST_LETTERS = 10
 
 
 class ElidedLabel(QLabel):
-    """Shows as much of its words as it can; its tool tip and screen readers have all of them."""
+    """Shows as much of its words as it can; its tool tip and screen readers have all of them.
 
-    def __init__(self, parent: QWidget | None = None) -> None:
+    With ``all_or_none`` words that lack the end are not shown at all.
+    """
+
+    def __init__(self, parent: QWidget | None = None, *, all_or_none: bool = False) -> None:
         super().__init__(parent)
-        self.words = ""
+        self.words, self._all_or_none = "", all_or_none
         self.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Preferred)
 
     def set_words(self, words: str) -> None:
@@ -154,7 +157,8 @@ class ElidedLabel(QLabel):
     def _fit(self) -> None:
         room, mode = self.contentsRect().width(), Qt.TextElideMode.ElideRight
         shown = self.fontMetrics().elidedText(self.words, mode, room)
-        if len(shown) < min(len(self.words), FEWEST_LETTERS):
+        fewest = len(self.words) if self._all_or_none else FEWEST_LETTERS
+        if shown != self.words and len(shown) <= fewest:
             shown = ""
         self.setText(shown)
         self.setToolTip("" if shown == self.words else plain_tip(self.words))

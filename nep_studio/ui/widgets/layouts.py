@@ -222,6 +222,8 @@ class Flow(QLayout):
                 continue
             size = item.sizeHint()
             size.setWidth(min(size.width(), max(room.width(), item.minimumSize().width())))
+            if item.hasHeightForWidth():
+                size.setHeight(item.heightForWidth(size.width()))
             if x > room.x() and x + size.width() > room.right() + 1:
                 x, y, row = room.x(), y + row + self.spacing(), 0
             if is_real:

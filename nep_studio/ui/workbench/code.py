@@ -199,7 +199,7 @@ class CodePane(QWidget):
         labelled(self, name="Python")
         self.apply_button.setProperty("kind", "primary")
         gap = self.fontMetrics().height() // 3
-        self.title = ElidedLabel()
+        self.title = ElidedLabel(all_or_none=True)
         self.title.setProperty("role", "hint")
         self.buttons = in_row((self.title, 1), margins=(2 * gap, gap, gap, gap), spacing=gap)
         self.setMinimumWidth(9 * self.fontMetrics().height())  # its buttons can do without words

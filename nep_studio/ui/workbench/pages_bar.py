@@ -267,10 +267,12 @@ class PageTabs(QTabBar):
         if close is None:
             self.setTabButton(index, side, None)
             return
-        button, line = QToolButton(self, autoRaise=True), self.fontMetrics().height()
+        button, line = QToolButton(self), self.fontMetrics().height()
+        button.setProperty("kind", "on_tab")
         explained(button, "Close this tab")
         button.setIcon(icon("x", theme))
         button.setIconSize(QSize(line * 3 // 4, line * 3 // 4))
+        button.setFixedSize(line, line)  # no higher than the words: else all tabs grow
         button.setFocusPolicy(Qt.FocusPolicy.NoFocus)
         button.clicked.connect(close)
         self.setTabButton(index, side, button)

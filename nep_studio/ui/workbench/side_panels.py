@@ -188,6 +188,8 @@ class Rooms(QStackedWidget):
         self.open: list[QWidget] = []
         self.histories: dict[QWidget, OwnHistory] = {}
         """Of those rooms in which undo means something else than in the project."""
+        self.with_own_robot: set[QWidget] = set()
+        """Those that show a robot themselves: two beside each other would be one too many."""
         self.addWidget(canvas)
         self.currentChanged.connect(self.changed)
 
@@ -247,6 +249,9 @@ CANVAS_SHARE = 0.56
 
 STAGE_SHARE, WIDEST_STAGE = 0.21, 34
 """How much of the width the stage has, and how many lines of text it is wide at most."""
+
+LEAST_STAGE = 12
+"""So many lines of text it is wide as long as that takes nothing of the share of the canvas."""
 
 PERSON_SHARE = 0.38
 """How much of the height beside the canvas the person has when somebody looks at it."""
@@ -322,6 +327,7 @@ class Panels(QObject):
                 panel.area.setCurrentWidget(widget)
                 if isinstance(panel.area, Area):
                     panel.area.stand_back(False)
+                    self._show_stage()
                     self._share_width()
 
     def show_usual(self) -> None:
@@ -374,8 +380,9 @@ class Panels(QObject):
         area, line = self.areas["left"], self.row.fontMetrics().height()
         whole = self.row.width() if self.row.isVisible() else self.row.window().width()
         rest = whole - round(whole * CANVAS_SHARE)
-        stage = 0 if self.stage.isHidden() else min(round(whole * STAGE_SHARE), line * WIDEST_STAGE)
-        wanted = min(area.sizeHint().width(), area.maximumWidth())
+        wanted = 0 if area.isHidden() else min(area.sizeHint().width(), area.maximumWidth())
+        stage = max(round(whole * STAGE_SHARE), min(rest - wanted, line * LEAST_STAGE))
+        stage = 0 if self.stage.isHidden() else min(stage, line * WIDEST_STAGE)
         left = 0 if area.isHidden() else max(min(wanted, rest - stage), area.minimumWidth())
         right = self.areas["right"]
         beside = 0 if right.isHidden() else max(round(whole * 0.22), right.tabs_width())
@@ -416,9 +423,12 @@ class Panels(QObject):
 
     def _on_rooms_changed(self) -> None:
         """A room has the whole page: what tells of the canvas stands back."""
-        is_room = self.rooms.shown is not None
+        shown = self.rooms.shown
         for area in (self.areas["left"], self.areas["right"], self.areas["bottom"]):
-            area.stand_back(is_room)
+            area.stand_back(shown is not None)
+        for area in (self.areas["stage"], self.areas["person"]):
+            area.stand_back(shown in self.rooms.with_own_robot)
+        self._show_stage()
         self._share_width()
 
     def _on_theme_changed(self) -> None:

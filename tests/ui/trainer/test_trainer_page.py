@@ -52,7 +52,7 @@ def test_from_the_name_to_five_takes_with_keys_alone(
 
 def test_without_a_watch_record_says_what_is_missing(page: TrainerPage, qtbot: QtBot) -> None:
     name = with_takes(page, "Wave")
-    page.cards.cards[name].record.click()
+    page.record(name)
 
     assert page.bar.words.text().startswith("Nothing is heard yet.")
     assert not page.session.is_on

@@ -18,9 +18,14 @@ from PySide6.QtWidgets import (
 from pytestqt.qtbot import QtBot
 
 from nep_studio import paths
+from nep_studio.ui.plugins.person.person_box import WordsButton
+from nep_studio.ui.plugins.robots.stage_tools import StageTools
 from nep_studio.ui.services import Studio
+from nep_studio.ui.shell.help_dialogs import ShortcutsDialog
 from nep_studio.ui.shell.main_window import MainWindow
+from nep_studio.ui.widgets.forms import room_around
 from nep_studio.ui.words import PSEUDO, use_language
+from tests.ui.window.putting_away import put_away
 
 pytestmark = pytest.mark.long
 
@@ -142,3 +147,75 @@ def test_what_is_cut_off_is_found(qtbot) -> None:
     label.resize(30, 30)
 
     assert len(cut_buttons(box)) == len(cut_labels(box)) == 1
+
+
+SMALL = (1093, 582)
+"""What is left of 1366 x 768 pixels at 125 %."""
+
+
+def test_on_a_small_screen_the_first_window_and_its_dialogs_fit(
+    studio: Studio, qtbot: QtBot
+) -> None:
+    room = room_around(None).size()
+
+    window = MainWindow(studio)
+    qtbot.addWidget(window, before_close_func=put_away)
+    shortcuts = ShortcutsDialog(
+        [("Redo", "Ctrl+Y, Alt+Shift+Backspace, Ctrl+Shift+Z")] * 60, window
+    )
+
+    assert window.width() <= room.width() and window.height() < room.height()
+    assert shortcuts.height() <= room.height() * 0.9
+    assert shortcuts.table.horizontalScrollBar().maximum() == 0
+
+
+def test_the_buttons_of_the_person_show_all_words_in_a_small_window(karate, qtbot) -> None:
+    karate.resize(*SMALL)
+    person = next(p.widget for p in karate.workbench.panels.all if p.name == "HumanPanel")
+    for is_shown in (True, False, True):  # closed and opened again
+        action = next(p.action for p in karate.workbench.panels.all if p.widget is person)
+        action.setChecked(is_shown)
+        qtbot.wait(50)
+
+    narrow = [one for one in shown(person, WordsButton) if one.width() < one.sizeHint().width()]
+
+    assert narrow
+    assert all(one.height() >= one.heightForWidth(one.width()) for one in narrow)
+
+
+def test_the_tools_of_the_stage_take_one_row(karate, qtbot) -> None:
+    karate.resize(*SMALL)
+    qtbot.wait(50)
+    tools = karate.findChild(StageTools)
+
+    assert tools.height() < 2 * tools.sound.height()
+
+
+def test_a_page_that_is_seen_whole_has_no_scroll_bars(karate, qtbot) -> None:
+    canvas = karate.workbench.canvas
+    canvas.show_page("robots")
+    qtbot.wait(50)
+
+    assert not canvas.horizontalScrollBar().isVisible()
+    assert not canvas.verticalScrollBar().isVisible()
+
+
+def test_beside_the_page_of_motions_stands_no_second_robot(karate) -> None:
+    panels = karate.workbench.panels
+
+    karate.actions_by_name["make_motion"].trigger()
+    assert panels.stage.isHidden()
+
+    panels.rooms.show_canvas()
+    assert not panels.stage.isHidden()
+
+
+def test_cues_that_do_not_fit_beside_each_other_are_below(window, qtbot) -> None:
+    window.files.open_example(paths.examples() / "theatre_cues.nep")
+    window.resize(*SMALL)
+    panels = window.workbench.panels
+    cues = next(p.widget for p in panels.all if p.name == "CuePanel")
+    panels.show(cues)
+    qtbot.wait(100)
+
+    assert cues.board.width() <= cues.board.parentWidget().width()

@@ -95,7 +95,7 @@ def _used_states(project: Project, language: Language) -> Iterator[str]:
                 yield value
 
 
-_MOST_ROWS, _MOST_PICTURES = 11, 8
+_MOST_ROWS, _MOST_PICTURES = 11, 9
 _PICTURES = {
     "animations": "person-standing",
     "animals": "person-standing",

@@ -215,6 +215,11 @@ class CueBoard(QWidget):
         if event.modifiers() & ~Qt.KeyboardModifier.KeypadModifier or not self.press(event.text()):
             super().keyPressEvent(event)
 
+    def minimumSizeHint(self) -> QSize:
+        """Room for one beside no other: else a board of two columns could not become narrower."""
+        one = max((button.minimumSizeHint().width() for button in self.buttons), default=0)
+        return QSize(one, super().minimumSizeHint().height())
+
     def resizeEvent(self, event: QEvent) -> None:
         """As many in a row as fit."""
         self._arrange()
@@ -239,7 +244,7 @@ def columns_for(buttons: Sequence[QWidget], width: int, gap: int) -> int:
     """How many columns there is room for."""
     if not buttons:
         return 1
-    one = buttons[0].sizeHint().width() + max(gap, 0)
+    one = max(button.sizeHint().width() for button in buttons) + max(gap, 0)
     return max(1, min(len(buttons), (width + max(gap, 0)) // one))
 
 

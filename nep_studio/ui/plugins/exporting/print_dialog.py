@@ -28,6 +28,7 @@ from nep_studio.ui.canvas.painting.painter import BlockPainter
 from nep_studio.ui.theme.colours import LIGHT, Theme, load_theme
 from nep_studio.ui.theme.icons import icon
 from nep_studio.ui.theme.look import code_font, text_font
+from nep_studio.ui.widgets.forms import fit_on_screen
 from nep_studio.ui.widgets.layouts import in_column, in_row
 from nep_studio.ui.words import is_right_to_left, tr
 from nep_studio.ui.workbench.pages_bar import page_title
@@ -354,7 +355,7 @@ class ProgramPrintDialog(QDialog):
             top.addWidget(button, 0, Qt.AlignmentFlag.AlignBottom)
         buttons = in_row(self.setup_button, 1, self.close_button, self.print_button)
         in_column(top, (self.preview, 1), buttons, of=self, margins=line, spacing=line // 2)
-        self.resize(line * 40, line * 36)
+        fit_on_screen(self, 40, 36)
 
     def _connect(self) -> None:
         self.preview.paintRequested.connect(self.print_to)

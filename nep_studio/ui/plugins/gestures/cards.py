@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from PySide6.QtCore import QPoint, QPointF, QRectF, QSize, Qt, QTimer, Signal
+from PySide6.QtCore import QEvent, QObject, QPoint, QPointF, QRectF, QSize, Qt, QTimer, Signal
 from PySide6.QtGui import (
     QDragEnterEvent,
     QDragLeaveEvent,
@@ -33,8 +33,8 @@ from nep_studio.blocks.own_gestures import OwnGesture
 from nep_studio.blocks.program import PAGES
 from nep_studio.ui.canvas.canvas import Canvas
 from nep_studio.ui.labels import explained, follow_words, labelled
-from nep_studio.ui.theme.icons import icon, icon_room, paint_icon
-from nep_studio.ui.widgets.layouts import FlowLayout, in_column, in_row
+from nep_studio.ui.theme.icons import icon, paint_icon
+from nep_studio.ui.widgets.layouts import in_column, in_row
 from nep_studio.ui.words import count_words, tr
 from nep_studio.ui.workbench.placing import insert_clip
 
@@ -161,12 +161,12 @@ def _hat(rect: QRectF, line: float) -> QPainterPath:
 class GestureCard(QFrame):
     """Shows a gesture; everything that is wanted of it is told by signals.
 
+    One button records, that of the page: what it records is the card that was pressed last.
     ``menu_asked`` and ``take_menu_asked`` give a place of the screen; ``takes_dropped`` the ids of
     takes that are of this gesture from now on.
     """
 
     renamed = Signal(str)
-    record_asked = Signal()
     activated = Signal()
     menu_asked = Signal(QPoint)
     take_menu_asked = Signal(QPoint)
@@ -177,10 +177,9 @@ class GestureCard(QFrame):
     ) -> None:
         super().__init__()
         self.name, self._controller = name, controller
-        self._is_current = self._is_target = self._is_recording = False
+        self._is_current = self._is_target = False
         self.title = QLineEdit(maxLength=60)
         self.count = QLabel()
-        self.record = labelled(QPushButton(autoDefault=False), text="Record")
         self.chip = GestureChip(canvas)
         self.menu = QToolButton()
         self.takes = TakesList(controller, pictures)
@@ -191,7 +190,7 @@ class GestureCard(QFrame):
         self.count.setProperty("role", "hint")
         explained(self.menu, "More")
         above = in_row((self.title, 1), self.count, self.menu)
-        between = FlowLayout(spacing=line // 3, widgets=(self.record, self.chip))
+        between = in_row(self.chip, 1)
         margins = (line // 2, line // 2, line // 2, line // 3)
         in_column(above, between, self.takes, of=self, margins=margins, spacing=line // 3)
         self._connect()
@@ -199,7 +198,7 @@ class GestureCard(QFrame):
 
     def _connect(self) -> None:
         self.title.editingFinished.connect(self._on_title_edited)
-        self.record.clicked.connect(self.record_asked)
+        self.title.installEventFilter(self)
         self.menu.clicked.connect(
             lambda: self.menu_asked.emit(self.menu.mapToGlobal(QPoint(0, self.menu.height())))
         )
@@ -214,29 +213,20 @@ class GestureCard(QFrame):
             self._show_title(gesture.title)
         self.chip.show_gesture(self.name, gesture.title)
         self.count.setText(count_words(len(gesture.takes), "1 take", "{n} takes"))
-        explained(self.record, text_of("Record “{gesture}”", gesture=gesture.title))
         self.setAccessibleName(gesture.title)
         labelled(self.takes, name=text_of("Takes of {gesture}", gesture=gesture.title))
         self.takes.show_takes(gesture.takes, badges)
         self.takes.setVisible(bool(gesture.takes))
 
-    def show_state(self, *, is_current: bool, is_recording: bool) -> None:
-        """Show whether Space records this gesture, and whether it is being recorded."""
-        if (is_current, is_recording) == (self._is_current, self._is_recording):
-            return
-        if is_recording != self._is_recording:
-            labelled(self.record, text="Stop" if is_recording else "Record")
-        self._is_current, self._is_recording = is_current, is_recording
-        self.record.setVisible(not is_current)  # the large button below the graph is for this one
-        self.dress()
-        self.update()
+    def show_current(self, is_current: bool) -> None:
+        """Show whether this gesture is the one that is recorded."""
+        if is_current != self._is_current:
+            self._is_current = is_current
+            self.update()
 
     def dress(self) -> None:
         """Take the theme."""
         theme, line = self._controller.look.theme, self.fontMetrics().height()
-        name = "square" if self._is_recording else "circle-dot"
-        self.record.setIcon(icon(name, theme.colour("stop")))
-        self.record.setIconSize(icon_room(line))
         self.menu.setIcon(icon("ellipsis", theme))
         self.menu.setIconSize(QSize(line, line))
         self.chip.update()
@@ -274,6 +264,17 @@ class GestureCard(QFrame):
         gesture = self._controller.gestures.get(self.name)
         if gesture is not None:
             self._show_title(gesture.title)
+
+    def mousePressEvent(self, event: QMouseEvent) -> None:
+        """Choose this gesture: it is recorded next."""
+        super().mousePressEvent(event)
+        self.activated.emit()
+
+    def eventFilter(self, watched: QObject, event: QEvent) -> bool:
+        """Who is at the name means this gesture, too."""
+        if event.type() == QEvent.Type.FocusIn:
+            self.activated.emit()
+        return super().eventFilter(watched, event)
 
     def dragEnterEvent(self, event: QDragEnterEvent) -> None:
         """Take the takes of other gestures."""
@@ -336,7 +337,7 @@ class Cards(QScrollArea):
         labelled(self.new_name, placeholder="Name of a new gesture", name="Name of a new gesture")
         self.empty.setProperty("role", "hint")
         new, inner = in_row((self.new_name, 1), self.new_button), QWidget()
-        margins = (line // 4, line // 4, line // 2, line // 4)
+        margins = (line // 2, line // 4, line // 2, line // 4)
         self._box = in_column(new, self.empty, 1, of=inner, margins=margins, spacing=line // 2)
         self.setWidget(inner)
 
@@ -419,7 +420,6 @@ class Cards(QScrollArea):
     def _make_card(self, name: str) -> GestureCard:
         card = self.cards[name] = GestureCard(name, self._controller, self._canvas, self._pictures)
         card.renamed.connect(lambda title: self._keeping.rename_gesture(name, title))
-        card.record_asked.connect(lambda: self.record_asked.emit(name))
         card.activated.connect(lambda: self.choose(name))
         card.menu_asked.connect(lambda place: self.menu_asked.emit(name, place))
         card.take_menu_asked.connect(lambda place: self.take_menu_asked.emit(name, place))
@@ -430,9 +430,7 @@ class Cards(QScrollArea):
 
     def _show_states(self) -> None:
         for name, card in self.cards.items():
-            is_recording = self._session.is_on and self._session.gesture == name
-            card.show_state(is_current=name == self.current, is_recording=is_recording)
-            card.record.setEnabled(not self._session.is_on or is_recording)
+            card.show_current(name == self.current)
 
     def _on_opened(self, take: str) -> None:
         self._controller.choose_take("" if take == self._controller.chosen_take else take)

@@ -117,9 +117,8 @@ def hint_words(controller: GestureController) -> str:
 
 
 def button_words(step: Step) -> str:
-    """What the button beside the words says; empty for none: Record has its own below."""
+    """What the button beside the words says; empty where that button is there already."""
     return {
-        "name": tr("New gesture"),
         "another": tr("New gesture"),
         "train": tr("Train"),
         "try": tr("Try it"),

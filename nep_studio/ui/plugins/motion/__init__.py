@@ -68,7 +68,7 @@ def make(host: Host) -> Parts:
             menu="robots",
         ),
     ]
-    panel = NewPanel(room, "Motion", "person-standing", "page", history=room)
+    panel = NewPanel(room, "Motion", "person-standing", "page", history=room, has_own_robot=True)
     return Parts(panel, actions=actions, menu_sections=[kit.section])
 
 

@@ -10,7 +10,7 @@ from PySide6.QtWidgets import QDialog, QLabel, QPlainTextEdit, QPushButton, QWid
 
 from faults.files import content
 from nep_studio.blocks.own_animations import OwnAnimation, why_not_animation
-from nep_studio.ui.widgets.forms import plain_label
+from nep_studio.ui.widgets.forms import fit_on_screen, plain_label
 from nep_studio.ui.widgets.layouts import in_column, in_row
 from nep_studio.ui.widgets.questions import ask_for_path
 from nep_studio.ui.words import tr
@@ -41,7 +41,6 @@ class ImportDialog(QDialog):
         self.use_button = QPushButton(tr("Use this motion"))
         self.cancel_button = QPushButton(tr("Cancel"))
         self._title = ""
-        line = self.fontMetrics().height()
         words = tr(
             "In Choregraphe, right-click in the timeline and choose “Export motion to "
             "clipboard”, Python or C++. Paste it here."
@@ -50,7 +49,7 @@ class ImportDialog(QDialog):
         self.use_button.setProperty("kind", "primary")
         foot = in_row(self.file_button, 1, self.cancel_button, self.use_button)
         in_column(how, (self.text, 1), self.reason, foot, of=self)
-        self.resize(line * 36, line * 24)
+        fit_on_screen(self, 36, 24)
         self.text.textChanged.connect(self._on_text_changed)
         self.file_button.clicked.connect(self._on_file_asked)
         self.use_button.clicked.connect(self._on_use_clicked)

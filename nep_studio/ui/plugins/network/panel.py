@@ -74,6 +74,7 @@ class NetworkWorkspace(QWidget):
         for widget in (self.empty, self.graph, self.list):
             self.views.addWidget(widget)
         left = QWidget()
+        self.summary.setIndent(self.fontMetrics().height() // 2)
         in_column(bar, (self.views, 1), of=left, margins=0)
         split = QSplitter(Qt.Orientation.Horizontal, childrenCollapsible=False)
         split.addWidget(left)

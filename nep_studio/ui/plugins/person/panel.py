@@ -28,7 +28,7 @@ from nep_studio.ui.floor import Floor
 from nep_studio.ui.labels import follow_words, labelled
 from nep_studio.ui.messages import announce
 from nep_studio.ui.running.runner import Heard, Tap
-from nep_studio.ui.theme.icons import icon
+from nep_studio.ui.theme.icons import icon, icon_room
 from nep_studio.ui.theme.look import Look
 from nep_studio.ui.widgets.forms import plain_label
 from nep_studio.ui.widgets.layouts import Columns, in_column, in_row
@@ -272,6 +272,8 @@ class HumanPanel(QScrollArea):
         theme = self._look.theme
         self.run_button.setIcon(icon("play", theme.colour("run_text")))
         self.say_button.setIcon(icon("message-square", theme))
+        for button in (self.run_button, self.say_button):
+            button.setIconSize(icon_room(self.fontMetrics().height()))
 
     def showEvent(self, event: QShowEvent) -> None:
         """Make what is in it, and follow where the robots are."""

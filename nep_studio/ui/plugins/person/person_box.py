@@ -140,13 +140,15 @@ KEPT = ("face", "ball", "mark")
 
 
 class WordsButton(QPushButton):
-    """A button whose words end in … where there is no room for all of them."""
+    """A button whose words take two lines where there is no room for all of them in one."""
 
     def __init__(self, words: Words, look: Look, icon_name: str) -> None:
         super().__init__()
         self._look, self._icon_name = look, icon_name
         self._said, self.words = words, ""
-        self.setSizePolicy(QSizePolicy.Policy.Preferred, QSizePolicy.Policy.Fixed)
+        policy = QSizePolicy(QSizePolicy.Policy.Preferred, QSizePolicy.Policy.Minimum)
+        policy.setHeightForWidth(True)
+        self.setSizePolicy(policy)
         follow_words(self, self._say)
         look.theme_changed.connect(self._dress)
         self._dress()
@@ -168,15 +170,29 @@ class WordsButton(QPushButton):
         spare = self.fontMetrics().horizontalAdvance(self.words) - letter * FEWEST_LETTERS
         return QSize(usual.width() - max(spare, 0), usual.height())
 
+    def heightForWidth(self, width: int) -> int:
+        """Room for a second line, where one is needed."""
+        usual = self.sizeHint()
+        return usual.height() + (self.fontMetrics().lineSpacing() if width < usual.width() else 0)
+
     def paintEvent(self, event: QPaintEvent) -> None:
         """Paint as many of the words as there is room for."""
         option = QStyleOptionButton()
         self.initStyleOption(option)
         lacking = max(self.sizeHint().width() - self.width(), 0)
-        room = self.fontMetrics().horizontalAdvance(self.words) + 1 - lacking
-        shown = self.fontMetrics().elidedText(self.words, Qt.TextElideMode.ElideRight, room)
+        lines = self.in_two_lines() if lacking else [self.words]
+        metrics, elide = self.fontMetrics(), Qt.TextElideMode.ElideRight
+        room = metrics.horizontalAdvance(self.words) + 1 - lacking
+        shown = "\n".join(metrics.elidedText(line, elide, room) for line in lines)
         option.text = shown.replace("&", "&&")
         QStylePainter(self).drawControl(QStyle.ControlElement.CE_PushButton, option)
+
+    def in_two_lines(self) -> list[str]:
+        """The words, broken where both lines are shortest; in the middle where no word ends."""
+        words, measured = self.words, self.fontMetrics().horizontalAdvance
+        ends = [at for at, letter in enumerate(words) if letter == " "] or [(len(words) + 1) // 2]
+        broken = [[words[:end].rstrip(), words[end:].lstrip()] for end in ends]
+        return min(broken, key=lambda lines: max(measured(line) for line in lines))
 
     def _dress(self) -> None:
         self.setIcon(icon(self._icon_name, self._look.theme))

@@ -8,7 +8,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QEvent, QObject, Qt, QTimer, Signal
-from PySide6.QtGui import QKeyEvent
+from PySide6.QtGui import QKeyEvent, QResizeEvent
 from PySide6.QtWidgets import QPushButton, QSizePolicy
 
 from nep_core.wire.messages import RobotState, Thing, ThingKind
@@ -199,6 +199,16 @@ class RobotStage(InLines):
         bar.close_button.clicked.connect(lambda: self.choose(""))
         self.floor.changed.connect(self._on_floor_changed)
 
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        """Invite only where there is room for the words: the tool “Place” does the same."""
+        super().resizeEvent(event)
+        self._show_invitation()
+
+    def _show_invitation(self) -> None:
+        is_wanted = not self.floor.things and self.floor.has_room
+        has_words = self.invitation.sizeHint().width() <= self.width()
+        self.invitation.setVisible(is_wanted and has_words)
+
     def _tell_names(self) -> None:
         """Call the places that can be touched as they are called now."""
         if self._view is not None:
@@ -305,7 +315,7 @@ class RobotStage(InLines):
         self.thing_bar.show_thing(chosen)
         self.tools.show_things(things)
         self.tools.allow_placing(self.floor.has_room)
-        self.invitation.setVisible(not things and self.floor.has_room)
+        self._show_invitation()
         if self._view is not None:
             view = self._view
             is_first = bool(things) and not view.room.things

@@ -5,7 +5,7 @@ from __future__ import annotations
 from functools import partial
 
 from PySide6.QtCore import QSignalBlocker, Qt, Signal
-from PySide6.QtGui import QAction, QActionGroup
+from PySide6.QtGui import QAction, QActionGroup, QResizeEvent
 from PySide6.QtWidgets import QLabel, QLineEdit, QMenu, QToolButton, QWidget
 
 from nep_core.wire.messages import Thing, ThingKind
@@ -168,19 +168,34 @@ class StageTools(QWidget):
         self._dress()
 
     def _lay_out(self) -> None:
-        flow = FlowLayout(self, self.fontMetrics().height() // 5)
+        self._flow = FlowLayout(self, self.fontMetrics().height() // 5)
         labelled(self.view, text="View", name="View", tip="From where the robots are looked at")
         labelled(self.place, text="Place", name="Place", tip="Put something before the robots")
         labelled(self.sound, text="Sound", name="Sound")
         labelled(self.large, text="Large", name="Large")
         for button in (self.view, self.place, self.sound, self.large):
             button.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
-            flow.addWidget(button)
+            self._flow.addWidget(button)
         for button in (self.view, self.place):
-            button.setToolButtonStyle(Qt.ToolButtonStyle.ToolButtonTextBesideIcon)
             button.setPopupMode(QToolButton.ToolButtonPopupMode.InstantPopup)
         self.sound.setCheckable(True)
         self.large.setCheckable(True)
+
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        """All in one row: where there is no room for words, the robot has it."""
+        super().resizeEvent(event)
+        self._fit()
+
+    def _fit(self) -> None:
+        buttons = (self.view, self.place, self.sound, self.large)
+        for button in buttons:
+            button.ensurePolished()  # before that the style sheet does not count
+        for button in buttons[:2]:
+            button.setToolButtonStyle(Qt.ToolButtonStyle.ToolButtonTextBesideIcon)
+        wanted = sum(button.sizeHint().width() for button in buttons)
+        if wanted + self._flow.spacing() * len(buttons) > self.width():
+            for button in buttons[:2]:
+                button.setToolButtonStyle(Qt.ToolButtonStyle.ToolButtonIconOnly)
 
     def _fill_place_menu(self) -> None:
         menu = QMenu(self.place)
@@ -243,6 +258,7 @@ class StageTools(QWidget):
         for button, name in icons:
             button.setIcon(icon(name, theme, "selection_text" if button.isChecked() else "text"))
             button.setIconSize(icon_room(line))
+        self._fit()
         self.fit.setIcon(icon("crosshair", theme))
         self.clear.setIcon(icon("brush", theme))
         self.real.setIcon(icon("plug", theme))

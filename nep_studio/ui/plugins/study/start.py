@@ -35,7 +35,7 @@ from nep_studio.study.records import (
 )
 from nep_studio.ui.documents import Document
 from nep_studio.ui.messages import LoggedMessage, Message
-from nep_studio.ui.widgets.forms import hint, room_around
+from nep_studio.ui.widgets.forms import fit_on_screen, hint
 from nep_studio.ui.widgets.layouts import in_column, in_row, scrolled
 from nep_studio.ui.words import tr
 
@@ -150,8 +150,7 @@ class StartDialog(QDialog):
         page = QWidget()
         in_column(self.participant_fields, card, 1, of=page, margins=0, spacing=line)
         in_column((scrolled(page), 1), foot, of=self, margins=line, spacing=line)
-        room = room_around(self).size()
-        self.resize(min(line * 34, room.width()), min(line * 26, room.height()))
+        fit_on_screen(self, 34, 26)
         fields = self.participant_fields
         fields.changed.connect(lambda: self.start_button.setEnabled(bool(fields.participant)))
         self.start_button.clicked.connect(self._on_start_clicked)

@@ -238,7 +238,7 @@ WIDEST = 16_777_215
 SHELF_LINES = 13.5
 """How wide the list of blocks wants to be, in lines of text."""
 
-LEAST_SHELF_LINES = 8.5
+LEAST_SHELF_LINES = 11.0
 """Where the list would be narrower, the categories leave their names away."""
 
 
