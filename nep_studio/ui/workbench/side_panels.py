@@ -292,7 +292,7 @@ class Panels(QObject):
         self.stage.hide()
         for place in self._places():
             place.close_asked.connect(self._on_close_asked)
-        rooms.open_asked.connect(self.show)
+        rooms.open_asked.connect(self._on_open_asked)
         rooms.changed.connect(self._on_rooms_changed)
         look.theme_changed.connect(self._on_theme_changed)
 
@@ -414,6 +414,15 @@ class Panels(QObject):
             self._share_width()
         self._settings.set_shown(panel.name, is_on)
 
+    def _on_open_asked(self, widget: QWidget) -> None:
+        """Show a room, and give it the keyboard: who opened it wants to work there."""
+        self.show(widget)
+        for child in widget.findChildren(QWidget):
+            can_have = child.focusPolicy() & Qt.FocusPolicy.TabFocus and child.isEnabled()
+            if can_have and child.isVisible():
+                child.setFocus(Qt.FocusReason.TabFocusReason)
+                return
+
     def _on_close_asked(self, widget: QWidget) -> None:
         self._is_closing = True
         for panel in self.all:
@@ -434,6 +443,13 @@ class Panels(QObject):
     def _on_theme_changed(self) -> None:
         for panel in self.all:
             self._dress(panel)
+
+    def set_sign(self, widget: QWidget, icon_name: str) -> None:
+        """Give a panel another picture: it tells of something."""
+        for panel in self.all:
+            if panel.widget is widget and panel.icon_name != icon_name:
+                panel.icon_name = icon_name
+                self._dress(panel)
 
     def _dress(self, panel: Panel) -> None:
         theme = self._look.theme

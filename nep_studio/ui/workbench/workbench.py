@@ -294,6 +294,7 @@ class Workbench(QWidget):
         if stopped is not None and stopped.block in self.canvas.editor.project.blocks:
             problems = [stopped, *problems]
         self.problems.show_problems(problems)
+        self.panels.set_sign(self.problems, "circle-alert" if problems else "circle-check")
         before = self.canvas.problems.problems
         self.canvas.problems.show(problems)
         if self.canvas.problems.problems != before:

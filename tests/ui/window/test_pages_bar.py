@@ -70,6 +70,8 @@ def test_a_room_has_the_whole_page_beside_the_robot(
     is_beside = room != "Motion"  # which shows a robot itself
     assert workbench.panels.areas["stage"].isVisible() == is_beside
     assert shown.width() >= 0.7 * workbench.width()
+    focus = QApplication.focusWidget()
+    assert focus is not None and shown.isAncestorOf(focus)
 
     qtbot.mouseClick(bar.tabs, LEFT, pos=bar.tabs.tabRect(0).center())
     assert workbench.canvas.isVisible() and workbench.helpers.palette.isVisible()
