@@ -158,7 +158,9 @@ def drag_rule(teacher: Newcomer, page: TrainerPage) -> None:
     QTest.mouseRelease(chip, LEFT, Qt.KeyboardModifier.NoModifier, end)
     hat = teacher.block("event.gesture")
     assert hat.fields["gesture"] == "push"
-    teacher.from_palette("robot.say", teacher.foot(hat.id) + QPoint(40, 14))
+    teacher.qtbot.waitUntil(teacher.canvas.isVisible)
+    teacher.qtbot.wait(200)  # until all around it has its place again
+    teacher.from_palette("robot.say", teacher.foot(hat.id) + QPoint(100, 20))
     assert [teacher.project.blocks[one].type for one in teacher.body()] == [
         "event.gesture",
         "robot.say",
@@ -174,9 +176,6 @@ def test_a_teacher_teaches_two_gestures_and_nao_answers(
     panel = window.findChild(TrainerPanel)
     window.workbench.panels.show(panel)
     page = panel.opened()
-    teacher.canvas.show_page("robots")
-    teacher.from_palette("robots.robot", QPoint(120, 60))
-    teacher.canvas.show_page("behaviour")
 
     connect(teacher, page, free_port)
     for title in TITLES:

@@ -112,5 +112,5 @@ def test_the_end_of_a_run_is_told_in_one_message(stage: Scene) -> None:
     stage.until(lambda: "The program has ended." in stage.shown)
     stage.until(lambda: stage.runner.board.nodes["NAO"].health == "stopped")
 
-    told = [one.title for one in stage.told if not one.title.startswith("It runs")]
+    told = [one.title for one in stage.told if not one.title.startswith("The program runs")]
     assert told == ["The program has ended."]
