@@ -36,7 +36,7 @@ def test_a_drag_step_paints_the_same_in_a_program_of_any_size(
         for _ in range(3):  # the palette shows what was used last
             QApplication.processEvents()
         block = person.body()[2]
-        place = person.carry(block, QPoint(420, 300))
+        place = person.carry(block, QPoint(120, 300))
         QApplication.processEvents()
         painted.clear()
         pixels = PaintedPixels()
