@@ -200,6 +200,8 @@ def code_edit(stage: Stage) -> QImage:
     """The Python of the blocks while it is changed."""
     with stage.window() as window:
         code = window.workbench.code
+        window.workbench.panels.show(code)
+        quiet()
         code.begin_editing()
         quiet()
         return picture(window, part_of(window, window.workbench.panels.areas["right"]))

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 Array = NDArray[np.float64]
 Place = tuple[float, float, float]
 
-NEAREST_M, FARTHEST_M = 0.18, 12.0
+NEAREST_M, FARTHEST_M = 0.18, 20.0
 LOWEST_RAD, HIGHEST_RAD = math.radians(-12), math.radians(88)
 FIELD_RAD = math.radians(28)
 """How much is seen from the lower edge of a picture to the upper one."""

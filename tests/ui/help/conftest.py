@@ -17,7 +17,7 @@ from nep_studio.ui.plugins.help.help_controller import HelpController
 from nep_studio.ui.plugins.help.panel import HelpPanel
 from nep_studio.ui.plugins.help.repository import Book
 from nep_studio.ui.services import Studio
-from nep_studio.ui.shell.main_window import MainWindow
+from nep_studio.ui.shell.main_window import FIRST_SIZE, MainWindow
 from tests.ui.window.conftest import home, studio
 from tests.ui.window.putting_away import put_away
 
@@ -35,6 +35,7 @@ def book() -> Book:
 def window(studio: Studio, qtbot: QtBot) -> MainWindow:
     """The window as it is at the first start."""
     made = MainWindow(studio)
+    made.resize(FIRST_SIZE)
     qtbot.addWidget(made, before_close_func=put_away)
     made.show()
     made.start(None)

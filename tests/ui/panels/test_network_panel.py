@@ -206,8 +206,7 @@ def test_hidden_it_costs_nothing(bench: Bench, start: Start, qtbot: QtBot) -> No
     bench.network.open_topic("/imu")
     assert bench.network.pane.is_hearing
 
-    bench.window.workbench.panels.show(bench.nodes)
-    bench.nodes.hide()
+    bench.window.workbench.rooms.show_canvas()
 
     assert not bench.network.pane.is_hearing
     qtbot.waitUntil(lambda: not bench.network._feed.is_watching)

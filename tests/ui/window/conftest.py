@@ -16,7 +16,7 @@ from nep_studio.blocks.language import Language
 from nep_studio.run.installation import studio_language
 from nep_studio.settings import FOLDER_VARIABLE, Settings
 from nep_studio.ui.services import Studio
-from nep_studio.ui.shell.main_window import MainWindow
+from nep_studio.ui.shell.main_window import FIRST_SIZE, MainWindow
 from nep_studio.ui.words import use_language
 from tests.ui.window.putting_away import put_away
 
@@ -72,8 +72,9 @@ def chooser() -> Chooser:
 
 @pytest.fixture
 def window(studio: Studio, chooser: Chooser, qtbot: QtBot) -> MainWindow:
-    """The window as it is at the first start."""
+    """The window as it is at the first start, on a screen that has room for it."""
     made = MainWindow(studio, chooser)
+    made.resize(FIRST_SIZE)
     qtbot.addWidget(made, before_close_func=put_away)
     made.show()
     made.start(None)

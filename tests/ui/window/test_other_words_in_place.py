@@ -208,8 +208,8 @@ def test_a_language_chosen_with_the_mouse_keeps_the_window(
     karate.resize(1250, 740)
     panels.show(workbench.problems)
     qtbot.wait(50)
-    left, middle, right = panels.row.sizes()
-    panels.row.setSizes([left + 40, middle - 70, right + 30])
+    left, middle, beside, right = panels.row.sizes()
+    panels.row.setSizes([left + 40, middle - 70, beside, right + 30])
     document = karate.files.document
     canvas.selection.set([document.project.pages["behaviour"][1].body[2]])
     canvas.commands.duplicate()
@@ -260,6 +260,7 @@ def test_an_example_opens_in_the_language_of_the_window(window: MainWindow, qtbo
     window.studio.choose_language("de")
 
     QTest.mouseClick(window.start_page.cards[KARATE], Qt.MouseButton.LeftButton)
+    window.workbench.panels.show(window.workbench.code)
 
     qtbot.waitUntil(lambda: "Karateschlag" in window.workbench.code.text.toPlainText())
     project = window.files.document.project

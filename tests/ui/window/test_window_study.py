@@ -118,6 +118,7 @@ def test_what_happens_in_a_session_is_kept(
     document.editor.apply(RenameProject("One"))
     document.editor.apply(RenameProject("Two"))
     window.running.runner.run_asked.emit()
+    window.running._ran = document  # as when a run begins
     for state in ("starting", "running", "paused", "running", "stopping", "idle"):
         window.running.runner.state_changed.emit(state)
     ending = Ending(Problem("NAO does not answer"))

@@ -185,10 +185,9 @@ def test_the_buttons_of_the_person_show_all_words_in_a_small_window(karate, qtbo
 
 def test_the_tools_of_the_stage_take_one_row(karate, qtbot) -> None:
     karate.resize(*SMALL)
-    qtbot.wait(50)
     tools = karate.findChild(StageTools)
 
-    assert tools.height() < 2 * tools.sound.height()
+    qtbot.waitUntil(lambda: tools.isVisible() and tools.height() < 2 * tools.sound.height())
 
 
 def test_a_page_that_is_seen_whole_has_no_scroll_bars(karate, qtbot) -> None:

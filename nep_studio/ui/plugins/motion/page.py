@@ -221,6 +221,7 @@ class MotionPage(QWidget):
         self._lay_out()
         self._connect()
         self.controller.open(new_motion())
+        self._untitled = self.controller.motion.title
         follow_words(self, self._say)
 
     def _connect(self) -> None:
@@ -279,8 +280,10 @@ class MotionPage(QWidget):
 
     def _say(self) -> None:
         """Call a motion that nobody has begun yet by the name that it has in this language."""
-        if not self.controller.motion.joints and not self.controller.is_modified:
-            self.controller.open(new_motion())
+        motion, new = self.controller.motion, new_motion()
+        if not motion.joints and not self.controller.is_modified and motion.title == self._untitled:
+            self.controller.open(new)
+        self._untitled = new.title
         self._on_changed()
 
     def _on_changed(self) -> None:

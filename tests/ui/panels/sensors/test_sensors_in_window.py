@@ -50,8 +50,8 @@ def test_the_panel_is_hidden_at_first_and_its_place_has_room(
 
     assert panel.page is not None
     qtbot.waitUntil(panel.page.empty.isVisible)
-    above, below = karate.workbench.panels.column.sizes()
-    assert below >= 0.3 * (above + below)
+    assert panel.height() >= 0.7 * karate.workbench.height()
+    assert panel.width() >= 0.6 * karate.workbench.width()
     karate.running.close()
 
 
