@@ -8,7 +8,7 @@ from PySide6.QtCore import QPoint, QPointF, QRect, QRectF, QSize
 from PySide6.QtGui import QImage
 from PySide6.QtWidgets import QWidget
 
-from nep_studio.blocks.edits.content import SetField
+from nep_studio.blocks.edits.content import RemoveNote, SetField
 from nep_studio.blocks.edits.placing import DeleteBlocks
 from nep_studio.blocks.places import InStack
 from nep_studio.ui.canvas.canvas import Canvas
@@ -309,7 +309,8 @@ def _make_rule(window: MainWindow) -> None:
     project = editor.project
     for stack in list(project.pages["behaviour"]):
         editor.apply(DeleteBlocks(stack.body[0], len(stack.body)))
-    project.notes.clear()
+    for note in list(project.notes):
+        editor.apply(RemoveNote(note))
     place = editor.new_stack("behaviour", 60, 60)
     with editor.transaction("a rule"):
         editor.create(RULE, place)

@@ -207,6 +207,7 @@ def test_hidden_it_costs_nothing(bench: Bench, start: Start, qtbot: QtBot) -> No
     assert bench.network.pane.is_hearing
 
     bench.window.workbench.rooms.show_canvas()
+    bench.nodes.hide()
 
     assert not bench.network.pane.is_hearing
     qtbot.waitUntil(lambda: not bench.network._feed.is_watching)
