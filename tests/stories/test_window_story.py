@@ -52,8 +52,6 @@ class Newcomer(Person):
         """Look at the window; a picture is kept where they are collected."""
         self._step += 1
         if self._folder:
-            cards = [c for c in self.window.start_page.cards.values() if c.isVisible()]
-            self.qtbot.waitUntil(lambda: all(c.is_painted() for c in cards), timeout=WAIT_MS)
             dialogs = [one for one in self.window.findChildren(QDialog) if one.isVisible()]
             shown = dialogs[0] if dialogs else self.window
             shown.grab().save(str(Path(self._folder) / f"story-{self._step}-{name}.png"))

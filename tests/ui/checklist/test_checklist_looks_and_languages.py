@@ -16,7 +16,7 @@ from nep_studio.ui.canvas.painting.overlay import badge_rect
 from nep_studio.ui.theme.colours import load_theme, themes
 from nep_studio.ui.words import PSEUDO, available_languages
 from tests.blocks.block_building import B
-from tests.ui.checklist.person import CTRL, LEFT, Key, PaintedPixels, Person, say, story
+from tests.ui.checklist.person import CTRL, LEFT, Key, PaintedPixels, Person, story
 from tests.ui.theme.colour_seeing import contrast
 
 

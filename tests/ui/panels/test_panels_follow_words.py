@@ -25,7 +25,7 @@ from nep_studio.blocks.own_animations import OwnAnimation
 from nep_studio.ui.plugins.help.help_controller import HelpWindow
 from nep_studio.ui.plugins.motion import MotionKit
 from nep_studio.ui.services import Studio
-from nep_studio.ui.shell.main_window import MainWindow
+from nep_studio.ui.shell.main_window import FIRST_SIZE, MainWindow
 from nep_studio.ui.widgets.forms import ElidedLabel
 from tests.conftest import a_part_of
 from tests.ui.window.conftest import chooser, home, studio, window
@@ -143,6 +143,7 @@ def another(studio: Studio, qtbot: QtBot) -> Iterator[Callable[[], MainWindow]]:
 
     def make() -> MainWindow:
         made = MainWindow(studio)
+        made.resize(FIRST_SIZE)
         qtbot.addWidget(made, before_close_func=put_away)
         made.show()
         made.start(None)
