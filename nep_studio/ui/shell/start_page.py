@@ -86,7 +86,6 @@ class BigPicture(QFrame):
         super().__init__(parent)
         line = self.fontMetrics().height()
         self.picture = ActingPicture(name, look, round_=line * 0.6, is_alone=True)
-        self.picture.act()
         self.play_button = labelled(styled(QPushButton(), kind="primary"), text="Try an example")
         self.play_button.setIcon(icon("play", look.theme.colour("accent_text")))
         self.play_button.setIconSize(icon_room(round(line * 1.6)))
@@ -316,12 +315,15 @@ class StartPage(QScrollArea):
         self._files.recent_changed.emit()
 
     def wait_with_pictures(self) -> None:
-        """Paint no blocks before ``paint_pictures``: they need all that paints blocks."""
+        """Paint no blocks before ``paint_pictures``, and let the robot stand: all that is behind
+        the page has the computer meanwhile.
+        """
         self._has_pictures = False
 
     def paint_pictures(self) -> None:
-        """Paint them from now on."""
+        """Paint them from now on, and let the robot act."""
         self._has_pictures = True
+        self.big_picture.picture.act()
         self._painting.start()
 
     def _paint_again(self) -> None:
