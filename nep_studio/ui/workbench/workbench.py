@@ -101,7 +101,7 @@ class CanvasHelpers(QObject):
 
 
 BLOCK_FONT_PIXELS = 14
-LEAST_LINES = 60
+LEAST_LINES = 50
 """In a window that is narrower, in lines of text, not all panels have room at first."""
 
 NARROW_PALETTE = "NarrowPalette"

@@ -244,3 +244,11 @@ def test_where_a_border_was_moved_is_kept(studio, chooser, qtbot: QtBot):
     assert chosen > 300
     qtbot.waitUntil(lambda: second.workbench.panels.areas["stage"].width() == chosen)
     end(second)
+
+
+def test_a_laptop_at_125_percent_shows_the_first_blocks(studio, chooser, qtbot: QtBot):
+    window = started(studio, chooser, 1093, qtbot)
+
+    assert not window.workbench.helpers.palette.is_narrow
+    assert window.workbench.canvas.width() >= 0.5 * window.width()
+    end(window)
