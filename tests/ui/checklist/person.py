@@ -132,6 +132,13 @@ class Person:
         x, y = placed.x + piece.x + piece.width / 2, placed.y + piece.y + piece.height / 2
         return self.canvas.sight.camera.to_view(x, y).toPoint()
 
+    def mouth(self, block: str, key: str) -> QPoint:
+        """The corner of the place in which what a block holds begins."""
+        placed = self.canvas.page_layout.placed(block)
+        assert placed is not None
+        mouth = next(mouth for mouth in placed.box.mouths if mouth.key == key)
+        return self.canvas.sight.camera.to_view(placed.x + mouth.x, placed.y + mouth.y).toPoint()
+
     def seen(self, colour: str, rect: QRectF) -> int:
         """How many pixels of a part of the canvas have a colour of the theme."""
         image = self.canvas.viewport().grab(rect.toAlignedRect()).toImage()
@@ -236,14 +243,16 @@ class Person:
         assert action.isEnabled(), name
         QTest.mouseClick(menu, LEFT, PLAIN, menu.actionGeometry(action).center())
 
-    def from_palette(self, block_type: str, to: QPoint) -> None:
-        """Drag a block out of the palette."""
+    def from_palette(self, block_type: str, to: QPoint, *, is_corner: bool = False) -> None:
+        """Drag a block out of the palette; where the mouse ends, or the corner of the block."""
         shelf = self.palette.shelf
         stock = shelf._stock.project
         types = [stock.blocks[e.sample].type if e.sample else "" for e in shelf.entries]
         shelf._go_to(types.index(block_type))
         rect = shelf.rect_of(types.index(block_type))
         start = QPoint(rect.center().x(), rect.top() + 12)
+        if is_corner:
+            to += start - rect.topLeft()
         end = shelf.viewport().mapFromGlobal(self.canvas.viewport().mapToGlobal(to))
         self.drop(start, end, widget=shelf.viewport())
 

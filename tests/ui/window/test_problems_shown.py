@@ -214,7 +214,8 @@ def test_what_a_block_lacks_is_told_once_it_is_left_alone(beginner: Person, qtbo
 
 def test_a_block_is_not_left_alone_by_what_is_put_into_it(beginner: Person, qtbot: QtBot) -> None:
     beginner.from_palette("control.if", QPoint(120, 120))
-    beginner.from_palette("robot.say", QPoint(230, 165))
+    mouth = beginner.mouth(beginner.block("control.if").id, "do")
+    beginner.from_palette("robot.say", mouth, is_corner=True)
     is_checked(beginner)
     inner = beginner.block("robot.say")
     assert beginner.project.parents[inner.id].slot == "do"
