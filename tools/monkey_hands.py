@@ -135,7 +135,12 @@ class Hands:
         """Click any place twice."""
         place = self.place(top, top)
         self.note(f"double click {type(top).__name__} at {place.x()},{place.y()}")
-        QTest.mouseDClick(top.windowHandle(), LEFT, pos=place)
+        if not isinstance(top, QMenu):
+            QTest.mouseDClick(top.windowHandle(), LEFT, pos=place)
+            return
+        QTest.mouseClick(top.windowHandle(), LEFT, pos=place)
+        if top.isVisible():  # else the second click is for what was under the menu
+            QTest.mouseClick(top.windowHandle(), LEFT, pos=place)
 
     def right_click(self, top: QWidget) -> None:
         """Ask for the menu of any place."""
