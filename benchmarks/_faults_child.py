@@ -19,10 +19,8 @@ from nep_core.processes.launcher import LaunchedNode
 from nep_core.processes.process import Outcome
 from nep_core.wire import messages as m
 from nep_studio import paths
-from nep_studio.run.local_network import MASTER
 from nep_studio.run.node_board import FROZEN_S
-from nep_studio.run.plan import PlannedNode
-from nep_studio.run.session import PROGRAM
+from nep_studio.run.plan import MASTER, PROGRAM, PlannedNode
 from nep_studio.settings import Settings
 from nep_studio.ui.services import Studio
 from nep_studio.ui.shell.app import make_application

@@ -9,8 +9,7 @@ from contextlib import contextmanager
 from itertools import count
 from pathlib import Path
 
-from nep_studio.run.plan import PlannedNode
-from nep_studio.run.session import Ending
+from nep_studio.run.plan import Ending, PlannedNode
 from nep_studio.ui.shell.main_window import MainWindow
 
 Wait = Callable[[Callable[[], bool]], None]

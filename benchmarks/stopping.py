@@ -22,8 +22,8 @@ import msgspec
 
 from nep_core.wire.messages import ACTION_RESULT, ActionResult
 from nep_studio.run.local_network import LocalNetwork
-from nep_studio.run.plan import PlannedNode
-from nep_studio.run.session import Session, Watching
+from nep_studio.run.plan import PlannedNode, Watching
+from nep_studio.run.session import Session
 
 GOAL_S = 0.2
 WAIT_S = 20.0

@@ -24,7 +24,8 @@ from nep_core.networks.security.pairing import Code, DoorEvent
 from nep_core.places import key_file
 from nep_core.wire.messages import NodeState
 
-from .run.local_network import STUDIO, LocalNetwork, UsedKeys, free_endpoint, pair_with
+from .run.local_network import LocalNetwork, UsedKeys, free_endpoint, pair_with
+from .run.plan import STUDIO
 
 log = logging.getLogger(__name__)
 

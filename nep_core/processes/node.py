@@ -22,13 +22,17 @@ from nep_core.networks.network import Network, Policy
 from nep_core.networks.transports import network_for
 from nep_core.wire.frames import MOST, Encoding
 from nep_core.wire.io_thread import Wake
-from nep_core.wire.messages import NODE_STATE, NodeEvent, NodeState, NodeType, described
+from nep_core.wire.messages import (
+    LONGEST_NAME,
+    NODE_STATE,
+    NodeEvent,
+    NodeState,
+    NodeType,
+    described,
+)
 from nep_core.wire.pubsub import Publisher, Subscriber
 
 log = logging.getLogger(__name__)
-
-
-LONGEST_NAME = 100
 
 
 def check_node_name(name: str) -> str:

@@ -27,8 +27,9 @@ from nep_core.wire.messages import (
     told,
 )
 from nep_core.wire.pubsub import Publisher
+from nep_core.wire.states import state_of_thing, state_of_word, word_of_state
 
-from .human import human_listener, state_of_thing, state_of_word, word_of_state
+from .human import human_listener
 from .tasks import CLOCK, POLL_S, PROGRAM, Cancelled, Part, RuleStopped, Task, current_task
 from .values import speak
 

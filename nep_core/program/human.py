@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import re
 import threading
 import time
 from collections import deque
@@ -15,44 +14,11 @@ from nep_core.networks.network import Network
 from nep_core.networks.transports import default_network
 from nep_core.wire.messages import HUMAN_BEHAVIOR, HumanBehavior
 from nep_core.wire.pubsub import Subscriber
+from nep_core.wire.states import HEARD, word_of_state
 
 from .tasks import CLOCK, POLL_S, Countdown, Stamp, current_task
 
-# Words that people say, which come as human states: "yes" is heard_yes.
-
-HEARD = "heard_"
 LONGEST_WAIT_S = 3600.0
-
-
-def state_of_word(word: str) -> str:
-    """The human state of a word or sentence: "Good morning!" is heard_good_morning."""
-    return HEARD + plain(word)
-
-
-def state_of_thing(thing: str, name: object = "") -> str:
-    """The human state of something that a robot notices: seen_face, seen_face_anna, heard_sound."""
-    verb = "heard" if thing == "sound" else "seen"
-    return "_".join(filter(None, (verb, thing, plain(str(name)))))
-
-
-_SIGN = r"(?<!\w)[-\u2212\u2013]\s*(?=[.,]?\d)"
-_MARK = r"(?:(?<=\d)|(?<!\w))[.,](?=\d)"
-_BETWEEN_WORDS = re.compile(f"(?P<sign>{_SIGN})|(?P<mark>{_MARK})|(?:(?!{_SIGN}|{_MARK})[\\W_])+")
-"""What is not part of a word, but for the minus of a number and its decimal mark."""
-
-
-def plain(words: str) -> str:
-    """Words as part of a human state: "Good morning!" is good_morning, "-2,5" is -2.5."""
-
-    def put(found: re.Match[str]) -> str:
-        return {"sign": "-", "mark": "."}.get(found.lastgroup or "", "_")
-
-    return _BETWEEN_WORDS.sub(put, words.casefold()).strip("_")
-
-
-def word_of_state(state: str) -> str:
-    """The word that a human state tells of, "" when it tells of none."""
-    return state.removeprefix(HEARD).replace("_", " ") if state.startswith(HEARD) else ""
 
 
 def next_word(heard: list[str], wanted: dict[str, str], seconds: float) -> str:

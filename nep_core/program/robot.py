@@ -13,9 +13,10 @@ from nep_core.networks.network import Network
 from nep_core.networks.transports import default_network
 from nep_core.wire.messages import ROBOT_STATE, RobotState
 from nep_core.wire.pubsub import Subscriber
+from nep_core.wire.states import TOUCHES, plain, state_of_word
 
 from .actions import ActionClient, action_client, not_answering
-from .human import LONGEST_WAIT_S, human_listener, next_word, plain, state_of_word
+from .human import LONGEST_WAIT_S, human_listener, next_word
 from .tasks import POLL_S, Stamp, current_task
 from .values import spoken_language
 
@@ -74,12 +75,6 @@ def robot_listener(network: Network | None = None) -> RobotListener:
 
 
 CLOSE_M, MIDDLE_M = 1.0, 2.0
-TOUCHES = {
-    "head": ("head_front", "head_middle", "head_rear"),
-    "hand": ("hand_left", "hand_right"),
-    "bumper": ("bumper_left", "bumper_right"),
-}
-"""Parts with several touch sensors."""
 HEAD_UP_M = 0.45
 """How high the eyes of a standing robot are."""
 

@@ -14,6 +14,9 @@ import msgspec
 
 from faults import MOST_STEPS, Fault, Words, heard, plain, text_of, verbatim
 
+LONGEST_NAME = 100
+"""So many letters the name of a node has at most."""
+
 NODE_STATE = "/node_state"
 IMU = "/imu"
 HUMAN_BEHAVIOR = "/human_behavior"

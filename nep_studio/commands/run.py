@@ -43,8 +43,7 @@ from nep_studio.run.controller import (
 )
 from nep_studio.run.gate import NotApproved, concerns_of, listing
 from nep_studio.run.local_network import LocalNetwork
-from nep_studio.run.plan import Choices, PlannedNode
-from nep_studio.run.session import Ending
+from nep_studio.run.plan import Choices, Ending, PlannedNode
 from nep_studio.run.timeline import Timeline
 
 from .project import UNUSABLE, describe, explain, print_utf8, read_project, speed
@@ -135,7 +134,7 @@ class _Play:
         self._network = LocalNetwork()
         self._network.listen(lambda *heard: self._turns.put(partial(self._hear, *heard)))
         self._controller = RunController(
-            self._network, lambda: subject, self._turns.put, self._on_event, is_traced=False
+            lambda: self._network, lambda: subject, self._turns.put, self._on_event, is_traced=False
         )
         self._exit_code = 0
         self._failed_rule: ProgramState | None = None

@@ -8,7 +8,7 @@ from typing import Literal
 
 import msgspec
 
-from nep_core.program.human import plain, state_of_thing, state_of_word, word_of_state
+from nep_core.wire.states import plain, state_of_thing, state_of_word, word_of_state
 from nep_studio.blocks.definitions import Definition, Slot
 from nep_studio.blocks.deployment import chains, rules
 from nep_studio.blocks.errors import EditRefused

@@ -16,7 +16,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
 from functools import partial
 from pathlib import Path
-from typing import Literal
+from typing import TYPE_CHECKING, Literal
 
 from faults import reason_of, text_of
 from nep_core.errors import NepError
@@ -35,9 +35,11 @@ from nep_studio.project.trust import Concern
 
 from .gate import concerns_of, node_concern
 from .installation import problem_steps
-from .local_network import LocalNetwork
-from .plan import Choices, PlannedNode, plan
-from .session import Ending, Session, Watching
+from .plan import Choices, Ending, PlannedNode, Watching, plan
+
+if TYPE_CHECKING:
+    from .local_network import LocalNetwork
+    from .session import Session
 
 log = logging.getLogger(__name__)
 
@@ -167,6 +169,7 @@ Event = StateChanged | Checked | Refused | NeedsApproval | Begun | BecameStale |
 class RunController:
     """Runs what is open, one program at a time; nothing in here waits, but ``close``.
 
+    ``network`` gives what is played on, once it is needed: its modules take a while to load.
     ``subject`` gives what is open, or None. ``post`` lets something be done in the owner's thread,
     soon and in order. ``tell`` hears of each Event. While the state is one of PREPARING, the owner
     calls ``work`` whenever it has time. Programs that are ``is_traced`` tell of each of their
@@ -175,7 +178,7 @@ class RunController:
 
     def __init__(
         self,
-        network: LocalNetwork,
+        network: Callable[[], LocalNetwork],
         subject: Callable[[], Subject | None],
         post: Callable[[Callable[[], None]], None],
         tell: Callable[[Event], None],
@@ -304,7 +307,7 @@ class RunController:
 
         What the choices add to the project, such as the address of a robot, a person has said.
         """
-        gate = self._network.gate
+        gate = self._network().gate
         # First what is to start, then what is approved: a file that is swapped between is noticed
         concerns = [(node, node_concern(node)) for node in request.nodes]
         brought = concerns_of(subject.project, subject.language, subject.folder)
@@ -331,7 +334,9 @@ class RunController:
         self._troubles.clear()
         self._tell(Begun(request))
         watching = self._watching() if self._is_traced else None
-        self._session = Session(request.nodes, self._network, watching=watching)
+        from .session import Session  # it takes a while to load
+
+        self._session = Session(request.nodes, self._network(), watching=watching)
         self._set_state("starting")
         play = partial(self._play, self._session, request.code)
         self._thread = threading.Thread(target=play, name="nep-studio-run", daemon=True)

@@ -37,11 +37,10 @@ from nep_core.wire import messages as m
 from nep_core.wire.pubsub import Publisher, Subscriber
 
 from .gate import Gate
-from .plan import PlannedNode
+from .plan import MASTER, STUDIO, PlannedNode
 
 # The master of a session: one that is there for all programs, or one that it starts for itself.
 
-MASTER = "master"
 READY_S = 10.0
 TRIES = 5
 MASTER_LOOK_S = 0.5
@@ -141,7 +140,6 @@ class Voice:
                 (self._requests if is_request else self._control).send(message)
 
 
-STUDIO = "studio"
 LOOK_S = 0.02
 
 HEARD = (m.NODE_STATE, m.HUMAN_BEHAVIOR, m.ACTION_REQUEST, m.ACTION_RESULT, m.PROGRAM_STATE)

@@ -12,8 +12,7 @@ from typing import Any, Literal
 from PySide6.QtCore import QThread, Signal
 
 from faults import Fault, Text
-from nep_core.processes.node import LONGEST_NAME
-from nep_core.wire.messages import NodeEvent, NodeState, NodeType
+from nep_core.wire.messages import LONGEST_NAME, NodeEvent, NodeState, NodeType
 
 FROZEN_S = 3.0
 """A node that has said nothing for so long, three heartbeats, is frozen."""

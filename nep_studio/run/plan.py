@@ -22,6 +22,7 @@ from nep_studio.blocks.language import Language
 from nep_studio.blocks.operations.fixes import WATCH
 from nep_studio.blocks.own_gestures import TRIGGER, trained_gestures
 from nep_studio.blocks.program import Project
+from nep_studio.problems import Problem
 from nep_studio.project.kept_files import (
     AnimationFiles,
     RecogniserFile,
@@ -31,6 +32,8 @@ from nep_studio.project.kept_files import (
     take_files,
 )
 
+MASTER, PROGRAM, STUDIO = "master", "program", "studio"
+"""What the parts of each session are called: its master, the node of its rules, and ours."""
 VIRTUAL_WATCH = "sensory/virtual_watch"
 WATCHES = (WATCH, VIRTUAL_WATCH)
 """What somebody wears, or seems to: of these one at a time gives the movements."""
@@ -46,6 +49,9 @@ Setting = str | float | int | bool
 
 KeptFiles = AnimationFiles | RecogniserFile | TakeFiles
 """What a node reads of what the project keeps, in a folder of its own."""
+
+
+# What a session plays, how a person watches it, and how it ended.
 
 
 @dataclass(frozen=True)
@@ -68,6 +74,22 @@ class PlannedNode:
     def is_sensory(self) -> bool:
         """Whether it measures; such nodes start last, so that nothing they say is missed."""
         return self.node.startswith("sensory/")
+
+
+@dataclass(frozen=True)
+class Watching:
+    """How a program is watched: the lines at which it pauses, and how long it stays at each."""
+
+    breakpoints: tuple[int, ...] = ()
+    line_s: float = 0.0
+
+
+@dataclass(frozen=True)
+class Ending:
+    """How a session ended: well, or with a problem; ``line`` of the program, 0 where none is."""
+
+    problem: Problem | None = None
+    line: int = 0
 
 
 @dataclass(frozen=True)

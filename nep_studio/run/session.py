@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import threading
 from collections.abc import Sequence
-from dataclasses import dataclass
 from pathlib import Path
 
 import msgspec
@@ -18,31 +17,14 @@ from nep_core.wire import messages as m
 from nep_studio.problems import Problem
 
 from .local_network import LocalNetwork
-from .plan import REPLAY, PlannedNode
+from .plan import PROGRAM, REPLAY, Ending, PlannedNode, Watching
 
-PROGRAM = "program"
 ASK_TO_END_S = 1.0
 LAST_RULES_S = 2.0
 """How long a rule that a recording's end set off may still take."""
 HANG_LOOK_S = 0.5
 LAST_WORDS_S = 0.3
 """How long a program's last message may take, which is not always quicker than its end."""
-
-
-@dataclass(frozen=True)
-class Ending:
-    """How a session ended: well, or with a problem; ``line`` of the program, 0 where none is."""
-
-    problem: Problem | None = None
-    line: int = 0
-
-
-@dataclass(frozen=True)
-class Watching:
-    """How a program is watched: the lines at which it pauses, and how long it stays at each."""
-
-    breakpoints: tuple[int, ...] = ()
-    line_s: float = 0.0
 
 
 class Session:

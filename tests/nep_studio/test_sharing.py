@@ -18,8 +18,8 @@ from nep_core.networks import transports
 from nep_core.networks.security import KEYS_VARIABLE
 from nep_core.networks.security.addresses import HOST_VARIABLE
 from nep_core.networks.security.curve import Refusals
-from nep_studio.run.local_network import STUDIO, LocalNetwork, door_at
-from nep_studio.run.plan import PlannedNode
+from nep_studio.run.local_network import LocalNetwork, door_at
+from nep_studio.run.plan import STUDIO, PlannedNode
 from nep_studio.sharing import Sharing, refusals_in
 
 pytestmark = pytest.mark.long

@@ -121,8 +121,10 @@ def _fitting(words: str, metrics: QFontMetricsF, width: float, height: float) ->
     words = words if len(words) <= MOST_LETTERS else words[:MOST_LETTERS] + "…"
     endless = QRectF(0, 0, width, 1e5)
     size = metrics.boundingRect(endless, FLAGS.value, words)
-    while size.height() > height and len(words) > 4:
-        words = words[: len(words) * 9 // 10].rstrip(" …") + "…"
+    kept = words
+    while size.height() > height and len(kept) > 3:
+        kept = kept[: len(kept) * 9 // 10].rstrip(" …")
+        words = kept + "…"
         size = metrics.boundingRect(endless, FLAGS.value, words)
     return words, size
 

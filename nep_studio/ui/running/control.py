@@ -142,7 +142,7 @@ class RunControl(QObject):
         self._keep_own()
         project, language = self._document.project, self._host.services.language
         found = concerns_of(project, language, self._document.folder)
-        return self.runner.local.gate.unapproved(found)
+        return self.runner.gate.unapproved(found)
 
     def _show_strange(self) -> None:
         if left := self._strange():
@@ -172,7 +172,7 @@ class RunControl(QObject):
             return
         subject = Subject(project, self._host.services.language, Path.cwd())
         found = concerns_of(project, subject.language, subject.folder)
-        self.runner.local.gate.vouch(concern.key for concern in found)  # the help is ours
+        self.runner.gate.vouch(concern.key for concern in found)  # the help is ours
         self.runner.controller.try_out(subject)
 
     def planned(self) -> list[PlannedNode]:
@@ -242,14 +242,14 @@ class RunControl(QObject):
     def _choices(self) -> Choices:
         """Who stands in for what, and the watch that somebody has left running."""
         tried = self.runner.told_elsewhere
-        running = (node for node in self.runner.local.running if node.name not in tried)
+        running = (node for node in self.runner.running if node.name not in tried)
         left = (node for node in running if node.node in WATCHES)
         return Choices(virtual=self._virtual, watch=next(left, None))
 
     def _stop_other_watches(self, nodes: Sequence[PlannedNode]) -> None:
         """Let no simulated person move who was left beside the watch of the program."""
         wanted = {node.name for node in nodes if node.is_sensory}
-        left = [one.name for one in self.runner.local.running if one.node == VIRTUAL_WATCH]
+        left = [one.name for one in self.runner.running if one.node == VIRTUAL_WATCH]
         for name in left if wanted else ():
             if name not in wanted:
                 self.runner.stop_node(name)
@@ -332,7 +332,7 @@ class RunControl(QObject):
         """Ask whether all this may run, and let it start then."""
 
         def approve() -> None:
-            self.runner.local.gate.approve(concerns)
+            self.runner.gate.approve(concerns)
             self._withdraw_mark()
             if self._document is not None:
                 self._document.authorship.look_again()

@@ -6,20 +6,17 @@ import logging
 import queue
 import threading
 import time
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import msgspec
 from PySide6.QtCore import QObject, QTimer, Signal
 
 from nep_core.errors import NepError
-from nep_core.networks.network import Network
-from nep_core.processes.launcher import LaunchedNode
 from nep_core.processes.node_log import log_file_name
 from nep_core.wire import messages as m
-from nep_core.wire.pubsub import Publisher, Subscriber
 from nep_studio.run.controller import (
     PREPARING,
     Ended,
@@ -30,11 +27,16 @@ from nep_studio.run.controller import (
     StateChanged,
     Subject,
 )
-from nep_studio.run.gate import NotApproved, node_concern
-from nep_studio.run.local_network import MASTER, LocalNetwork
+from nep_studio.run.gate import Gate, NotApproved, node_concern
 from nep_studio.run.node_board import Monitor, NodeBoard
-from nep_studio.run.plan import PlannedNode
+from nep_studio.run.plan import MASTER, PlannedNode
 from nep_studio.ui.background import Background
+
+if TYPE_CHECKING:
+    from nep_core.networks.network import Network
+    from nep_core.processes.launcher import LaunchedNode
+    from nep_core.wire.pubsub import Publisher, Subscriber
+    from nep_studio.run.local_network import LocalNetwork
 
 log = logging.getLogger(__name__)
 
@@ -141,6 +143,8 @@ class _Inlet:
                 self._subscriber.close()
 
     def _hear(self) -> None:
+        from nep_core.wire.pubsub import Subscriber  # loaded with the network
+
         try:
             subscriber = Subscriber[Any](self._topic, self._kind, network=self._network)
         except NepError:
@@ -158,7 +162,7 @@ class _Inlet:
 
 # Messages that are sent by hand, from a thread of their own: a first one may have to wait.
 
-Sent = tuple[Network, str, msgspec.Struct | dict[str, Any]]
+Sent = tuple["Network", str, msgspec.Struct | dict[str, Any]]
 
 
 class Sender:
@@ -197,6 +201,8 @@ class Sender:
         if network is not self._network:
             self._network, self._publishers = network, {}
         if topic not in self._publishers:
+            from nep_core.wire.pubsub import Publisher  # loaded with the network
+
             self._publishers[topic] = Publisher(topic, network=network)
         return self._publishers[topic]
 
@@ -223,7 +229,8 @@ class Runner(QObject):
     ``node_failed`` gives the NepError of a node that could not be started by hand;
     ``approval_needed`` the Concerns of one that nobody has approved, and what starts it then;
     ``master_changed`` what became of a master that ended unexpectedly (a MasterEvent), and how it
-    ended; ``closing`` that all is about to end.
+    ended; ``network_made`` that ``local`` is there, which is made when it is first needed: its
+    modules take a while to load. ``closing`` tells that all is about to end.
     """
 
     state_changed = Signal(str)
@@ -237,6 +244,7 @@ class Runner(QObject):
     node_failed = Signal(str, object)
     approval_needed = Signal(object, object)
     master_changed = Signal(str, object)
+    network_made = Signal(object)
     closing = Signal()
     _came_up = Signal()
 
@@ -252,15 +260,17 @@ class Runner(QObject):
         self.planned = planned
         self.board = NodeBoard()
         self._background = Background(self)
-        self.local = LocalNetwork(logs=logs)
-        self.local.listen(self._on_message)
-        self.local.on_open = self._came_up.emit
-        self.local.on_master = self.master_changed.emit
+        self.gate = Gate()
+        """What passes it may be started."""
+        self._local: LocalNetwork | None = None
+        self._logs = logs
         self.keep_own: Callable[[], None] = lambda: None
         """Approves what the person has written in the open project, before any of it starts."""
         self.told_elsewhere: set[str] = set()
         """Nodes of which a dialog tells what becomes of them: no message is needed."""
-        self.controller = RunController(self.local, subject, self._background.post, self._on_told)
+        self.controller = RunController(
+            lambda: self.local, subject, self._background.post, self._on_told
+        )
         self._preparing = QTimer(self, interval=BETWEEN_SLICES_MS)
         self._preparing.timeout.connect(lambda: self.controller.work(SLICE_S))
         self.state: State = "idle"
@@ -280,7 +290,37 @@ class Runner(QObject):
     @property
     def is_connected(self) -> bool:
         """Whether messages can be sent and heard."""
-        return self.local.network is not None
+        return self.network is not None
+
+    @property
+    def network(self) -> Network | None:
+        """The network while it is open."""
+        return None if self._local is None else self._local.network
+
+    @property
+    def local(self) -> LocalNetwork:
+        """The network of this window, open or not, and the nodes it started."""
+        if self._local is None:
+            from nep_studio.run.local_network import LocalNetwork
+
+            self._local = LocalNetwork(logs=self._logs, gate=self.gate)
+            self._local.listen(self._on_message)
+            self._local.on_open = self._came_up.emit
+            self._local.on_master = self.master_changed.emit
+            if self._is_closed:
+                self._local.close(for_good=True)
+            self.network_made.emit(self._local)
+        return self._local
+
+    @property
+    def started(self) -> Mapping[str, PlannedNode]:
+        """The nodes that were asked for here, by name."""
+        return {} if self._local is None else self._local.planned
+
+    @property
+    def running(self) -> list[PlannedNode]:
+        """Those of them that run now, as they were started."""
+        return [] if self._local is None else self._local.running
 
     def run(self) -> None:
         """Run what is open, or run it again; a paused program goes on."""
@@ -314,11 +354,12 @@ class Runner(QObject):
         """
         self.keep_own()
         if is_wanted:
-            self.local.gate.vouch_for(planned)
+            self.gate.vouch_for(planned)
+        local = self.local
 
         def start() -> None:
-            self.local.open()
-            for launched in self.local.start([planned]):
+            local.open()
+            for launched in local.start([planned]):
                 launched.wait_ready()
 
         self._aside(planned.name, start)
@@ -326,15 +367,16 @@ class Runner(QObject):
     def strange(self, nodes: Iterable[PlannedNode]) -> frozenset[str]:
         """The names of those that nobody has approved: even a look at them would be a start."""
         self.keep_own()
-        gate = self.local.gate
         found = ((node.name, node_concern(node)) for node in nodes)
-        return frozenset(name for name, one in found if one is not None and gate.unapproved([one]))
+        return frozenset(
+            name for name, one in found if one is not None and self.gate.unapproved([one])
+        )
 
     def is_as_in_project(self, wanted: PlannedNode) -> bool:
         """Whether it reaches just what a node of the project does that nobody has approved."""
         self.keep_own()
         one = node_concern(wanted)
-        if one is None or not self.local.gate.unapproved([one]):
+        if one is None or not self.gate.unapproved([one]):
             return False
         found = map(node_concern, self.planned())
         return any(other is not None and other.key == one.key for other in found)
@@ -345,20 +387,22 @@ class Runner(QObject):
 
     def stop_node(self, name: str) -> None:
         """Stop a node that was started here."""
-        self._aside(name, lambda: self.local.stop(name))
+        local = self.local
+        self._aside(name, lambda: local.stop(name))
 
     def restart_node(self, name: str) -> None:
         """Stop a node and start it again as it was."""
-        if name in self.local.planned:
-            self._aside(name, lambda: self.local.restart(name).wait_ready())
+        local = self.local
+        if name in local.planned:
+            self._aside(name, lambda: local.restart(name).wait_ready())
 
     def launched(self, name: str) -> LaunchedNode | None:
         """A node that the studio has started, also one that has ended; None for any other."""
-        return self.local.launcher.nodes.get(name)
+        return None if self._local is None else self._local.launcher.nodes.get(name)
 
     def log_of(self, name: str) -> list[str]:
         """The last lines that a node wrote; at most 200."""
-        return self.local.log_of(name)
+        return [] if self._local is None else self._local.log_of(name)
 
     def log_file(self, name: str) -> Path:
         """Where all that a node writes is kept."""
@@ -373,12 +417,12 @@ class Runner(QObject):
         tap = Tap(topic, kind, most=most, parent=parent)
         self._taps.append(tap)
         tap.destroyed.connect(lambda: self._forget(tap))
-        tap.listen(self.local.network)
+        tap.listen(self.network)
         return tap
 
     def send(self, topic: str, message: msgspec.Struct | dict[str, Any]) -> bool:
         """Send a message by hand; False when there is no network."""
-        return self._sender.send(self.local.network, topic, message)
+        return self._sender.send(self.network, topic, message)
 
     def close(self) -> None:
         """Stop everything and wait for it; before the window goes. Nothing starts after it."""
@@ -389,7 +433,8 @@ class Runner(QObject):
         for tap in list(self._taps):
             tap.close()
         self._sender.close()
-        self.local.close(for_good=True)
+        if self._local is not None:
+            self._local.close(for_good=True)
         self._monitor.end()
 
     def _forget(self, tap: Tap) -> None:
@@ -443,7 +488,7 @@ class Runner(QObject):
         self._looking.start()
         self._monitor.start()
         for tap in self._taps:
-            tap.listen(self.local.network)
+            tap.listen(self.network)
         self.connected.emit()
 
     def _on_arrived(self, batch: list[tuple[str, msgspec.Struct]]) -> None:

@@ -86,7 +86,6 @@ MODULES = (
     "nep_studio.ui.workbench.code",
     "nep_studio.ui.workbench.palette.palette",
     "nep_studio.ui.workbench.workbench",
-    "nep_studio.run.session",
     "nep_studio.run.controller",
     "nep_studio.ui.running.control",
     "nep_studio.help.texts",

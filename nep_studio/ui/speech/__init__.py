@@ -78,7 +78,7 @@ class Sound(QObject):
     def _hear_states(self, batch: list[Heard], run: int) -> None:
         real = {
             str(node.parameters.get("robot", node.name))
-            for node in list(self._runner.local.planned.values())
+            for node in list(self._runner.started.values())
             if node.parameters.get("driver") == "naoqi"
         }  # they have a voice of their own
         if run == self._run and self._tap is not None:

@@ -225,14 +225,14 @@ class WatchListener(QObject):
     @property
     def awaited(self) -> PlannedNode | None:
         """A node that runs here and waits for a watch; None when there is none."""
-        nodes, started = self._runner.board.nodes, self._runner.local.planned
+        nodes, started = self._runner.board.nodes, self._runner.started
         there = (started[name] for name in started if name in nodes and nodes[name].is_there)
         return next((planned for planned in there if planned.node == WATCH), None)
 
     @property
     def planned(self) -> PlannedNode | None:
         """How the node of the watch was started, when that was here."""
-        return self._runner.local.planned.get(self.source)
+        return self._runner.started.get(self.source)
 
 
 SHOWN_S = 6.0

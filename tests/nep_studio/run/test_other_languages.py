@@ -17,7 +17,8 @@ from nep_studio.blocks.language import Language
 from nep_studio.run.installation import studio_language
 from nep_studio.run.local_network import LocalNetwork
 from nep_studio.run.node_board import NodeBoard, NodeStatus
-from nep_studio.run.session import PROGRAM, Session
+from nep_studio.run.plan import PROGRAM
+from nep_studio.run.session import Session
 from nep_studio.run.timeline import Timeline
 from nep_studio.sharing import refusals_in
 from nep_studio.ui.plugins.nodes.notices import Circumstances, Notice, notice_of

@@ -55,7 +55,7 @@ class Owner:
         self.heard: list[m.ProgramState] = []
         self._posted: queue.SimpleQueue[Callable[[], None]] = queue.SimpleQueue()
         self.controller = RunController(
-            self.network, self.subject, self._posted.put, self.events.append
+            lambda: self.network, self.subject, self._posted.put, self.events.append
         )
         self.network.listen(self._on_message)
 

@@ -19,8 +19,8 @@ from nep_core.processes.process import Outcome
 from nep_core.wire import messages as m
 from nep_studio.run import session as sessions
 from nep_studio.run.local_network import LocalNetwork, free_endpoint
-from nep_studio.run.plan import REPLAY, PlannedNode
-from nep_studio.run.session import PROGRAM, Session
+from nep_studio.run.plan import PROGRAM, REPLAY, PlannedNode
+from nep_studio.run.session import Session
 
 pytestmark = pytest.mark.long
 

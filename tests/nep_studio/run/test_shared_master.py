@@ -10,7 +10,8 @@ import pytest
 from nep_core.networks.master import Master
 from nep_core.networks.master_messages import ask_master
 from nep_core.networks.zmq_networks import PeerNetwork
-from nep_studio.run.local_network import STUDIO, LocalNetwork
+from nep_studio.run.local_network import LocalNetwork
+from nep_studio.run.plan import STUDIO
 
 pytestmark = pytest.mark.long
 

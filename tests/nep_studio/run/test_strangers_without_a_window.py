@@ -232,7 +232,7 @@ def test_a_file_that_is_swapped_just_after_the_look_does_not_start(
     network = LocalNetwork(logs=tmp_path)
     network.gate.approve(concerns_of(project, make.language, make.folder))
     begun: list[Request] = []
-    controller = RunController(network, lambda: subject, lambda do: do(), lambda _: None)
+    controller = RunController(lambda: network, lambda: subject, lambda do: do(), lambda _: None)
     monkeypatch.setattr(controller, "start", begun.append)
     looked = network.gate.unapproved
 

@@ -12,7 +12,8 @@ from nep_core.errors import MasterNotFound
 from nep_core.networks import transports
 from nep_core.places import NODES_VARIABLE
 from nep_core.wire.messages import NodeState
-from nep_studio.run.local_network import MASTER, STUDIO, LocalNetwork
+from nep_studio.run.local_network import LocalNetwork
+from nep_studio.run.plan import MASTER, STUDIO
 from tests.nep_core.launching import WAIT
 from tests.nep_core.node_making import write_node
 from tests.nep_core.worlds import WITH_ZENOH, a_world

@@ -13,7 +13,7 @@ from PySide6.QtWidgets import QPushButton
 from pytestqt.qtbot import QtBot
 
 from nep_core.wire import messages as m
-from nep_studio.run.local_network import MASTER
+from nep_studio.run.plan import MASTER
 from nep_studio.ui.messages import Message
 from nep_studio.ui.shell.main_window import MainWindow
 from tests.ui.window.conftest import answer, chooser, home, karate, studio, window

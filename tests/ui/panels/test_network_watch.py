@@ -12,7 +12,8 @@ from pytestqt.qtbot import QtBot
 
 from nep_core.networks.zmq_networks import PeerNetwork
 from nep_core.wire.pubsub import Publisher
-from nep_studio.ui.network_feed import MOST_ROUTES, NetworkWatch, ProcessMeter, Seen, Traffic
+from nep_studio.ui.network_feed import Seen
+from nep_studio.ui.network_watch import MOST_ROUTES, NetworkWatch, ProcessMeter, Traffic
 
 Join = Callable[[str], PeerNetwork]
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from PySide6.QtCore import QPointF, QRectF
@@ -53,3 +54,10 @@ def test_two_that_talk_do_not_cover_each_others_words(qtbot: QtBot) -> None:
     one, other = placed_bubbles(said, QFont(), 640, 480)
 
     assert not one.box.intersects(other.box)
+
+
+@pytest.mark.parametrize("words", ["Hello", "Hi", "abcd", "abcde", "a b c", "….….", "", LONG])
+def test_a_picture_without_room_for_a_bubble_is_painted_all_the_same(words: str) -> None:
+    (bubble,) = placed_bubbles([Said(words, QPointF(8, 6), 4)], QFont(), 16, 12)
+
+    assert len(bubble.words) <= max(4, len(words))

@@ -15,7 +15,7 @@ from nep_studio.blocks.edits.project import RenameProject
 from nep_studio.help.texts import block_page
 from nep_studio.problems import Problem
 from nep_studio.run.controller import Ended
-from nep_studio.run.session import Ending
+from nep_studio.run.plan import Ending
 from nep_studio.study.records import BROOKE, Reply, Sitting, StudyFolder
 from nep_studio.ui.plugins.help.help_controller import HelpController
 from nep_studio.ui.plugins.study import StudySign

@@ -10,7 +10,7 @@ from PySide6.QtCore import QPointF, QRectF
 from PySide6.QtGui import QPainterPath, QPolygonF
 
 from nep_core.wire.messages import NODE_STATE
-from nep_studio.run.local_network import STUDIO
+from nep_studio.run.plan import STUDIO
 from nep_studio.ui.network_feed import Seen
 
 Kind = Literal["node", "topic"]

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from nep_studio.run.session import PROGRAM
+from nep_studio.run.plan import PROGRAM
 from nep_studio.ui.host import Host, NewPanel, Parts, Plugin
 from nep_studio.ui.network_feed import feed_of
 from nep_studio.ui.widgets.questions import tell_not_saved

@@ -12,8 +12,7 @@ from PySide6.QtWidgets import QFrame, QLabel, QSizePolicy, QToolButton, QWidget
 
 from nep_core.wire.messages import NodeType
 from nep_studio.run.node_board import NodeStatus
-from nep_studio.run.plan import PlannedNode
-from nep_studio.run.session import PROGRAM
+from nep_studio.run.plan import PROGRAM, PlannedNode
 from nep_studio.ui.labels import explained, follow_words, labelled
 from nep_studio.ui.network_feed import NodeSeen
 from nep_studio.ui.node_style import (

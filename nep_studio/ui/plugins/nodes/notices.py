@@ -18,10 +18,8 @@ from nep_studio.blocks.edits.content import SetField
 from nep_studio.blocks.errors import EditRefused
 from nep_studio.blocks.program import ROBOT_BLOCK
 from nep_studio.problems import Problem
-from nep_studio.run.local_network import MASTER
 from nep_studio.run.node_board import NodeStatus
-from nep_studio.run.plan import PlannedNode
-from nep_studio.run.session import PROGRAM
+from nep_studio.run.plan import MASTER, PROGRAM, PlannedNode
 from nep_studio.ui.messages import Answer, Kind
 from nep_studio.ui.words import tr
 
@@ -263,7 +261,7 @@ class NodeFixes:
         """How a node is wanted now: as the project says, else as it was started."""
         runner = self._host.services.runner
         found = {one.name: one for one in runner.planned()}
-        return found.get(name) or runner.local.planned.get(name)
+        return found.get(name) or runner.started.get(name)
 
     def block_of(self, name: str) -> str:
         """The block that a node comes from; "" when it has none on a page."""

@@ -11,9 +11,8 @@ from PySide6.QtCore import QObject, QTimer
 from faults import Words
 from nep_core.errors import NepError
 from nep_studio.problems import Problem, problem_of
-from nep_studio.run.local_network import MASTER
 from nep_studio.run.node_board import NodeStatus
-from nep_studio.run.session import PROGRAM
+from nep_studio.run.plan import MASTER, PROGRAM
 from nep_studio.ui.messages import Message
 from nep_studio.ui.node_style import is_running
 from nep_studio.ui.words import count_words, tr
@@ -113,7 +112,7 @@ class NodeNotifier(QObject):
         plan = self.fixes.plan_of(name)
         blocks = self._host.workbench.canvas.editor.project.blocks
         return Circumstances(
-            is_ours=name in runner.local.planned,
+            is_ours=name in runner.started,
             is_program=name == PROGRAM,
             was_asked=name in self._asked,
             is_ending=self._is_ending or name in self._restarted or is_over,

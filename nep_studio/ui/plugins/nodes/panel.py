@@ -169,7 +169,7 @@ class NodesPanel(InLines):
         entries = entries_of(
             self._runner.board.nodes,
             self._planned,
-            self._runner.local.planned,
+            self._runner.started,
             self._feed.seen.nodes,
         )
         if [one.name for one in entries] != [card.entry.name for card in self.cards]:

@@ -17,8 +17,8 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from nep_core.program.human import plain
 from nep_core.wire import messages as m
+from nep_core.wire.states import plain
 from nep_studio.blocks.language import Language
 from nep_studio.blocks.own_gestures import own_gestures
 from nep_studio.blocks.slots import why_not_line

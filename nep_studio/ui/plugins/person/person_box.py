@@ -23,7 +23,7 @@ from PySide6.QtWidgets import (
 )
 
 from faults import Words, verbatim
-from nep_core.program.human import plain
+from nep_core.wire.states import plain
 from nep_studio.blocks.language import Language
 from nep_studio.project.surroundings import FIRST_NAMES, LONGEST_NAME
 from nep_studio.project.triggers import Occurrence

@@ -9,9 +9,9 @@ from collections.abc import Callable, Collection, Mapping
 import msgspec
 from PySide6.QtCore import QObject, QTimer, Signal
 
-from nep_core.program.robot import TOUCHES
 from nep_core.wire import messages as m
 from nep_core.wire.messages import RobotState, Thing, ThingKind
+from nep_core.wire.states import TOUCHES
 from nep_studio.blocks.program import ALL_ROBOTS
 from nep_studio.project.surroundings import AHEAD_M, SIZES, named
 from nep_studio.project.triggers import Kind, Occurrence, state_of

@@ -9,8 +9,6 @@ from typing import TYPE_CHECKING
 from PySide6.QtCore import QObject, QTimer, Signal
 
 from nep_core.errors import NepError
-from nep_core.networks.security.keys import Keys
-from nep_studio.sharing import Refusal, Sharing
 from nep_studio.ui.host import Host, NewAction, Parts, Plugin
 from nep_studio.ui.labels import follow_words
 from nep_studio.ui.messages import Answer, Message
@@ -19,6 +17,10 @@ from nep_studio.ui.words import count_words, tr
 from .refusal_words import refusal_message, refusal_sentence
 
 if TYPE_CHECKING:
+    from nep_core.networks.security.keys import Keys
+    from nep_studio.run.local_network import LocalNetwork
+    from nep_studio.sharing import Refusal, Sharing
+
     from .dialog import SharingDialog
 
 
@@ -89,16 +91,35 @@ class SharingKit(QObject):
         self._is_to_offer_run = False
         self._refused: Message | None = None
         self.dialog: SharingDialog | None = None
-        self.sharing = new_sharing(host)
-        self.sharing.changed.connect(self.tell)
-        self.sharing.settled.connect(self._on_settled)
-        self.sharing.refused.connect(self._on_refused)
-        self.sharing.failed.connect(self._on_failed)
+        self._sharing: Sharing | None = None
+        self._runner.network_made.connect(self._on_network_made)
         follow_words(self, self.tell)
+        if address := host.services.settings.kept_open_at:
+            QTimer.singleShot(0, self, lambda: self.sharing.open(address))
+
+    @property
+    def sharing(self) -> Sharing:
+        """What opens and joins networks; it is made with the first one."""
+        _ = self._runner.local
+        assert self._sharing is not None
+        return self._sharing
+
+    def _on_network_made(self, local: LocalNetwork) -> None:
+        from nep_studio.sharing import Sharing  # loaded with the network
+
+        settings = self._host.services.settings
+        sharing = self._sharing = Sharing(local, self._host.services.running)
+        sharing.went_down.connect(self._runner.disconnected)
+        self._runner.closing.connect(sharing.end)
+        local.master_options = lambda: ["--original"] if settings.lets_original_join else []
+        sharing.changed.connect(self.tell)
+        sharing.settled.connect(self._on_settled)
+        sharing.refused.connect(self._on_refused)
+        sharing.failed.connect(self._on_failed)
 
     def tell(self) -> None:
         """Tell how it is now."""
-        self.told.emit(told_of(self.sharing))
+        self.told.emit(SharingTold() if self._sharing is None else told_of(self._sharing))
 
     def open(self) -> None:
         """Show the dialog."""
@@ -169,18 +190,6 @@ class SharingKit(QObject):
 
     def _on_finished(self) -> None:
         self.dialog = None
-
-
-def new_sharing(host: Host) -> Sharing:
-    """What opens and joins networks, as it was when the program ended."""
-    runner, settings = host.services.runner, host.services.settings
-    sharing = Sharing(runner.local, host.services.running)
-    sharing.went_down.connect(runner.disconnected)
-    runner.closing.connect(sharing.end)
-    runner.local.master_options = lambda: ["--original"] if settings.lets_original_join else []
-    if address := settings.kept_open_at:
-        QTimer.singleShot(0, sharing, lambda: sharing.open(address))
-    return sharing
 
 
 plugin = Plugin("sharing", make, order=160)

@@ -136,7 +136,7 @@ class SharingDialog(QDialog):
         area = self.areas[page]
         is_new = self.pages.currentWidget() is not area
         self.pages.setCurrentWidget(area)
-        nodes, is_running = len(self._runner.local.running), self._runner.state != "idle"
+        nodes, is_running = len(self._runner.running), self._runner.state != "idle"
         self.closed_page.show_running(nodes, is_program_running=is_running)
         told = restart_words(nodes, is_program_running=is_running)
         self.join_page.restart_told.setText(told)

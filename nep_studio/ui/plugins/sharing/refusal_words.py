@@ -5,10 +5,13 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
+from typing import TYPE_CHECKING
 
-from nep_studio.sharing import Refusal
 from nep_studio.ui.messages import Answer, Message
 from nep_studio.ui.words import tr
+
+if TYPE_CHECKING:
+    from nep_studio.sharing import Refusal
 
 
 def refusal_sentence(refusal: Refusal) -> str:

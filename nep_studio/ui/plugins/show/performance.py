@@ -18,7 +18,7 @@ from nep_studio.blocks.generate.program import generate_program
 from nep_studio.problems import Problem, problem_of
 from nep_studio.project.triggers import Cue, cues_now
 from nep_studio.run.controller import Request, Subject
-from nep_studio.run.session import Ending
+from nep_studio.run.plan import Ending
 from nep_studio.settings import ShowOptions
 from nep_studio.ui.messages import LoggedMessage
 from nep_studio.ui.running.stage import Marks

@@ -23,7 +23,7 @@ from PySide6.QtWidgets import (
 
 from nep_studio.blocks.editor import History
 from nep_studio.blocks.program import Changes
-from nep_studio.run.session import Ending
+from nep_studio.run.plan import Ending
 from nep_studio.study.records import (
     Event,
     Sitting,

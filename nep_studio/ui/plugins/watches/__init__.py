@@ -154,7 +154,7 @@ class WatchKit(QObject):
             return
         runner = host.services.runner
         # The virtual watches that run, and that the project does not ask for any more
-        started = runner.local.planned
+        started = runner.started
         wanted = {node.name for node in self._host.services.runner.planned()}
         virtual = [one.name for one in started.values() if one.node == VIRTUAL_WATCH]
         for name in [name for name in virtual if name not in wanted]:

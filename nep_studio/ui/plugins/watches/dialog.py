@@ -45,7 +45,7 @@ class WatchTrial(QObject):
         self.name = name
         self.state: State = "off"
         self.problem: Problem | None = None
-        self.before = runner.local.planned.get(name) if _runs(runner, name) else None
+        self.before = runner.started.get(name) if _runs(runner, name) else None
         """What ran under this name when it began."""
         self._runner = runner
         self._wanted: PlannedNode | None = None
@@ -77,7 +77,7 @@ class WatchTrial(QObject):
             return  # a node cannot be stopped before it is there: that follows
         if self._started is not None and not self._is_needed:
             if self.before is not None:
-                if not is_same(self.before, self._runner.local.planned.get(self.name)):
+                if not is_same(self.before, self._runner.started.get(self.name)):
                     self._runner.start_node(self.before)
             else:
                 self._runner.stop_node(self.name)
@@ -97,7 +97,7 @@ class WatchTrial(QObject):
 
     def keep(self, planned: PlannedNode | None) -> None:
         """Go, but let the node run on, as this one of the project's plan."""
-        if planned is not None and is_same(planned, self._runner.local.planned.get(self.name)):
+        if planned is not None and is_same(planned, self._runner.started.get(self.name)):
             self._runner.local.planned[self.name] = planned  # so that Run takes it over
         self._leave()
 
@@ -118,7 +118,7 @@ class WatchTrial(QObject):
         wanted = self._wanted
         if wanted is None:
             return
-        is_known = is_same(wanted, self._runner.local.planned.get(self.name))
+        is_known = is_same(wanted, self._runner.started.get(self.name))
         if is_known and _runs(self._runner, self.name):
             self._started = wanted
             self._set_state("listening")
@@ -135,7 +135,7 @@ class WatchTrial(QObject):
     @property
     def _is_needed(self) -> bool:
         """Whether a program that runs has taken the node over, as it is."""
-        mine = self._runner.local.planned.get(self.name)
+        mine = self._runner.started.get(self.name)
         planned = self._runner.planned() if self._runner.state != "idle" else ()
         return any(is_same(one, mine) for one in planned)
 
