@@ -244,7 +244,7 @@ class Card(PictureCard):
 
     try_requested = Signal()
 
-    def __init__(self, example: Example, look: Look, parent: QWidget | None = None) -> None:
+    def __init__(self, example: Example, look: Look, width: int, parent: QWidget) -> None:
         super().__init__(look, parent)
         self.example = example
         line = self.fontMetrics().height()
@@ -259,7 +259,7 @@ class Card(PictureCard):
         margins, buttons = (line // 2, line // 4, line // 2, 0), self._buttons(example.title, line)
         inside = in_column(*words, buttons, margins=margins, spacing=line // 4)
         in_column(self.picture, (inside, 1), of=self, margins=(2, 2, 2, line // 2), spacing=0)
-        self.set_width(round(line * CARD_LINES) + 4)
+        self.setFixedWidth(width or round(line * CARD_LINES) + 4)
         follow_words(self, self._say)
 
     def _say(self) -> None:
@@ -311,6 +311,8 @@ def _label(words: str, role: str) -> QLabel:
     return label
 
 
+FIRST_ROWS = 2
+"""So many rows of cards are seen at first."""
 FEWEST_WITH_TAG = 2
 """A tag of fewer examples is found by the search only."""
 
@@ -343,6 +345,8 @@ class Gallery(QWidget):
         self._unbuilt = list(examples())
         self._cards: dict[Path, Card] = {}
         self._shown: list[Card] = []
+        self._placed = 0
+        """So many of the shown ones are in their places."""
         self.tag_buttons: dict[str, QPushButton] = {}
         self._columns = self._wide = 0
         self._building = QTimer(self, interval=0)
@@ -407,17 +411,20 @@ class Gallery(QWidget):
         return row
 
     def _build_next(self) -> None:
-        """Make one more card; all at once would keep the window waiting."""
+        """Make one more card; all at once would keep the window waiting.
+
+        They come into their places together, first those that are seen first: to lay out and to
+        paint the page for each takes longer than to make it.
+        """
         example = self._unbuilt.pop(0)
         path = example.path
-        card = self._cards[path] = Card(example, self._studio.look)
+        card = self._cards[path] = Card(example, self._studio.look, self._wide, self)
         card.clicked.connect(lambda: self.opened.emit(path))
         card.try_requested.connect(lambda: self.try_requested.emit(path))
         card.moved_on.connect(lambda side: self._on_moved(card, side))
         self._shown.append(card)
-        if self._columns:
-            card.set_width(self._wide)
-            self._put(card, len(self._shown) - 1)
+        if self._columns and len(self._shown) in (FIRST_ROWS * self._columns, len(examples())):
+            self._put_waiting()
 
     # Which cards, and where
 
@@ -436,13 +443,17 @@ class Gallery(QWidget):
         for card in self._cards.values():
             self._grid.removeWidget(card)
             card.setVisible(card in self._shown)
-        for number, card in enumerate(self._shown):
-            self._put(card, number)
+        self._placed = 0
+        self._put_waiting()
         self.nothing.setVisible(not self._shown and not self._unbuilt)
 
-    def _put(self, card: Card, number: int) -> None:
-        self._grid.addWidget(card, number // self._columns, number % self._columns)
-        card.show()
+    def _put_waiting(self) -> None:
+        """Put the cards into their places that are shown, but not there yet."""
+        for number in range(self._placed, len(self._shown)):
+            card = self._shown[number]
+            self._grid.addWidget(card, number // self._columns, number % self._columns)
+            card.show()
+        self._placed = len(self._shown)
 
     def _on_filter_changed(self) -> None:
         wanted = self.search.text().casefold().split()
