@@ -19,7 +19,7 @@ from benchmarks.canvas_workload import language, made
 from nep_studio.blocks.editor import Editor
 from nep_studio.run.installation import studio_language
 from nep_studio.ui.canvas.canvas import Canvas
-from nep_studio.ui.plugins.help.panel import HelpPanel
+from nep_studio.ui.plugins.help.panel import HelpPages
 from nep_studio.ui.plugins.help.repository import Book
 from nep_studio.ui.theme.colours import load_theme
 from nep_studio.ui.theme.look import Look
@@ -42,7 +42,7 @@ def run() -> list[Row]:
     use_language("en")
     words = studio_language()
     canvas = Canvas(Editor(made(100, language()), language()), load_theme("light"))
-    panel = HelpPanel(canvas, Look(app, "light"), lambda: words)
+    panel = HelpPages(canvas, Look(app, "light"), lambda: words)
     panel.resize(420, 700)
     panel.show()
     app.processEvents()
@@ -83,7 +83,7 @@ def _slowest(actions: list[Callable[[], object]], before: Callable[[], object] =
     return 1000 * max(medians)
 
 
-def _slowest_page(panel: HelpPanel) -> float:
+def _slowest_page(panel: HelpPages) -> float:
     def shown(name: str) -> Callable[[], None]:
         def show() -> None:
             panel.open(name)
@@ -95,14 +95,14 @@ def _slowest_page(panel: HelpPanel) -> float:
     return _slowest([shown(name) for name in _LONG_PAGES], lambda: panel.open(_SHORT_PAGE))
 
 
-def _slowest_search(panel: HelpPanel) -> float:
+def _slowest_search(panel: HelpPages) -> float:
     index = panel.book.new_index()
     for findable in panel.book.findables():
         index.add(findable)
     return _slowest([lambda typed=typed: index.search(typed) for typed in _TYPED])  # type: ignore[misc]
 
 
-def _slowest_step(panel: HelpPanel) -> float:
+def _slowest_step(panel: HelpPages) -> float:
     searching = panel.searching
     searching._index = None
     searching.begin()

@@ -20,7 +20,6 @@ from contextlib import suppress
 from dataclasses import dataclass
 from datetime import datetime
 from pathlib import Path
-from statistics import fmean, pstdev
 from typing import Literal, TypeVar
 
 import msgspec
@@ -477,4 +476,6 @@ def summarize(replies: Sequence[Reply], form: Questionnaire) -> Summary:
 
 def spread(values: Sequence[float]) -> Spread:
     """Mean and deviation of values; of none, none."""
+    from statistics import fmean, pstdev  # loaded with a study, not with the window
+
     return Spread(fmean(values), pstdev(values), len(values)) if values else Spread()

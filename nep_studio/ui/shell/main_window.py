@@ -70,14 +70,15 @@ if TYPE_CHECKING:
 MODULES = (
     "nep_studio.blocks.program",
     "nep_studio.blocks.definitions",
+    "nep_studio.blocks.edit_rules",
+    "nep_studio.blocks.generate.expressions",
+    "nep_studio.blocks.generate.program",
     "nep_studio.blocks.editor",
     "nep_studio.run.installation",
     "nep_studio.project.journal",
     "nep_studio.blocks.checks",
     "nep_studio.ui.documents",
-    "nep_studio.blocks.generate.program",
     "nep_studio.run.plan",
-    "nep_studio.blocks.typing_in.vocabulary",
     "nep_studio.ui.canvas.editing.commands",
     "nep_studio.ui.canvas.layout.page",
     "nep_studio.ui.canvas.editing.menu",
@@ -289,7 +290,6 @@ class MainWindow(QMainWindow):
         self._opening_message: Message | None = None
         self._may_close = False
         self._shown_problems: tuple[object, ...] = ()
-        self._pointer_rules = PointerRules(self)
         self.lazy = LazyInitialiser(self)
         self.setAcceptDrops(True)
         self.resize(FIRST_SIZE.boundedTo(room_around(None).size() - FRAME))
@@ -351,6 +351,7 @@ class MainWindow(QMainWindow):
     def follow_workbench(self) -> None:
         """Follow the workbench, now that it and all around it are made."""
         workbench = self.workbench
+        PointerRules(self)  # it hears every event: none while all is made
         workbench.checks.found.connect(self._on_problems_found)
         workbench.canvas.news.picture_requested.connect(lambda: self.host.ask("exporting.picture"))
         workbench.canvas.news.layout_changed.connect(partial(update_edit_actions, self))

@@ -20,7 +20,6 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from nep_core.processes.process import program_command
 from nep_studio import settings
 from nep_studio.blocks.editor import Editor
 from nep_studio.project.journal import Recoverable
@@ -81,6 +80,8 @@ class SupportDialog(QDialog):
         self._process.errorOccurred.connect(self._on_error)
         self._show_buttons()
         self.state.setText(tr("Looking at this computer…"))
+        from nep_core.processes.process import program_command  # each start looks into this module
+
         program, *arguments = program_command("doctor", "--json")
         self._process.start(program, arguments)
         self._process.closeWriteChannel()

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Sequence
 from typing import Generic, TypeVar
 
-from PySide6.QtCore import QEvent, QPoint, QRect, QSize, Qt
+from PySide6.QtCore import QEvent, QPoint, QRect, QSize, Qt, Signal
 from PySide6.QtGui import QResizeEvent, QShowEvent
 from PySide6.QtWidgets import (
     QBoxLayout,
@@ -106,7 +106,12 @@ Page = TypeVar("Page", bound=QWidget)
 
 
 class LatePanel(InLines, Generic[Page]):
-    """Makes its page when it is shown for the first time: what draws it is slow to load."""
+    """Makes its page when it is shown for the first time: what draws it is slow to load.
+
+    ``made`` gives the page then.
+    """
+
+    made = Signal(object)
 
     def __init__(self, make: Callable[[], Page]) -> None:
         super().__init__()
@@ -119,6 +124,8 @@ class LatePanel(InLines, Generic[Page]):
         if self.page is None:
             self.page = self._make()
             self._box.addWidget(self.page)
+            self.page.show()  # now: what is done with it next may need to see it
+            self.made.emit(self.page)
         return self.page
 
     def forget(self) -> None:

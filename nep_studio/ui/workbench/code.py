@@ -11,8 +11,6 @@ from PySide6.QtWidgets import QFrame, QPushButton, QVBoxLayout, QWidget
 
 from nep_studio.blocks.editor import Editor
 from nep_studio.blocks.errors import BlocksError, CodeRefused, EditRefused
-from nep_studio.blocks.from_python.learning import CodeUnread
-from nep_studio.blocks.from_python.updating import update_from_python
 from nep_studio.blocks.generate.program import ProgramGenerator, generate_launch
 from nep_studio.blocks.generate.source_map import Code
 from nep_studio.blocks.program import Changes
@@ -319,6 +317,9 @@ class CodePane(QWidget):
 
     def apply(self) -> None:
         """Make the blocks what the text says; when it cannot be, nothing has changed."""
+        from nep_studio.blocks.from_python.learning import CodeUnread
+        from nep_studio.blocks.from_python.updating import update_from_python
+
         self.text.mark_wrong(())
         try:
             with self._editor.history.as_own():

@@ -12,7 +12,6 @@ from PySide6.QtWidgets import QApplication, QFrame, QLabel, QLineEdit, QScrollAr
 from nep_studio.blocks.definitions import Definition
 from nep_studio.blocks.operations.copying import Clip
 from nep_studio.blocks.places import Place
-from nep_studio.blocks.typing_in.suggesting import clip_of_suggestion, fitting, suggestions
 from nep_studio.settings import Settings
 from nep_studio.ui.canvas.canvas import Canvas
 from nep_studio.ui.canvas.layout.boxes import Chain
@@ -283,6 +282,8 @@ class InsertBar(QFrame):
         self.open(None, "" if letter == OPENER else letter)
 
     def _on_typed(self, text: str) -> None:
+        from nep_studio.blocks.typing_in.suggesting import clip_of_suggestion, fitting, suggestions
+
         editor = self.canvas.editor
         recent = self._settings.recent_blocks if self._settings is not None else []
         fits = fitting(editor, self._place) if self._place is not None else self._is_of_page

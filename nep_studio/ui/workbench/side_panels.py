@@ -211,6 +211,7 @@ class Rooms(QStackedWidget):
 
     def show_panel(self, widget: QWidget, is_shown: bool) -> None:
         """Give a room its tab and show it; or take both away."""
+        before = list(self.open)
         if is_shown and widget not in self.open:
             self.open = [one for one in self.titles if one in (*self.open, widget)]
         elif not is_shown and widget in self.open:
@@ -219,7 +220,8 @@ class Rooms(QStackedWidget):
             self.setCurrentWidget(widget)
         elif self.currentWidget() is widget:
             self.show_canvas()
-        self.changed.emit()
+        if self.open != before:
+            self.changed.emit()
 
     def show_first(self) -> None:
         """Show the canvas."""
@@ -232,7 +234,8 @@ class Rooms(QStackedWidget):
     def dress(self, widget: QWidget, sign: QIcon, _theme: Theme) -> None:
         """Take the sign of a theme."""
         self.signs[widget] = sign
-        self.changed.emit()
+        if widget in self.open:
+            self.changed.emit()
 
     def minimumSizeHint(self) -> QSize:
         """Room for what is on top: a larger one below must not make the window larger."""

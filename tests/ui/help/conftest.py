@@ -14,7 +14,7 @@ from nep_studio.blocks.program import Project
 from nep_studio.run.installation import studio_language
 from nep_studio.ui.canvas.canvas import Canvas
 from nep_studio.ui.plugins.help.help_controller import HelpController
-from nep_studio.ui.plugins.help.panel import HelpPanel
+from nep_studio.ui.plugins.help.panel import HelpPages
 from nep_studio.ui.plugins.help.repository import Book
 from nep_studio.ui.services import Studio
 from nep_studio.ui.shell.main_window import FIRST_SIZE, MainWindow
@@ -84,8 +84,8 @@ def canvas(studio, qtbot) -> Canvas:
 
 
 @pytest.fixture
-def panel(canvas, studio, qtbot) -> HelpPanel:
-    made = HelpPanel(canvas, studio.look, lambda: LANGUAGE, lambda: [("Run", "F5")])
+def panel(canvas, studio, qtbot) -> HelpPages:
+    made = HelpPages(canvas, studio.look, lambda: LANGUAGE, lambda: [("Run", "F5")])
     qtbot.addWidget(made)
     made.resize(380, 800)
     made.show()

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 from PySide6.QtCore import QPoint, Qt
 from PySide6.QtGui import QCursor
-from PySide6.QtWidgets import QApplication, QDialog
+from PySide6.QtWidgets import QApplication, QDialog, QLineEdit, QMainWindow
 
 from nep_core.errors import RobotNotAnswering
 from nep_studio.help.texts import HOME
@@ -148,7 +148,7 @@ def test_with_the_help_beside_it_the_canvas_keeps_the_keyboard(karate, desk, fir
 
 def test_a_hidden_help_follows_the_theme_when_it_is_seen_again(karate, desk, studio):
     desk.open("howto/words")
-    panel = next(p for p in karate.workbench.panels.all if p.widget is desk.panel)
+    panel = next(p for p in karate.workbench.panels.all if p.name == "HelpPanel")
     panel.action.setChecked(False)
     before = desk.panel.browser.toHtml()
 
@@ -230,6 +230,23 @@ def test_f1_in_a_dialog_opens_the_help_beside_it(karate, desk, qtbot):
     qtbot.waitUntil(desk.window.isVisible)
     assert desk.window.panel.trail.current == "howto/window#settings"
     dialog.reject()
+
+
+def test_a_dialog_of_another_window_is_not_ours_to_answer(karate, desk, qtbot):
+    other = QMainWindow()
+    qtbot.addWidget(other)
+    dialog = QDialog(other)
+    line = QLineEdit(dialog)
+    dialog.show()
+    qtbot.waitExposed(dialog)
+    dialog.activateWindow()
+    line.setFocus()
+    qtbot.waitUntil(line.hasFocus)
+
+    qtbot.keyClick(line, KEY.Key_F1)
+
+    assert desk._window is None
+    assert desk.shown_panel.trail.current == ""
 
 
 def test_the_help_menu_leads_to_contents_and_search(karate, desk, qtbot):

@@ -9,18 +9,18 @@ from PySide6.QtGui import QGuiApplication, QWheelEvent
 from PySide6.QtPrintSupport import QPrintDialog, QPrinter
 from PySide6.QtWidgets import QApplication, QLineEdit
 
-from nep_studio.ui.plugins.help.panel import HelpPanel, print_page
+from nep_studio.ui.plugins.help.panel import HelpPages, print_page
 from nep_studio.ui.theme.icons import icon_room
 from tests.ui.help.conftest import LANGUAGE
 
 KEY, LEFT = Qt.Key, Qt.MouseButton.LeftButton
 
 
-def text(panel: HelpPanel) -> str:
+def text(panel: HelpPages) -> str:
     return panel.browser.toPlainText()
 
 
-def listed(panel: HelpPanel) -> list[str]:
+def listed(panel: HelpPages) -> list[str]:
     found = panel.contents.found
     return [found.item(row).data(Qt.ItemDataRole.UserRole) for row in range(found.count())]
 
@@ -254,7 +254,7 @@ def test_the_question_for_a_printer_is_closed_and_asked_again(panel, qtbot):
 
 
 def test_a_hidden_panel_reads_nothing(canvas, studio, qtbot):
-    hidden = HelpPanel(canvas, studio.look, lambda: LANGUAGE)
+    hidden = HelpPages(canvas, studio.look, lambda: LANGUAGE)
     qtbot.addWidget(hidden)
 
     assert hidden._book is None

@@ -11,7 +11,8 @@ from pytestqt.qtbot import QtBot
 from nep_studio.run.plan import PlannedNode
 from nep_studio.ui.plugins.network import NetworkPanel
 from nep_studio.ui.plugins.network.panel import NetworkWorkspace
-from nep_studio.ui.plugins.nodes.panel import NodesPanel
+from nep_studio.ui.plugins.nodes import NodesPanel
+from nep_studio.ui.plugins.nodes.panel import NodesPage
 from nep_studio.ui.shell.main_window import MainWindow
 from tests.ui.window.conftest import answer, chooser, home, karate, studio, window
 
@@ -27,7 +28,7 @@ class Bench:
     """The karate example in a window with both panels shown."""
 
     window: MainWindow
-    nodes: NodesPanel
+    nodes: NodesPage
     room: NetworkPanel
 
     @property
@@ -44,8 +45,9 @@ class Bench:
 
 @pytest.fixture
 def bench(karate: MainWindow, qtbot: QtBot) -> Iterator[Bench]:
-    made = Bench(karate, karate.findChild(NodesPanel), karate.findChild(NetworkPanel))
-    karate.workbench.panels.show(made.nodes)
+    panel = karate.findChild(NodesPanel)
+    karate.workbench.panels.show(panel)
+    made = Bench(karate, panel.opened(), karate.findChild(NetworkPanel))
     qtbot.waitUntil(made.nodes.isVisible)
     yield made
     karate.running.close()

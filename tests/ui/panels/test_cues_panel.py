@@ -12,8 +12,9 @@ from nep_core.wire import messages as m
 from nep_studio.blocks.edits.content import SetField
 from nep_studio.project.triggers import kept_cues
 from nep_studio.ui.documents import Document
+from nep_studio.ui.plugins.cues import CuePanel
 from nep_studio.ui.plugins.cues.arranging import COLOURS, ArrangeDialog, columns_for, ink_on
-from nep_studio.ui.plugins.cues.panel import CuePanel
+from nep_studio.ui.plugins.cues.panel import CuePage
 from nep_studio.ui.shell.main_window import MainWindow
 from tests.blocks.block_building import B, build
 from tests.ui.theme.colour_seeing import contrast
@@ -30,16 +31,17 @@ HELLO = [B("robot_events.heard", {"word": "hello"}), B("robot.say", {"text": "He
 
 
 @pytest.fixture
-def panel(window: MainWindow, qtbot: QtBot) -> Iterator[Callable[..., CuePanel]]:
+def panel(window: MainWindow, qtbot: QtBot) -> Iterator[Callable[..., CuePage]]:
     """The panel, shown, over a program of these stacks."""
 
-    def show(*stacks: list[B]) -> CuePanel:
+    def show(*stacks: list[B]) -> CuePage:
         editor = build(window.studio.language, *stacks)
         build(window.studio.language, [B("robots.robot")], page="robots", editor=editor)
-        made = window.findChild(CuePanel)
         window.files.document = Document(editor, parent=window)
         window.files.document_changed.emit(window.files.document)
-        window.workbench.panels.show(made)
+        place = window.findChild(CuePanel)
+        window.workbench.panels.show(place)
+        made = place.opened()
         qtbot.waitUntil(lambda: bool(made.board.buttons) or made.empty.isVisible())
         return made
 
@@ -47,7 +49,7 @@ def panel(window: MainWindow, qtbot: QtBot) -> Iterator[Callable[..., CuePanel]]
     window.running.close()
 
 
-def words(panel: CuePanel) -> list[str]:
+def words(panel: CuePage) -> list[str]:
     return [button.text() for button in panel.board.buttons]
 
 
@@ -61,13 +63,13 @@ def run(window: MainWindow, qtbot: QtBot) -> list[object]:
     return heard
 
 
-def test_the_buttons_are_what_the_rules_wait_for(panel: Callable[..., CuePanel]) -> None:
+def test_the_buttons_are_what_the_rules_wait_for(panel: Callable[..., CuePage]) -> None:
     shown = panel(KARATE, TOUCH, HELLO)
 
     assert words(shown) == ["Karate", "Touch the head (NAO)", "“hello”"]
 
 
-def test_a_program_that_waits_for_nothing_says_so(panel: Callable[..., CuePanel]) -> None:
+def test_a_program_that_waits_for_nothing_says_so(panel: Callable[..., CuePage]) -> None:
     shown = panel([B("event.started")])
 
     assert shown.empty.isVisible()
@@ -75,7 +77,7 @@ def test_a_program_that_waits_for_nothing_says_so(panel: Callable[..., CuePanel]
 
 
 def test_a_pressed_button_sets_off_the_rule_and_is_noted(
-    window: MainWindow, panel: Callable[..., CuePanel], qtbot: QtBot
+    window: MainWindow, panel: Callable[..., CuePage], qtbot: QtBot
 ) -> None:
     shown = panel(KARATE, TOUCH)
     heard = run(window, qtbot)
@@ -95,7 +97,7 @@ def test_a_pressed_button_sets_off_the_rule_and_is_noted(
 
 
 def test_words_that_somebody_says_reach_the_rules(
-    window: MainWindow, panel: Callable[..., CuePanel], qtbot: QtBot
+    window: MainWindow, panel: Callable[..., CuePage], qtbot: QtBot
 ) -> None:
     shown = panel(HELLO)
     heard = run(window, qtbot)
@@ -108,7 +110,7 @@ def test_words_that_somebody_says_reach_the_rules(
 
 
 def test_a_movement_of_the_watch_on_the_screen_is_asked_for(
-    window: MainWindow, panel: Callable[..., CuePanel], qtbot: QtBot
+    window: MainWindow, panel: Callable[..., CuePage], qtbot: QtBot
 ) -> None:
     shown = panel(KARATE)
     run(window, qtbot)
@@ -126,7 +128,7 @@ def test_a_movement_of_the_watch_on_the_screen_is_asked_for(
 
 
 def test_without_a_running_program_it_says_why_and_offers_run(
-    window: MainWindow, panel: Callable[..., CuePanel], qtbot: QtBot
+    window: MainWindow, panel: Callable[..., CuePage], qtbot: QtBot
 ) -> None:
     shown = panel(KARATE)
 
@@ -142,7 +144,7 @@ def test_without_a_running_program_it_says_why_and_offers_run(
 
 
 def test_a_changed_rule_changes_its_button(
-    window: MainWindow, panel: Callable[..., CuePanel], qtbot: QtBot
+    window: MainWindow, panel: Callable[..., CuePage], qtbot: QtBot
 ) -> None:
     shown = panel(KARATE)
     editor = window.files.document.editor
@@ -154,7 +156,7 @@ def test_a_changed_rule_changes_its_button(
 
 
 def test_a_hidden_panel_does_no_work(
-    window: MainWindow, panel: Callable[..., CuePanel], qtbot: QtBot
+    window: MainWindow, panel: Callable[..., CuePage], qtbot: QtBot
 ) -> None:
     shown = panel(KARATE)
     shown.hide()
@@ -170,7 +172,7 @@ def test_a_hidden_panel_does_no_work(
 
 
 def test_an_operator_arranges_colours_keys_and_own_cues(
-    window: MainWindow, panel: Callable[..., CuePanel], qtbot: QtBot
+    window: MainWindow, panel: Callable[..., CuePage], qtbot: QtBot
 ) -> None:
     shown = panel(KARATE, HELLO)
     qtbot.mouseClick(shown.arrange_button, Qt.MouseButton.LeftButton)
@@ -196,7 +198,7 @@ def test_an_operator_arranges_colours_keys_and_own_cues(
 
 
 def test_a_hidden_cue_has_no_button_and_can_be_shown_again(
-    panel: Callable[..., CuePanel], qtbot: QtBot
+    panel: Callable[..., CuePage], qtbot: QtBot
 ) -> None:
     shown = panel(KARATE, HELLO)
     for expected in (["“hello”"], ["Karate", "“hello”"]):
@@ -210,7 +212,7 @@ def test_a_hidden_cue_has_no_button_and_can_be_shown_again(
 
 
 def test_a_name_without_letters_is_refused_with_a_reason(
-    panel: Callable[..., CuePanel], qtbot: QtBot
+    panel: Callable[..., CuePage], qtbot: QtBot
 ) -> None:
     shown = panel(KARATE)
     shown.arrange()
@@ -225,7 +227,7 @@ def test_a_name_without_letters_is_refused_with_a_reason(
 
 
 def test_keys_press_their_buttons_but_not_while_words_are_typed(
-    panel: Callable[..., CuePanel], qtbot: QtBot
+    panel: Callable[..., CuePage], qtbot: QtBot
 ) -> None:
     shown = panel(KARATE)
     shown.arrange()
@@ -245,7 +247,7 @@ def test_keys_press_their_buttons_but_not_while_words_are_typed(
     assert len(refused) == 1
 
 
-def test_as_many_buttons_in_a_row_as_fit(panel: Callable[..., CuePanel], qtbot: QtBot) -> None:
+def test_as_many_buttons_in_a_row_as_fit(panel: Callable[..., CuePage], qtbot: QtBot) -> None:
     board = panel(KARATE, HELLO, TOUCH).board
     one = board.buttons[0].sizeHint().width()
 
@@ -262,12 +264,12 @@ def test_words_can_be_read_on_every_colour(colour: str) -> None:
 
 
 def test_after_the_panel_is_gone_nothing_of_it_listens(
-    window: MainWindow, panel: Callable[..., CuePanel], qtbot: QtBot
+    window: MainWindow, panel: Callable[..., CuePage], qtbot: QtBot
 ) -> None:
     gone: list[bool] = []
     panel(KARATE)
     document = window.files.document
-    of_a_show = CuePanel(window.host, is_large=True)
+    of_a_show = CuePage(window.host, is_large=True)
     of_a_show.destroyed.connect(lambda: gone.append(True))
     of_a_show.show()
 

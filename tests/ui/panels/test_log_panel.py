@@ -15,7 +15,7 @@ from nep_core.wire import messages as m
 from nep_studio.run.installation import studio_language
 from nep_studio.ui.messages import Message, Messages
 from nep_studio.ui.plugins.log.lines import MOST_LINES, Line, LinesModel
-from nep_studio.ui.plugins.log.panel import MOST_AT_ONCE, LogPanel, WhatHappens
+from nep_studio.ui.plugins.log.panel import MOST_AT_ONCE, LogPage, WhatHappens
 from nep_studio.ui.running.runner import Runner
 from nep_studio.ui.theme.look import Look, load_fonts
 
@@ -55,8 +55,8 @@ def look(qapp: QApplication) -> Iterator[Look]:
 
 
 @pytest.fixture
-def log(host: QMainWindow, runner: Runner, look: Look, qtbot: QtBot) -> LogPanel:
-    made = LogPanel(runner, Messages(host), studio_language, look)
+def log(host: QMainWindow, runner: Runner, look: Look, qtbot: QtBot) -> LogPage:
+    made = LogPage(runner, Messages(host), studio_language, look)
     host.setCentralWidget(made)
     host.resize(900, 300)
     host.show()
@@ -68,12 +68,12 @@ def words(panel: WhatHappens) -> list[tuple[str, str]]:
     return [(line.source, line.what) for line in panel.model.lines()]
 
 
-def test_an_empty_log_says_what_belongs_there(log: LogPanel) -> None:
+def test_an_empty_log_says_what_belongs_there(log: LogPage) -> None:
     assert log.what_happens.hint.isVisible()
     assert "Press Run" in log.what_happens.hint.text()
 
 
-def test_what_happens_is_told_as_it_comes(log: LogPanel, runner: Runner) -> None:
+def test_what_happens_is_told_as_it_comes(log: LogPage, runner: Runner) -> None:
     runner.arrived.emit(BATCH)
 
     assert words(log.what_happens) == [
@@ -84,7 +84,7 @@ def test_what_happens_is_told_as_it_comes(log: LogPanel, runner: Runner) -> None
     assert log.what_happens.list.isVisible()
 
 
-def test_a_run_begins_with_a_line_of_its_own_at_time_0(log: LogPanel, runner: Runner) -> None:
+def test_a_run_begins_with_a_line_of_its_own_at_time_0(log: LogPage, runner: Runner) -> None:
     runner.state_changed.emit("starting")
 
     [line] = log.what_happens.model.lines()
@@ -94,7 +94,7 @@ def test_a_run_begins_with_a_line_of_its_own_at_time_0(log: LogPanel, runner: Ru
 
 
 def test_a_hidden_panel_tells_later_what_came_meanwhile(
-    log: LogPanel, runner: Runner, host: QMainWindow
+    log: LogPage, runner: Runner, host: QMainWindow
 ) -> None:
     host.hide()
     runner.arrived.emit(BATCH)
@@ -106,7 +106,7 @@ def test_a_hidden_panel_tells_later_what_came_meanwhile(
 
 
 def test_the_lines_of_a_part_and_with_some_words_can_be_shown_alone(
-    log: LogPanel, runner: Runner, qtbot: QtBot
+    log: LogPage, runner: Runner, qtbot: QtBot
 ) -> None:
     panel = log.what_happens
     runner.arrived.emit(BATCH)
@@ -121,7 +121,7 @@ def test_the_lines_of_a_part_and_with_some_words_can_be_shown_alone(
     assert "No line" in panel.hint.text()
 
 
-def test_lines_that_say_the_same_are_counted(log: LogPanel, runner: Runner) -> None:
+def test_lines_that_say_the_same_are_counted(log: LogPage, runner: Runner) -> None:
     for _ in range(5):
         runner.arrived.emit([(m.HUMAN_BEHAVIOR, KARATE)])
 
@@ -163,7 +163,7 @@ def flood(start: int, count: int) -> list[tuple[str, m.HumanBehavior]]:
 
 
 def test_of_a_flood_of_5000_messages_the_newest_are_kept(
-    log: LogPanel, runner: Runner, qapp: QApplication
+    log: LogPage, runner: Runner, qapp: QApplication
 ) -> None:
     batches = [flood(start, 167) for start in range(0, 5010, 167)]
 
@@ -174,7 +174,7 @@ def test_of_a_flood_of_5000_messages_the_newest_are_kept(
     assert log.what_happens.model.total == MOST_LINES
 
 
-def test_of_one_huge_batch_the_rest_is_counted(log: LogPanel, runner: Runner) -> None:
+def test_of_one_huge_batch_the_rest_is_counted(log: LogPage, runner: Runner) -> None:
     runner.arrived.emit(flood(0, MOST_AT_ONCE + 100))
 
     first, *rest = log.what_happens.model.lines()
@@ -184,7 +184,7 @@ def test_of_one_huge_batch_the_rest_is_counted(log: LogPanel, runner: Runner) ->
 
 
 def test_the_lines_are_copied_and_saved_as_text(
-    log: LogPanel, runner: Runner, tmp_path: Path
+    log: LogPage, runner: Runner, tmp_path: Path
 ) -> None:
     runner.arrived.emit(BATCH)
 
@@ -198,7 +198,7 @@ def test_the_lines_are_copied_and_saved_as_text(
 
 
 def test_a_file_that_cannot_be_written_is_told(
-    log: LogPanel, runner: Runner, host: QMainWindow, tmp_path: Path, qtbot: QtBot
+    log: LogPage, runner: Runner, host: QMainWindow, tmp_path: Path, qtbot: QtBot
 ) -> None:
     runner.arrived.emit(BATCH)
     qtbot.mouseClick(log.what_happens.buttons.save, Qt.MouseButton.LeftButton)
@@ -219,7 +219,7 @@ def tell(host: QMainWindow) -> Messages:
     return messages
 
 
-def test_what_was_told_is_kept_the_newest_first(log: LogPanel, host: QMainWindow) -> None:
+def test_what_was_told_is_kept_the_newest_first(log: LogPage, host: QMainWindow) -> None:
     tell(host)
 
     log.setCurrentWidget(log.told)
@@ -229,7 +229,7 @@ def test_what_was_told_is_kept_the_newest_first(log: LogPanel, host: QMainWindow
     assert log.told.list.item(0).data(Qt.ItemDataRole.AccessibleTextRole).startswith("Error")
 
 
-def test_what_is_told_while_the_tab_is_open_comes_on_top(log: LogPanel, host: QMainWindow) -> None:
+def test_what_is_told_while_the_tab_is_open_comes_on_top(log: LogPage, host: QMainWindow) -> None:
     log.setCurrentWidget(log.told)
     assert log.told.hint.isVisible()
 
@@ -240,7 +240,7 @@ def test_what_is_told_while_the_tab_is_open_comes_on_top(log: LogPanel, host: QM
 
 
 def test_all_messages_are_copied_with_their_checklists_and_details(
-    log: LogPanel, host: QMainWindow, qtbot: QtBot
+    log: LogPage, host: QMainWindow, qtbot: QtBot
 ) -> None:
     tell(host)
     log.setCurrentWidget(log.told)

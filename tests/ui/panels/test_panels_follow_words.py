@@ -257,11 +257,11 @@ def test_what_was_typed_chosen_and_opened_stays(
     person.body.angle.setValue(12.0)
     person.sections[-1].open(True)
     chosen = person.body.posture.currentData()
-    log = show(window, "LogPanel")
+    log = show(window, "LogPanel").page
     log.what_happens.part.setCurrentIndex(2)
     log.what_happens.search.setText("nao")
     log.setCurrentIndex(1)
-    pages = show(window, "HelpPanel")
+    pages = show(window, "HelpPanel").page
     pages.open("howto/window")
     pages.search.setText("Roboter")
 

@@ -8,9 +8,10 @@ from pytestqt.qtbot import QtBot
 
 from nep_core.networks.master import Master
 from nep_studio import paths
-from nep_studio.ui.plugins.log.panel import LogPanel
+from nep_studio.ui.plugins.log import LogPanel
 from nep_studio.ui.plugins.robots.panel import RobotsPanel
 from nep_studio.ui.shell.main_window import MainWindow
+from nep_studio.ui.widgets.layouts import LatePanel
 
 RUN_MS = 30_000
 
@@ -19,7 +20,7 @@ def shown(window: MainWindow, kind: type[QWidget]) -> QWidget:
     panels = window.workbench.panels
     [found] = [panel.widget for panel in panels.all if type(panel.widget) is kind]
     panels.show(found)
-    return found
+    return found.opened() if isinstance(found, LatePanel) else found
 
 
 @pytest.fixture

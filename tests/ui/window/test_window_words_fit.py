@@ -217,4 +217,4 @@ def test_cues_that_do_not_fit_beside_each_other_are_below(window, qtbot) -> None
     panels.show(cues)
     qtbot.wait(100)
 
-    assert cues.board.width() <= cues.board.parentWidget().width()
+    assert cues.page.board.width() <= cues.page.board.parentWidget().width()

@@ -11,7 +11,6 @@ from PySide6.QtGui import QGuiApplication
 
 from nep_studio.blocks.editor import Editor
 from nep_studio.blocks.errors import BlocksError, CodeRefused, EditRefused
-from nep_studio.blocks.from_python.pasting import read_snippet
 from nep_studio.blocks.operations.copying import (
     Clip,
     copy,
@@ -83,6 +82,8 @@ def clip_of_text(editor: Editor, text: str) -> Clip:
     try:
         if text.lstrip().startswith("{"):
             return from_text(text, editor.language)
+        from nep_studio.blocks.from_python.pasting import read_snippet
+
         return read_snippet(text, editor.language, editor.project)
     except BlocksError as error:
         raise EditRefused(error.sentence, checklist=error.checklist) from error

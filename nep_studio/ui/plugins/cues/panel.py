@@ -139,7 +139,7 @@ class CueSender(QObject):
 MOST_LOGGED = 200
 
 
-class CuePanel(QWidget):
+class CuePage(QWidget):
     """Buttons, a line for words, and what was sent when. With ``is_large`` it is for a show."""
 
     def __init__(

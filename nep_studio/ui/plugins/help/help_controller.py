@@ -3,10 +3,19 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QEvent, QObject, Qt, QUrl, Signal
 from PySide6.QtGui import QAction, QCursor, QDesktopServices, QKeyEvent, QKeySequence, QShortcut
-from PySide6.QtWidgets import QAbstractButton, QApplication, QDialog, QMenu, QToolButton, QWidget
+from PySide6.QtWidgets import (
+    QAbstractButton,
+    QApplication,
+    QDialog,
+    QMainWindow,
+    QMenu,
+    QToolButton,
+    QWidget,
+)
 
 from nep_studio.blocks.program import split_slot
 from nep_studio.help.texts import HOME, PROBLEMS, block_page, error_anchor, error_texts
@@ -16,13 +25,14 @@ from nep_studio.ui.canvas.fields.popup import FieldPopup
 from nep_studio.ui.labels import labelled
 from nep_studio.ui.message_cards import MessageCard
 from nep_studio.ui.messages import Message, Messages
-from nep_studio.ui.widgets.layouts import in_column
+from nep_studio.ui.widgets.layouts import LatePanel, in_column
 from nep_studio.ui.words import language_code, tr
 from nep_studio.ui.workbench.help_card import BlockOpening
 from nep_studio.ui.workbench.palette.shelf import Shelf
 from nep_studio.ui.workbench.side_panels import Panels
 
-from .panel import HelpPanel
+if TYPE_CHECKING:
+    from .panel import HelpPages
 
 # Which page of the help tells about what is under the mouse or has the keyboard.
 
@@ -72,6 +82,7 @@ PAGES_OF_WIDGETS = {
     f"{WINDOW}#robots": "RobotsPanel",
     f"{WINDOW}#person": "HumanPanel",
     f"{WINDOW}#log": "LogPanel MessageArea",
+    f"{WINDOW}#help": "HelpPanel HelpPages",
     f"{WINDOW}#pages": "PagesBar",
     f"{WINDOW}#find": "FindBar",
     f"{WINDOW}#insert": "InsertBar",
@@ -177,7 +188,7 @@ KEY = "help_key"
 class HelpWindow(QWidget):
     """The help in a window of its own: where there is no workbench, or a dialog covers it."""
 
-    def __init__(self, panel: HelpPanel) -> None:
+    def __init__(self, panel: HelpPages) -> None:
         super().__init__(None, Qt.WindowType.Window)
         labelled(self, window_title="Help")
         self.setAttribute(Qt.WidgetAttribute.WA_QuitOnClose, False)  # the main window decides
@@ -190,7 +201,8 @@ class HelpWindow(QWidget):
 class HelpController(QObject):
     """Where help is asked for. ``try_requested`` brings an example that is to be run.
 
-    ``panel_made`` brings the HelpPanel of a window of its own, when that is first needed.
+    ``panel_made`` brings the HelpPages beside the canvas, and those of a window of their own, when
+    they are first needed.
     """
 
     try_requested = Signal(object)
@@ -198,24 +210,28 @@ class HelpController(QObject):
 
     def __init__(
         self,
-        panel: HelpPanel,
-        new_panel: Callable[[], HelpPanel],
+        place: LatePanel[HelpPages],
+        new_panel: Callable[[], HelpPages],
         panels: Panels,
         opening: BlockOpening,
     ) -> None:
-        super().__init__(panel)
-        self.panel, self._panels, self._opening = panel, panels, opening
+        super().__init__(place)
+        self._place, self._panels, self._opening = place, panels, opening
         self._new_panel = new_panel
         self._window: HelpWindow | None = None
-        panel.try_requested.connect(self.try_requested)
-        panel.left.connect(self._on_left)
+        place.made.connect(self._on_made)
         opening.page_asked.connect(self.open)
-        opening.is_page_shown = lambda: panel.isVisible()
+        opening.is_page_shown = place.isVisible
         self._canvas: Canvas = opening.canvas
         self._canvas.news.menu_requested.connect(self._on_menu_requested)
         app = QApplication.instance()
         assert isinstance(app, QApplication)
         app.focusChanged.connect(self._on_focus_changed)
+
+    @property
+    def panel(self) -> HelpPages:
+        """The help beside the canvas; it is made when it is first needed."""
+        return self._place.opened()
 
     @property
     def window(self) -> HelpWindow:
@@ -224,15 +240,15 @@ class HelpController(QObject):
             self._window = HelpWindow(self._new_panel())
             self._window.panel.example.can_insert = False
             self._window.panel.try_requested.connect(self.try_requested)
-            self.panel.destroyed.connect(self._window.deleteLater)
+            self._place.destroyed.connect(self._window.deleteLater)
             self.panel_made.emit(self._window.panel)
         return self._window
 
     def open(self, page: str = HOME) -> None:
         """Show a page beside the canvas; where that cannot be seen, in a window."""
         if self._panels.row.isVisible() and not _is_covered(self._panels.row):
-            was_shown = self.panel.isVisible()
-            self._panels.show(self.panel)
+            was_shown = self._place.isVisible()
+            self._panels.show(self._place)
             self._show(self.panel, page)
             if not was_shown and not page.startswith("?"):
                 self.panel.browser.setFocus(Qt.FocusReason.OtherFocusReason)
@@ -248,7 +264,7 @@ class HelpController(QObject):
         self.shown_panel.start_search()
 
     @property
-    def shown_panel(self) -> HelpPanel:
+    def shown_panel(self) -> HelpPages:
         """The panel in which the help is read now."""
         window = self._window
         return window.panel if window is not None and window.isVisible() else self.panel
@@ -267,7 +283,7 @@ class HelpController(QObject):
         for each in (menu, *menu.findChildren(QMenu)):
             each.installEventFilter(self)
 
-    def _show(self, panel: HelpPanel, page: str) -> None:
+    def _show(self, panel: HelpPages, page: str) -> None:
         if page.startswith("?"):  # no page is known, but there may be one that says it
             panel.open(HOME)
             panel.start_search(page.removeprefix("?"))
@@ -280,6 +296,11 @@ class HelpController(QObject):
         chosen = canvas.selection.cursor
         return is_there and not page_of_field(canvas) and chosen in canvas.selection
 
+    def _on_made(self, panel: HelpPages) -> None:
+        panel.try_requested.connect(self.try_requested)
+        panel.left.connect(self._on_left)
+        self.panel_made.emit(panel)
+
     def _on_left(self) -> None:
         """Let the keyboard go on with the program."""
         self._canvas.setFocus(Qt.FocusReason.OtherFocusReason)
@@ -291,12 +312,19 @@ class HelpController(QObject):
     def _on_focus_changed(self, before: QWidget | None, now: QWidget | None) -> None:
         """Let dialogs and windows of their own hear F1, too."""
         top = now.window() if now is not None else None
-        if not isinstance(top, QDialog | FieldPopup | HelpWindow):
+        if not isinstance(top, QDialog | FieldPopup | HelpWindow) or not self._is_ours(top):
             return
         if top.findChild(QShortcut, KEY) is None:
             shortcut = QShortcut(QKeySequence("F1"), top)
             shortcut.setObjectName(KEY)
             shortcut.activated.connect(lambda: self.open(page_at(QApplication.focusWidget())))
+
+    def _is_ours(self, top: QWidget) -> bool:
+        """Whether it belongs to this window, and not to another one of the same program."""
+        owner = top
+        while (above := owner.parentWidget()) is not None:
+            owner = above
+        return not isinstance(owner, QMainWindow) or owner is self._panels.row.window()
 
     def eventFilter(self, watched: QObject, event: QEvent) -> bool:
         """F1 in a menu closes it and tells about the entry that is marked."""

@@ -337,7 +337,7 @@ CONTENTS_LINES = 15
 """How wide the contents are at least then."""
 
 
-class HelpPanel(InLines):
+class HelpPages(InLines):
     """Shows the help. ``try_requested`` brings a project that a person wants to try.
 
     ``left`` says that the keyboard is to go on with the program.
@@ -375,7 +375,6 @@ class HelpPanel(InLines):
         in_column(self.tools, (self.body, 1), self.example, of=self, margins=0, spacing=0)
         self._connect()
         labelled(self, name="Help")
-        self.setProperty("help_page", "howto/window#help")
         self._show_tools()
         follow_words(self, self._speak)
 

@@ -370,7 +370,7 @@ def _as_text(told: LoggedMessage) -> str:
     return "\n".join(filter(None, lines))
 
 
-class LogPanel(QTabWidget):
+class LogPage(QTabWidget):
     """Reads on while a program runs; it does no work while it is hidden."""
 
     def __init__(

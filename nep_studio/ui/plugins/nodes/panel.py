@@ -94,7 +94,7 @@ class CardGrid(QScrollArea):
 FIGURES_S = 1.0
 
 
-class NodesPanel(InLines):
+class NodesPage(InLines):
     """Shows the nodes of a runner while it is visible; its buttons ask for what they say.
 
     ``start_asked``, ``stop_asked`` and ``restart_asked`` give a name.
@@ -112,8 +112,6 @@ class NodesPanel(InLines):
         self._runner, self._feed, self._look = runner, feed, look
         self._planned: list[PlannedNode] = []
         self._figures_s = 0.0
-        self.notifier: QObject | None = None
-        """What tells of its nodes, which lives as long as it does."""
         self.grid = CardGrid()
         self.log = LogView(look)
         self.log.hide()

@@ -18,7 +18,6 @@ from nep_studio.blocks.language import Language
 from nep_studio.blocks.operations.copying import copy
 from nep_studio.blocks.operations.finding import folded
 from nep_studio.blocks.program import FIRST_BLOCKS, Changes, Project
-from nep_studio.blocks.typing_in.suggesting import suggestions
 from nep_studio.settings import Settings
 from nep_studio.ui.canvas.canvas import Canvas
 from nep_studio.ui.canvas.editing.menu import MenuEntry, MenuPlace
@@ -74,6 +73,8 @@ def found_samples(stock: Stock, samples: Iterable[str], typed: str, project: Pro
     First those whose sentences are meant, also by other words and with a letter wrong; then
     those that have all the words anywhere: in a choice, in the name of the category.
     """
+    from nep_studio.blocks.typing_in.suggesting import suggestions  # it reads Python
+
     meant = suggestions(typed, stock.language, project, limit=MOST_FOUND)
     rank: dict[str, int] = {}
     for suggestion in meant:
