@@ -90,7 +90,8 @@ class LookPage(QWidget):
         self.text_percent = QLabel()
         self.text_percent.setMinimumWidth(self.fontMetrics().horizontalAdvance("0000 %"))
         self._show_percent(self.text_size.value())
-        size = in_row((self.text_size, 1), self.text_percent)
+        half = self.fontMetrics().height() // 2
+        size = in_row((self.text_size, 1), self.text_percent, spacing=half)
         form = _form(self)
         form.addRow(label_of("Language", self.language), self.language)
         form.addRow(label_of("Theme", self.theme), self.theme)
@@ -138,7 +139,7 @@ class FoldersPage(QWidget):
         self._refresh()
 
     def _buttons(self, name: FolderName, title: str) -> QHBoxLayout:
-        row = QHBoxLayout()
+        row = in_row(spacing=self.fontMetrics().height() // 3)  # a grid has none to pass on
         does = (self._on_open, self._on_change, lambda name: self.choose(name, None))
         for words, do in zip(FOLDER_BUTTONS, does, strict=True):
             named = text_of("{name}: {kind}", name=text_of(title), kind=text_of(words))
@@ -179,7 +180,8 @@ class ShowPage(QWidget):
         self.pin = QLineEdit(echoMode=QLineEdit.EchoMode.Password)
         self.pin.setMinimumWidth(self.fontMetrics().averageCharWidth() * PIN_LETTERS)
         self.pin_button = QPushButton(autoDefault=False)
-        pin = in_row((self.pin, 1), self.pin_button)
+        half = self.fontMetrics().height() // 2
+        pin = in_row((self.pin, 1), self.pin_button, spacing=half)
         rows = QWidget()
         form = _form(rows)
         form.setContentsMargins(0, 0, 0, 0)
