@@ -57,7 +57,12 @@ class ShortcutsDialog(QDialog):
         header = self.table.horizontalHeader()
         header.setSectionResizeMode(0, QHeaderView.ResizeMode.Stretch)
         header.setSectionResizeMode(1, QHeaderView.ResizeMode.ResizeToContents)
-        in_column(self.table, (_closer(self), 0, Qt.AlignmentFlag.AlignTrailing), of=self)
+        header.setDefaultAlignment(Qt.AlignmentFlag.AlignLeading | Qt.AlignmentFlag.AlignVCenter)
+        closer, line = (
+            (_closer(self), 0, Qt.AlignmentFlag.AlignTrailing),
+            self.fontMetrics().height(),
+        )
+        in_column(self.table, closer, of=self, margins=line, spacing=line // 2)
         fit_on_screen(self, 40, 30)
 
 

@@ -10,17 +10,19 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from PySide6.QtCore import QEvent, QObject, QSignalBlocker, Qt, QTimer, QUrl, Signal
+from PySide6.QtCore import QEvent, QObject, QSignalBlocker, QSize, Qt, QTimer, QUrl, Signal
 from PySide6.QtGui import QDesktopServices
 from PySide6.QtWidgets import (
     QCheckBox,
     QDialog,
     QFormLayout,
+    QFrame,
     QGridLayout,
     QHBoxLayout,
     QLabel,
     QLineEdit,
     QPushButton,
+    QScrollArea,
     QSlider,
     QSpinBox,
     QTabWidget,
@@ -46,7 +48,7 @@ from nep_studio.ui.messages import Answer, Message
 from nep_studio.ui.services import Studio
 from nep_studio.ui.theme.colours import load_theme, themes
 from nep_studio.ui.widgets.choices import Choices
-from nep_studio.ui.widgets.forms import ElidedLabel, hint, label_of, plain_label
+from nep_studio.ui.widgets.forms import ElidedLabel, hint, label_of, plain_label, room_around
 from nep_studio.ui.widgets.layouts import in_column, in_row
 from nep_studio.ui.widgets.questions import ask_for_path
 from nep_studio.ui.words import available_languages, tr
@@ -90,7 +92,8 @@ class LookPage(QWidget):
         self.text_percent = QLabel()
         self.text_percent.setMinimumWidth(self.fontMetrics().horizontalAdvance("0000 %"))
         self._show_percent(self.text_size.value())
-        size = in_row((self.text_size, 1), self.text_percent)
+        half = self.fontMetrics().height() // 2
+        size = in_row((self.text_size, 1), self.text_percent, spacing=half)
         form = _form(self)
         form.addRow(label_of("Language", self.language), self.language)
         form.addRow(label_of("Theme", self.theme), self.theme)
@@ -138,7 +141,7 @@ class FoldersPage(QWidget):
         self._refresh()
 
     def _buttons(self, name: FolderName, title: str) -> QHBoxLayout:
-        row = QHBoxLayout()
+        row = in_row(spacing=self.fontMetrics().height() // 3)  # a grid has none to pass on
         does = (self._on_open, self._on_change, lambda name: self.choose(name, None))
         for words, do in zip(FOLDER_BUTTONS, does, strict=True):
             named = text_of("{name}: {kind}", name=text_of(title), kind=text_of(words))
@@ -179,7 +182,8 @@ class ShowPage(QWidget):
         self.pin = QLineEdit(echoMode=QLineEdit.EchoMode.Password)
         self.pin.setMinimumWidth(self.fontMetrics().averageCharWidth() * PIN_LETTERS)
         self.pin_button = QPushButton(autoDefault=False)
-        pin = in_row((self.pin, 1), self.pin_button)
+        half = self.fontMetrics().height() // 2
+        pin = in_row((self.pin, 1), self.pin_button, spacing=half)
         rows = QWidget()
         form = _form(rows)
         form.setContentsMargins(0, 0, 0, 0)
@@ -437,6 +441,33 @@ def _as_it_was(studio: Studio, place: Place) -> Callable[[], None]:
     return take_back
 
 
+LINES_AROUND = 8
+"""So many lines of text of the screen are for what is around the pages: the buttons, the title."""
+
+
+class PagesArea(QScrollArea):
+    """As large as its pages; they scroll only where very large words have no room on the screen."""
+
+    def __init__(self, pages: QWidget) -> None:
+        super().__init__(widgetResizable=True)
+        self.setFrameShape(QFrame.Shape.NoFrame)
+        self.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
+        self._pages = pages
+        self.setWidget(pages)
+
+    def minimumSizeHint(self) -> QSize:
+        """What the pages need, as far as the screen has it."""
+        needed = self._pages.minimumSizeHint().expandedTo(self._pages.minimumSize())
+        most = room_around(self).height() - LINES_AROUND * self.fontMetrics().height()
+        bar = self.verticalScrollBar().sizeHint().width() if needed.height() > most else 0
+        return QSize(needed.width() + bar, min(needed.height(), most))
+
+    def sizeHint(self) -> QSize:
+        """What the pages would like."""
+        least, wanted = self.minimumSizeHint(), self._pages.sizeHint()
+        return QSize(max(wanted.width(), least.width()), least.height())
+
+
 class SettingsDialog(QDialog):
     """Shows what is chosen, and takes what is chosen anew.
 
@@ -463,7 +494,8 @@ class SettingsDialog(QDialog):
         self.pages = QTabWidget()
         line = self.fontMetrics().height()
         buttons = in_row(self.reset_button, 1, self.cancel_button, self.close_button)
-        in_column((self.pages, 1), buttons, of=self, margins=line, spacing=line)
+        self._area = PagesArea(self.pages)
+        in_column((self._area, 1), buttons, of=self, margins=line, spacing=line)
         self.setMinimumWidth(line * 34)
         settings = studio.settings
         look = LookPage(settings)
@@ -492,6 +524,7 @@ class SettingsDialog(QDialog):
             needed = self.pages.minimumSizeHint().height()
             if self.pages.minimumHeight() != needed:
                 self.pages.setMinimumHeight(needed)  # it tells nobody by itself
+                self._area.updateGeometry()
         return is_done
 
     def reject(self) -> None:

@@ -259,6 +259,10 @@ LEAST_STAGE = 12
 PERSON_SHARE = 0.38
 """How much of the height beside the canvas the person has when somebody looks at it."""
 
+BELOW_SHARE, LEAST_BELOW = 0.28, 9
+"""How much of the height panels below the canvas have, and how many lines of text at least: from
+a window of the usual size on, a card of What runs is seen whole."""
+
 
 class Panels(QObject):
     """All panels of one window: around ``middle``, and the ``rooms`` in it."""
@@ -349,7 +353,8 @@ class Panels(QObject):
         self._share_width()
         height = self.row.window().height()  # it may not have been shown yet
         if not self.column.restoreState(self._settings.state("column")):
-            self.column.setSizes([height - line * 9, line * 9])
+            below = max(round(height * BELOW_SHARE), line * LEAST_BELOW)
+            self.column.setSizes([height - below, below])
         if not self.stage.restoreState(self._settings.state("stage")):
             below = round(height * PERSON_SHARE)
             self.stage.setSizes([height - below, below])

@@ -15,7 +15,7 @@ from nep_core.networks.zmq_networks import PeerNetwork
 from nep_core.wire import messages as m
 from nep_core.wire.pubsub import Publisher
 from nep_studio.run.plan import PlannedNode
-from nep_studio.ui.network_feed import TopicSeen
+from nep_studio.ui.network_feed import Seen, TopicSeen
 from nep_studio.ui.plugins.network.graph import Key
 from nep_studio.ui.plugins.network.topics import SHOW_MS
 from nep_studio.ui.running.runner import BATCHES_HZ
@@ -45,6 +45,21 @@ def test_an_empty_network_says_what_belongs_there_and_offers_to_run(
     with qtbot.waitSignal(bench.runner.run_asked):
         qtbot.mouseClick(bench.network.empty.run_button, Qt.MouseButton.LeftButton)
     qtbot.waitUntil(lambda: bench.runner.state == "running", timeout=WAIT_MS)
+
+
+def test_before_nodes_that_run_are_seen_nobody_says_that_there_are_none(
+    bench: Bench, start: Start, qtbot: QtBot
+) -> None:
+    start(KARATE)
+    qtbot.waitUntil(lambda: "karate" in bench.runner.board.nodes, timeout=WAIT_MS)
+
+    show(bench, qtbot)
+    bench.network._feed.changed.emit(Seen(is_up=True))  # as long as nobody has registered
+
+    empty = bench.network.empty
+    assert bench.network.views.currentWidget() is empty
+    assert empty.words.text() == "Here you see which nodes run and what they tell each other."
+    assert not empty.run_button.isVisible()
 
 
 def test_real_nodes_and_their_rates_are_seen(bench: Bench, start: Start, qtbot: QtBot) -> None:

@@ -12,8 +12,9 @@ from pytestqt.qtbot import QtBot
 
 from nep_studio.support.startup import Place
 from nep_studio.ui.shell.main_window import MainWindow
-from nep_studio.ui.shell.settings_dialog import SettingsDialog
+from nep_studio.ui.shell.settings_dialog import PagesArea, SettingsDialog
 from nep_studio.ui.shell.show_at_start import FilesDialog, ShowAtStart
+from nep_studio.ui.widgets.forms import room_around
 from tests.blocks.block_building import B
 
 Open = Callable[..., SettingsDialog]
@@ -176,3 +177,24 @@ def test_all_of_it_fits_on_a_small_screen(
         dialog.pages.setCurrentIndex(number)
         qtbot.waitUntil(lambda: has_room(dialog.pages.currentWidget()))
     assert dialog.width() <= room[0] and dialog.height() + title_bar <= room[1]
+
+
+def test_with_words_of_twice_the_size_its_buttons_are_on_a_small_screen(
+    window: MainWindow, open_dialog: Open, qtbot: QtBot
+) -> None:
+    window.studio.choose_text_scale(2.0)
+    title_bar = 40
+
+    dialog = open_dialog()
+    dialog.pages.setCurrentWidget(dialog.show_page)
+    last = dialog.show_page.at_start.details_button
+
+    def is_reached() -> bool:
+        bar = dialog.findChild(PagesArea).verticalScrollBar()
+        bar.setValue(bar.maximum())
+        return not last.visibleRegion().isEmpty()
+
+    qtbot.waitUntil(is_reached)
+    assert dialog.height() + title_bar <= room_around(dialog).height()
+    assert dialog.rect().contains(dialog.close_button.geometry())
+    window.studio.choose_text_scale(1.0)

@@ -17,8 +17,12 @@ from PySide6.QtWidgets import (
 )
 from pytestqt.qtbot import QtBot
 
+from faults import verbatim
 from nep_studio import paths
+from nep_studio.ui.messages import Answer, Message
+from nep_studio.ui.plugins.nodes.card import NodeCard
 from nep_studio.ui.plugins.person.person_box import WordsButton
+from nep_studio.ui.plugins.robots.panel import RobotsPanel
 from nep_studio.ui.plugins.robots.stage_tools import StageTools
 from nep_studio.ui.services import Studio
 from nep_studio.ui.shell.help_dialogs import ShortcutsDialog
@@ -181,6 +185,81 @@ def test_the_buttons_of_the_person_show_all_words_in_a_small_window(karate, qtbo
 
     assert narrow
     assert all(one.height() >= one.heightForWidth(one.width()) for one in narrow)
+
+
+def test_beside_an_open_person_the_card_of_the_robot_is_seen_whole(karate, qtbot) -> None:
+    karate.resize(*SMALL)
+    panels = karate.workbench.panels
+    panels.restore(karate.fontMetrics().height())
+    panels.show(next(one.widget for one in panels.all if one.name == "HumanPanel"))
+    robots = karate.findChild(RobotsPanel)
+
+    def is_whole() -> bool:
+        [card] = robots.cards.values()
+        return robots.area.viewport().height() >= card.height() > 0
+
+    qtbot.waitUntil(is_whole)
+
+
+def test_words_of_twice_the_size_leave_the_open_person_on_a_small_screen(karate, qtbot) -> None:
+    panels = karate.workbench.panels
+    panels.show(next(one.widget for one in panels.all if one.name == "HumanPanel"))
+
+    karate.look.set_scale(2.0)
+
+    qtbot.waitUntil(lambda: karate.fontMetrics().height() > 30)
+    assert karate.minimumSizeHint().height() < 768
+    karate.look.set_scale(1.0)
+
+
+def test_answers_go_to_the_next_row_where_the_page_is_narrow(karate, qtbot) -> None:
+    karate.resize(*SMALL)
+    panels = karate.workbench.panels
+    panels.show(next(one.widget for one in panels.all if one.name == "HelpPanel"))
+    words = "Use the robot on the screen", "Find it and test the connection"
+
+    karate.messages.tell(Message("error", "NAO is away", answers=tuple(map(_answer, words))))
+
+    [card] = karate.message_area.cards
+    qtbot.waitUntil(lambda: card.height() >= card.heightForWidth(card.width()))
+    assert cut_buttons(card) == []
+    assert all(card.rect().contains(button.geometry()) for button in card.buttons)
+
+
+def _answer(words: str) -> Answer:
+    return Answer(words, lambda: None)
+
+
+def test_a_node_is_told_whole_in_a_window_of_the_usual_size(karate, qtbot) -> None:
+    karate.resize(*SIZE)
+    panels = karate.workbench.panels
+    panels.restore(karate.fontMetrics().height())
+
+    panels.show(next(one.widget for one in panels.all if one.name == "NodesPanel"))
+
+    qtbot.waitUntil(lambda: bool(shown(karate, NodeCard)))
+    card = shown(karate, NodeCard)[0]
+    qtbot.waitUntil(lambda: card.visibleRegion().boundingRect().height() == card.height())
+
+
+def test_the_first_example_is_seen_in_its_whole_width(spoken: str, karate, qtbot) -> None:
+    karate.resize(*SIZE)
+    canvas = karate.workbench.canvas
+    karate.workbench.panels.restore(karate.fontMetrics().height())
+    qtbot.wait(50)
+
+    bounds = canvas.page_layout.bounds()
+    right = canvas.sight.camera.to_view(bounds.x + bounds.width, 0).x()
+    assert right <= canvas.viewport().width() or spoken == PSEUDO  # which begins at its right
+
+
+def test_a_line_of_a_button_never_ends_with_a_bracket_that_opens(karate) -> None:
+    button = WordsButton(verbatim("ジェスチャー「空手」をする"), karate.look, "hand")
+
+    lines = button.in_two_lines()
+
+    assert lines == ["ジェスチャー", "「空手」をする"]
+    button.deleteLater()
 
 
 def test_the_tools_of_the_stage_take_one_row(karate, qtbot) -> None:

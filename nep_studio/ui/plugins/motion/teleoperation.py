@@ -274,6 +274,7 @@ class TeleoperationWindow(QDialog):
             self.robot.clear()
             self.robot.addItems(names)
             self.robot.setCurrentIndex(max(0, self.robot.findText(now)))
+        self.robot.setEnabled(bool(names))
         self.pilot.choose(self.robot.currentText())
         was_off = not self.pad.isEnabled()
         self.pad.setEnabled(bool(names))

@@ -133,7 +133,8 @@ class NetworkWorkspace(QWidget):
         is_empty = not graph.nodes
         chosen = self.list if self.list_button.isChecked() else self.graph
         self.views.setCurrentWidget(self.empty if is_empty else chosen)
-        self.empty.tell(is_up=seen.is_up)
+        is_joined = any(status.is_there for status in statuses.values())
+        self.empty.tell(is_up=seen.is_up, is_joined=is_joined)
         if not is_empty:
             chosen.show_graph(graph, seen, statuses)
         nodes = count_words(len(graph.nodes), "1 node", "{n} nodes")
@@ -176,20 +177,21 @@ class _Empty(QWidget):
         self.run_button = labelled(QPushButton(), text="Run")
         self.run_button.setProperty("kind", "run")
         in_column(1, self.words, in_row(1, self.run_button, 1), 2, of=self)
-        self.tell(is_up=False)
+        self.tell(is_up=False, is_joined=False)
         follow_words(self, self._say)
 
-    def tell(self, *, is_up: bool) -> None:
-        """Say what belongs here and how one begins."""
-        self._is_up = is_up
-        self.run_button.setVisible(not is_up)
+    def tell(self, *, is_up: bool, is_joined: bool) -> None:
+        """Say what belongs here and how one begins; nodes that have joined are seen in a moment."""
+        self._is_up, self._is_joined = is_up, is_joined
+        self.run_button.setVisible(not (is_up or is_joined))
         self._say()
 
     def _say(self) -> None:
         belongs = tr("Here you see which nodes run and what they tell each other.")
         waits = tr("No node has joined the network yet.")
         begin = tr("Press Run: the nodes of your project start.")
-        self.words.setText(f"{belongs}\n{waits if self._is_up else begin}")
+        now = waits if self._is_up else begin
+        self.words.setText(belongs if self._is_joined else f"{belongs}\n{now}")
 
 
 def _tool(words: str, *, is_checkable: bool = False) -> QToolButton:

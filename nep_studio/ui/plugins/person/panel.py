@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import TYPE_CHECKING
 
-from PySide6.QtCore import Qt
+from PySide6.QtCore import QSize, Qt
 from PySide6.QtGui import QHideEvent, QShowEvent
 from PySide6.QtWidgets import (
     QComboBox,
@@ -91,6 +91,9 @@ def _is_here(occurrence: Occurrence, here: dict[str, str]) -> bool:
     if occurrence.kind not in here:
         return False
     return not occurrence.value or plain(occurrence.value) == plain(here[occurrence.kind])
+
+
+LEAST_LINES = 3
 
 
 class HumanPanel(QScrollArea):
@@ -284,6 +287,10 @@ class HumanPanel(QScrollArea):
             self._tap = self._runner.tap(m.ROBOT_STATE, kind=m.RobotState, parent=self)
             self._tap.arrived.connect(self._on_states)
         self.refresh()
+
+    def minimumSizeHint(self) -> QSize:
+        """A button of it, where letters are so large that the robot has hardly room above it."""
+        return QSize(super().minimumSizeHint().width(), self.fontMetrics().height() * LEAST_LINES)
 
     def hideEvent(self, event: QHideEvent) -> None:
         """Follow nothing."""

@@ -5,7 +5,15 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import replace
 
-from PySide6.QtCore import QElapsedTimer, QEvent, QSignalBlocker, QSize, Qt, QTimer
+from PySide6.QtCore import (
+    QElapsedTimer,
+    QEvent,
+    QSignalBlocker,
+    QSize,
+    Qt,
+    QTextBoundaryFinder,
+    QTimer,
+)
 from PySide6.QtGui import QPaintEvent
 from PySide6.QtWidgets import (
     QCheckBox,
@@ -188,9 +196,12 @@ class WordsButton(QPushButton):
         QStylePainter(self).drawControl(QStyle.ControlElement.CE_PushButton, option)
 
     def in_two_lines(self) -> list[str]:
-        """The words, broken where both lines are shortest; in the middle where no word ends."""
+        """The words, broken where both lines are shortest; in the middle where none may end."""
         words, measured = self.words, self.fontMetrics().horizontalAdvance
-        ends = [at for at, letter in enumerate(words) if letter == " "] or [(len(words) + 1) // 2]
+        finder, ends = QTextBoundaryFinder(QTextBoundaryFinder.BoundaryType.Line, words), []
+        while 0 < (end := finder.toNextBoundary()) < len(words):
+            ends.append(end)
+        ends = ends or [(len(words) + 1) // 2]
         broken = [[words[:end].rstrip(), words[end:].lstrip()] for end in ends]
         return min(broken, key=lambda lines: max(measured(line) for line in lines))
 

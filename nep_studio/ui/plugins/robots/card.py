@@ -37,7 +37,7 @@ from .participants import RobotPlan
 
 LOW_BATTERY = 0.2
 FACTS = ("posture", "moving", "battery", "saying", "listening", "doing")
-LONG = ("doing", "saying", "listening")
+LONG = ("posture", "doing", "saying", "listening")
 WRAPPED = QSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Preferred)
 """How words take room that are as wide as there is room, and as high as that makes them."""
 WRAPPED.setHeightForWidth(True)

@@ -18,6 +18,7 @@ from nep_studio.ui.floor import Floor
 from nep_studio.ui.labels import follow_words, labelled
 from nep_studio.ui.speech import Sound
 from nep_studio.ui.theme.look import Look
+from nep_studio.ui.widgets.forms import room_around
 from nep_studio.ui.widgets.layouts import InLines, in_column
 from nep_studio.ui.words import tr
 
@@ -145,6 +146,10 @@ class Sight(QObject):
 
 ASIDE_RAD = math.radians(65)
 
+LEAST_LINES, LEAST_SHARE = 8, 0.12
+"""The view is at least so many lines of text high; with large letters, or on a small screen, at
+least that share of the screen: all that stands around it needs room too."""
+
 
 class RobotStage(InLines):
     """Shows robots and what stands around them; the view is made when it is first looked at.
@@ -214,6 +219,10 @@ class RobotStage(InLines):
         if self._view is not None:
             self._view.touch_names = touch_names(self._language())
 
+    def _least_height(self) -> int:
+        line, screen = self.fontMetrics().height(), room_around(self).height()
+        return round(min(line * LEAST_LINES, screen * LEAST_SHARE))
+
     @property
     def view(self) -> RobotView:
         """The view; numpy is loaded with it."""
@@ -221,7 +230,7 @@ class RobotStage(InLines):
             from nep_studio.ui.robot_view.view import RobotView
 
             view = self._view = RobotView(self._look, touch_names(self._language()))
-            view.setMinimumHeight(self.fontMetrics().height() * 8)
+            view.setMinimumHeight(self._least_height())
             self._box.insertWidget(1, view, 1)
             self._sight, keys = Sight(view), StageKeys(view)
             self._keys = keys

@@ -65,6 +65,16 @@ def test_postures_are_told_in_words(panel: RobotsPanel, posture: str, words: str
     assert "Listens for “yes” or “no”" in spoken
 
 
+def test_long_words_of_a_posture_widen_no_card(panel: RobotsPanel, host: QMainWindow) -> None:
+    host.resize(200, 900)
+
+    hear(panel, state(posture="StandInit", battery=1.0))
+
+    card = panel.cards["NAO"]
+    assert "ready to walk" in card.facts.text()
+    assert card.minimumSizeHint().width() <= panel.area.viewport().width()
+
+
 def test_what_a_robot_does_is_told_until_it_is_done(panel: RobotsPanel, runner: Runner) -> None:
     hear(panel, state())
     asked = m.ActionRequest(id="7", robots=["NAO"], action="play", args={"animation": "wave"})
