@@ -19,7 +19,7 @@ from PySide6.QtWidgets import (
 
 from faults import Words
 from nep_studio.ui.widgets.forms import styled
-from nep_studio.ui.widgets.layouts import in_column, in_row
+from nep_studio.ui.widgets.layouts import Flow, in_column, in_row
 
 from .labels import labelled
 from .messages import KIND_ICONS, Answer, Message
@@ -109,7 +109,7 @@ class MessageCard(QFrame):
             button.clicked.connect(lambda _=False, do=answer.do: do())
             self.buttons.append(button)
         if self.buttons:
-            words.addLayout(in_row(*self.buttons, 1))
+            words.addLayout(Flow(spacing=line // 2, widgets=self.buttons))
         in_row((sign, 0, top), (words, 1), (self.close_button, 0, top), of=self, spacing=line // 2)
 
     def changeEvent(self, event: QEvent) -> None:
