@@ -70,6 +70,21 @@ def test_run_shows_robot_and_person_and_waits_for_the_press(
     qtbot.waitUntil(lambda: seen.said() == ["Hello"], timeout=WAIT_MS)
 
 
+def test_run_pressed_at_the_person_leaves_the_panel_where_it_is(
+    person: Person, window: MainWindow, qtbot: QtBot
+) -> None:
+    human = panel_of(window, HumanPanel)
+    window.workbench.panels.show(human)
+    window.resize(1280, 700)  # what is below is out of sight
+    qtbot.waitUntil(human.run_button.isVisible)
+
+    qtbot.mouseClick(human.run_button, LEFT)
+    state_is(window, qtbot, "running")
+
+    assert not human.run_button.isVisible()
+    assert human.verticalScrollBar().value() == 0
+
+
 def test_a_watch_that_was_left_running_is_the_one_that_run_uses(
     person: Person, window: MainWindow, qtbot: QtBot
 ) -> None:
@@ -120,6 +135,7 @@ def test_a_wrong_address_is_told_during_a_run_as_the_connect_dialog_tells_it(
     advice = in_the_way_to("NAO", nowhere)
     assert advice is not None
     assert end().message.checklist == tuple(map(tr, advice.checklist))
+    assert window.message_area.cards == [end()]  # none still says that the program runs
     assert window.workbench.canvas.selection.ids == (say,)
     qtbot.mouseClick(end().buttons[labels(end()).index("Find it and test the connection")], LEFT)
     [dialog] = window.findChildren(ConnectDialog)

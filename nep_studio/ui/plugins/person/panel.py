@@ -237,6 +237,8 @@ class HumanPanel(QScrollArea):
         reason = self.stimuli.why_not
         self.state.setText(reason or tr("What you do here is noticed."))
         is_idle = self._runner.state == "idle" and self._open_project.editor is not None
+        if self.run_button.hasFocus() and not is_idle:
+            self.setFocus()  # else it goes to what is far below, and the panel is scrolled there
         self.run_button.setVisible(is_idle)
         self.gestures.refresh()
 
