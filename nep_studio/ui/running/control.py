@@ -379,11 +379,11 @@ class RunControl(QObject):
 
     def _tell_end(self, end: Ended) -> None:
         messages, problem = self._host.services.messages, end.ending.problem
+        messages.clear_passing()  # that it runs is not true any more
         if problem is None:
             if not end.was_stopped:
                 messages.confirm(tr("The program has ended."))
             return
-        messages.clear_passing()  # that it runs is not true any more
         if (same := self._troubles.pop(end.ending.line, None)) is not None:
             messages.withdraw(same)  # the end says the same, and that it is the end
         answers = [Answer(tr("Run again"), self.runner.run)]
