@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import TYPE_CHECKING
 
-from PySide6.QtCore import Qt
+from PySide6.QtCore import Qt, QTimer
 from PySide6.QtGui import QHideEvent, QShowEvent
 from PySide6.QtWidgets import (
     QComboBox,
@@ -177,6 +177,7 @@ class HumanPanel(QScrollArea):
         self.visitors.changed.connect(self._show_waiting)
         self.robot.currentTextChanged.connect(self._on_robot_chosen)
         self.run_button.clicked.connect(self._runner.run)
+        self._runner.state_changed.connect(self._on_run_changed)
         self.say_button.clicked.connect(self._on_said)
         self.words.returnPressed.connect(self._on_said)
         self.reset_button.clicked.connect(self.reset)
@@ -243,6 +244,12 @@ class HumanPanel(QScrollArea):
         self.gestures.refresh()
 
     # What happens
+
+    def _on_run_changed(self, state: str) -> None:
+        """In a low panel, let what the program waits for be seen once it can be done."""
+        if state == "running" and self.isVisible() and self.waiting.buttons:
+            first = self.waiting.buttons[0]
+            QTimer.singleShot(0, first, lambda: self.ensureWidgetVisible(first))
 
     def _on_states(self, batch: list[Heard]) -> None:
         self.visitors.states |= {heard.message.robot: heard.message for heard in batch}

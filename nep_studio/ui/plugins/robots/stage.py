@@ -221,7 +221,7 @@ class RobotStage(InLines):
             from nep_studio.ui.robot_view.view import RobotView
 
             view = self._view = RobotView(self._look, touch_names(self._language()))
-            view.setMinimumHeight(self.fontMetrics().height() * 8)
+            view.setMinimumHeight(self.fontMetrics().height() * 6)
             self._box.insertWidget(1, view, 1)
             self._sight, keys = Sight(view), StageKeys(view)
             self._keys = keys
