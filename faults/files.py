@@ -152,3 +152,8 @@ def toml_of(text: str) -> dict[str, Any]:
     if _DEEP_KEY.search(text):
         raise ValueError("a name in it has too many parts")
     return tomllib.loads(text)
+
+
+def as_file_name(title: str) -> str:
+    """A title without the letters that some system allows in no file name."""
+    return "".join(" " if letter in '\\/:*?"<>|' else letter for letter in title).strip()

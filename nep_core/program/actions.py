@@ -110,7 +110,7 @@ class ActionClient:
         for result in call.results.values():
             if result.state == "failed":
                 raise ActionFailed(
-                    "{robot} could not do “{action}”: {description}",
+                    "{robot} could not do that: {description}",
                     checklist=result.fault.checklist
                     or (
                         "Change this block, or what comes before it.",

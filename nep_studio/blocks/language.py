@@ -180,6 +180,8 @@ class Language:
     def label_of(self, slot: Slot, value: object, block: Block | None = None, key: str = "") -> str:
         """What a value of a slot is called, also one that the block's robot does not have."""
         offered, told = self.choices_of(slot, block, key), str(value)
+        if slot.kind.name == "state":
+            return told.replace("_", " ")
         if not offered or told in offered:
             return offered.get(told, told)
         return self.known(self.table_of(slot, block, key)).get(told, told)

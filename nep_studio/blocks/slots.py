@@ -367,6 +367,11 @@ _words = partial(
 """A kind of field that holds a text; what is plugged in and is no text is written out."""
 
 
+def _state(typed: str) -> str:
+    """The state that a node tells of, of which people see the words."""
+    return "_".join(typed.split())
+
+
 def _name(
     name: str,
     noun: str,
@@ -375,6 +380,7 @@ def _name(
     table: str = "",
     missing: bool = True,
     is_said: bool = True,
+    read: Read = str,
 ) -> Kind:
     """A kind of field that holds a name; one that is not ``is_said`` is a name in Python too."""
     told = text_of("{noun} is missing.", noun=Text(noun)) if missing else None
@@ -384,6 +390,7 @@ def _name(
         constants=(str,) if is_said else (),
         prefix=prefix,
         table=table,
+        read=read,
         takes_any_words=missing,
         missing=told,
         hint=name,
@@ -461,7 +468,7 @@ KINDS: dict[str, Kind] = {
             mark="tick",
             is_pressed=True,
         ),
-        _name("state", "a human state"),
+        _name("state", "a human state", read=_state),
         _name("gesture", "a gesture", prefix=GESTURE_STATE, table="gestures"),
         _name("robot", "a robot", is_said=False),
         _name("variable", "a variable", missing=False, is_said=False),

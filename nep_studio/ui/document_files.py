@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Protocol
 from PySide6.QtCore import QObject, Qt, Signal
 from PySide6.QtWidgets import QFileDialog, QWidget
 
+from faults.files import as_file_name
 from nep_studio import settings
 from nep_studio.blocks.errors import BlocksError, ProjectFileError
 from nep_studio.problems import problem_of
@@ -194,8 +195,8 @@ class Files(QObject):
         document = self.document
         if document is None:
             return
-        name = "".join(" " if letter in '\\/:*?"<>|' else letter for letter in document.title)
-        suggested = document.path or self._settings.last_folder / f"{name.strip()}{SUFFIX}"
+        name = as_file_name(document.title)
+        suggested = document.path or self._settings.last_folder / f"{name}{SUFFIX}"
 
         def write(path: Path) -> None:
             self._write(path if path.suffix else path.with_name(path.name + SUFFIX), then)

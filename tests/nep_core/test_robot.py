@@ -98,7 +98,7 @@ def test_a_lost_request_is_asked_again_and_not_played_twice(
 def test_a_robot_that_fails_says_why(nao: PlayedRobot) -> None:
     nao.end = "failed"
 
-    with pytest.raises(ActionFailed, match="NAO could not do “say”: its arm is stuck"):
+    with pytest.raises(ActionFailed, match="NAO could not do that: its arm is stuck"):
         Robot("NAO").say("Hello")
 
 

@@ -379,6 +379,7 @@ class RunControl(QObject):
 
     def _tell_end(self, end: Ended) -> None:
         messages, problem = self._host.services.messages, end.ending.problem
+        messages.clear_passing()  # that it runs is not true any more
         if problem is None:
             if not end.was_stopped:
                 messages.confirm(tr("The program has ended."))

@@ -258,8 +258,10 @@ def add_view_menu(window: MainWindow) -> QMenu:
     add("zoom_fit", "Show all", fit, icon_name="maximize", keys="Ctrl+9")
     menu.addSeparator()
     panels = _submenu(menu, window, "panel-right", "Panels")
+    window.actions_by_name.add("reset_panels", "Put the panels back", window.reset_panels)
     panels.aboutToShow.connect(lambda: _fill_panels(panels, window))
     minimap = add("minimap", "Minimap", lambda: None, icon_name="map")
+    minimap.setIconVisibleInMenu(False)  # it would stand where the tick does
     minimap.setCheckable(True)
     minimap.setChecked(window.settings.is_minimap_shown)
     minimap.toggled.connect(lambda is_on: window.workbench.helpers.show_minimap(is_on))
@@ -315,6 +317,8 @@ def _fill_panels(menu: QMenu, window: MainWindow) -> None:
     """List the panels; some are added after the menu."""
     menu.clear()
     menu.addActions([panel.action for panel in window.workbench.panels.all])
+    menu.addSeparator()
+    menu.addAction(window.actions_by_name["reset_panels"])
 
 
 def add_help_menu(window: MainWindow) -> QMenu:

@@ -13,7 +13,7 @@ from string import Template
 
 from PySide6.QtCore import QObject, Qt, Signal
 from PySide6.QtGui import QColor, QFont, QFontDatabase, QFontMetricsF, QPalette, QStyleHints
-from PySide6.QtWidgets import QApplication, QToolTip
+from PySide6.QtWidgets import QApplication, QTabBar, QToolTip
 
 from nep_studio import paths
 
@@ -265,6 +265,18 @@ def apply_theme(app: QApplication, theme: Theme, scale: float = 1.0) -> None:
     app.setFont(font)
     is_right_to_left = app.layoutDirection() == Qt.LayoutDirection.RightToLeft
     app.setStyleSheet(style_sheet(theme, QFontMetricsF(font), is_right_to_left))
+    _resize_tabs(app, font)
+
+
+def _resize_tabs(app: QApplication, font: QFont) -> None:
+    """Give the tabs the font of the rest.
+
+    WORKAROUND: tab bars that were not shown before a style sheet came keep the size of text that
+    they were made with (seen in Qt 6.11); no report of it is known to us.
+    """
+    for widget in app.allWidgets():
+        if isinstance(widget, QTabBar) and widget.font().pointSizeF() != font.pointSizeF():
+            widget.setFont(QFont())  # it asks anew what it inherits
 
 
 SYSTEM = "system"

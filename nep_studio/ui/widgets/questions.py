@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from pathlib import Path
-from typing import Literal
+from typing import TYPE_CHECKING, Literal
 
 from PySide6.QtCore import QPoint, Qt
 from PySide6.QtWidgets import QFileDialog, QFrame, QWidget
 
+from faults.files import as_file_name
 from nep_studio.blocks.errors import EditRefused
 from nep_studio.problems import Problem
 from nep_studio.settings import usual_folder
@@ -20,6 +21,9 @@ from nep_studio.ui.widgets.layouts import in_column
 from nep_studio.ui.words import tr
 
 from .forms import room_around
+
+if TYPE_CHECKING:
+    from PySide6.QtPrintSupport import QPrinter
 
 
 class Asking(QFrame):
@@ -106,6 +110,18 @@ def ask_for_path(
     dialog.fileSelected.connect(lambda name: on_chosen(Path(name)))
     dialog.open()
     return dialog
+
+
+def name_what_is_printed(printer: QPrinter, title: str) -> None:
+    """Name it for who waits at the printer; where there is none, name the file that is made.
+
+    Without a name Qt's dialog offers a folder, and refuses it.
+    """
+    printer.setDocName(title)
+    if printer.outputFormat() == printer.OutputFormat.PdfFormat and not printer.outputFileName():
+        folder = usual_folder("projects")
+        place = folder if folder.is_dir() else Path.home()
+        printer.setOutputFileName(str(place / f"{as_file_name(title)}.pdf"))
 
 
 def save_text(

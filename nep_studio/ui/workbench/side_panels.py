@@ -315,7 +315,8 @@ class Panels(QObject):
         """Add a panel; whether it is shown is as the person left it, else as it is said."""
         place = self.rooms if area == "page" else self.areas[area]
         place.add_panel(widget, title)
-        action = labelled(QAction(self, checkable=True), text=title)
+        # a picture would stand where the tick does
+        action = labelled(QAction(self, checkable=True, iconVisibleInMenu=False), text=title)
         panel = Panel(widget, title, icon_name, place, action, is_shown, type(widget).__name__)
         self.all.append(panel)
         action.setChecked(self._settings.is_shown(panel.name, default=is_shown))

@@ -168,6 +168,24 @@ def test_long_lines_of_python_go_on_below_and_none_is_lost() -> None:
     assert [number for number, _ in lines if number] == ["1", "2", "3"]
 
 
+def test_without_a_printer_a_named_file_is_made_and_told(
+    karate: MainWindow, tmp_path: Path, qtbot: QtBot
+) -> None:
+    karate.actions_by_name["print"].trigger()
+    [dialog] = karate.findChildren(ProgramPrintDialog)
+    qtbot.mouseClick(dialog.print_button, Qt.MouseButton.LeftButton)
+    [asked] = dialog.findChildren(QPrintDialog)
+    file_name = asked.findChild(QLineEdit, "filename")
+    offered = Path(file_name.text())
+    file_name.setText(str(tmp_path / offered.name))
+
+    asked.accept()
+
+    assert offered.suffix == ".pdf" and offered.stem == karate.files.document.title
+    assert pages_in(tmp_path / offered.name) >= 1
+    assert karate.message_area.cards[-1].message.title == f"Saved “{offered.name}”."
+
+
 def test_the_action_shows_what_will_be_printed(karate: MainWindow, qtbot: QtBot) -> None:
     karate.actions_by_name["print"].trigger()
     [dialog] = karate.findChildren(ProgramPrintDialog)

@@ -234,6 +234,7 @@ def test_the_print_button_asks_for_a_printer_and_prints(panel, tmp_path, qtbot):
     qtbot.mouseClick(panel.tools.print, LEFT)
     gc.collect()  # what only Python held would be gone now
     [dialog] = panel.findChildren(QPrintDialog)
+    assert dialog.findChild(QLineEdit, "filename").text().endswith(".pdf")  # not a folder alone
     dialog.findChild(QLineEdit, "filename").setText(str(tmp_path / "page.pdf"))
 
     dialog.accept()

@@ -192,9 +192,12 @@ def test_the_dialog_saves_what_was_chosen(canvas, qtbot, tmp_path):
     dialog = PictureDialog(canvas, tmp_path, "karate", canvas)
     dialog.format.setCurrentIndex(dialog.format.findData("svg"))
     dialog.transparent.setChecked(True)
+    told = []
+    dialog.done_well.connect(told.append)
 
     assert dialog.save(tmp_path / "karate")
 
+    assert told == ["Saved “karate.svg”."]
     assert project_bytes_from(tmp_path / "karate.svg") == to_bytes(canvas.editor.project)
     assert not dialog.scale.isEnabled()
 

@@ -70,6 +70,26 @@ def test_run_shows_robot_and_person_and_waits_for_the_press(
     qtbot.waitUntil(lambda: seen.said() == ["Hello"], timeout=WAIT_MS)
 
 
+@pytest.mark.parametrize("scale", [1.0, 1.5])
+def test_what_the_program_waits_for_is_in_sight_when_run_is_pressed_at_the_person(
+    person: Person, window: MainWindow, qtbot: QtBot, scale: float
+) -> None:
+    human = panel_of(window, HumanPanel)
+    window.studio.choose_text_scale(scale)
+    window.resize(1280, 720)
+    window.workbench.panels.show(human)
+    qtbot.waitUntil(human.run_button.isVisible)
+
+    qtbot.mouseClick(human.run_button, LEFT)  # it goes, and the keyboard must not go far below
+    state_is(window, qtbot, "running")
+
+    [button] = human.waiting.buttons
+    qtbot.waitUntil(lambda: button.visibleRegion().boundingRect() == button.rect())
+    assert not human.run_button.isVisible()
+    assert window.height() <= 728  # the screen of a laptop, less its task bar
+    window.studio.choose_text_scale(1.0)
+
+
 def test_a_watch_that_was_left_running_is_the_one_that_run_uses(
     person: Person, window: MainWindow, qtbot: QtBot
 ) -> None:
@@ -120,6 +140,7 @@ def test_a_wrong_address_is_told_during_a_run_as_the_connect_dialog_tells_it(
     advice = in_the_way_to("NAO", nowhere)
     assert advice is not None
     assert end().message.checklist == tuple(map(tr, advice.checklist))
+    assert window.message_area.cards == [end()]  # none still says that the program runs
     assert window.workbench.canvas.selection.ids == (say,)
     qtbot.mouseClick(end().buttons[labels(end()).index("Find it and test the connection")], LEFT)
     [dialog] = window.findChildren(ConnectDialog)

@@ -5,11 +5,12 @@ from __future__ import annotations
 import psutil
 import pytest
 from PySide6.QtCore import Qt
-from PySide6.QtWidgets import QDialog, QPushButton
+from PySide6.QtWidgets import QDialog, QLabel, QPushButton, QWidget
 from pytestqt.qtbot import QtBot
 
 from nep_studio import paths
 from nep_studio.blocks.edits.content import SetField
+from nep_studio.ui.plugins.robots.panel import RobotsPanel
 from nep_studio.ui.running.needs import NeedsDialog
 from nep_studio.ui.shell.main_window import MainWindow
 from tests.blocks.block_building import B
@@ -209,3 +210,28 @@ def test_the_canvas_follows_the_block_that_runs_unless_a_person_wants_to_stay(
     assert not canvas.following.is_on
     press(window, qtbot, "stop")
     state_is(window, qtbot, "idle")
+
+
+def test_in_a_new_project_the_robot_stands_where_it_begins(
+    window: MainWindow, open_program, qtbot: QtBot
+) -> None:
+    open_program([B("event.started"), B("robot.do", {"posture": "posture_sit"}), LONG_WAIT])
+    panel = window.findChild(RobotsPanel)
+    window.workbench.panels.show(panel)
+    press(window, qtbot, "run")
+
+    def posture() -> str:
+        return panel.stage.view.room.robots["NAO"].shown.posture
+
+    qtbot.waitUntil(lambda: posture() == "Sit", timeout=WAIT_MS)
+
+    window.files.new()
+    state_is(window, qtbot, "idle")
+
+    qtbot.waitUntil(lambda: posture() == "Stand", timeout=WAIT_MS)
+    qtbot.waitUntil(lambda: "Not started" in words_in(panel.cards["NAO"]), timeout=WAIT_MS)
+    assert panel.stage.view.room.robots["NAO"].path == []
+
+
+def words_in(card: QWidget) -> list[str]:
+    return [label.text() for label in card.findChildren(QLabel)]

@@ -180,7 +180,9 @@ def test_a_simulated_person_makes_the_gestures_of_the_project(
     window.host.ask("watches.open")
     dialog = window.findChild(WatchDialog)
     choose(dialog, "virtual_watch", qtbot)
-    assert "circle" in dialog.page.gestures.gestures.text()
+    assert "circle" in dialog.page.gestures.chosen
+    shown = [box.text() for box in dialog.page.gestures.boxes.values()]
+    assert "hand up" in shown and not any("_" in title for title in shown)
     qtbot.waitUntil(lambda: dialog.page.live.dot.state == "moved", timeout=20_000)
 
     press(qtbot, dialog.use_button)

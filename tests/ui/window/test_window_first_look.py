@@ -6,7 +6,7 @@ import pytest
 from PySide6.QtCore import QPoint, Qt
 from PySide6.QtGui import QAccessible
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QApplication
+from PySide6.QtWidgets import QApplication, QMenu, QTabBar
 
 from nep_studio import paths
 from nep_studio.ui.services import Studio
@@ -250,3 +250,38 @@ def test_tab_goes_round_all_that_is_seen_and_each_stop_has_a_name(fresh: MainWin
     assert len(set(stops)) == len(stops) > 12
     names = [QAccessible.queryAccessibleInterface(one).text(QAccessible.Text.Name) for one in stops]
     assert all(names), dict(zip(map(str, stops), names, strict=True))
+
+
+def test_the_menu_ticks_the_panels_that_are_shown_and_puts_them_back(
+    fresh: MainWindow, qtbot
+) -> None:
+    panels = fresh.workbench.panels
+    first = [panel.name for panel in panels.all if panel.action.isChecked()]
+    [menu] = [one for one in fresh.findChildren(QMenu) if one.title() == "Panels"]
+    menu.aboutToShow.emit()
+    shown = [action for action in menu.actions() if action.isCheckable()]
+    sizes = panels.row.sizes()
+    for panel in panels.all:
+        if panel.name in ("CodePane", "Palette"):
+            panel.action.toggle()
+    panels.row.setSizes([0, 400, 300, 300])
+
+    menu.actions()[-1].trigger()
+
+    assert len(shown) == len(panels.all)
+    assert not any(action.isIconVisibleInMenu() for action in shown)  # it would hide the tick
+    assert [panel.name for panel in panels.all if panel.action.isChecked()] == first
+    assert panels.row.sizes() == sizes
+
+
+def test_tabs_that_were_not_seen_yet_grow_with_the_text(window: MainWindow, qtbot) -> None:
+    assert window.workbench.panels.all  # they are made while the start page is shown
+    window.studio.choose_text_scale(1.5)
+
+    QTest.mouseClick(window.start_page.new_button, LEFT)
+    qtbot.waitUntil(window.workbench.canvas.isVisible)
+
+    size = QApplication.font().pointSizeF()
+    tabs = window.findChildren(QTabBar)
+    assert tabs and {one.font().pointSizeF() for one in tabs} == {size}
+    window.studio.choose_text_scale(1.0)

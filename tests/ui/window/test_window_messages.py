@@ -58,6 +58,21 @@ def test_an_answer_does_what_it_says(karate: MainWindow, qtbot: QtBot) -> None:
     assert done == [1]
 
 
+def test_many_answers_stand_in_rows_and_are_read_whole(karate: MainWindow, qtbot: QtBot) -> None:
+    words = ("Use the robot on the screen", "Find it and test the connection", "Show the block")
+    karate.resize(900, 600)
+
+    karate.messages.tell(
+        Message("error", "NAO does not answer", answers=[Answer(one, print) for one in words])
+    )
+
+    [card] = cards(karate)
+    qtbot.waitUntil(lambda: len({button.y() for button in card.buttons}) > 1)
+    for button in card.buttons:
+        assert button.width() >= button.minimumSizeHint().width()
+        assert card.rect().contains(button.geometry())
+
+
 def test_details_are_shown_and_copied_when_asked_for(karate: MainWindow, qtbot: QtBot) -> None:
     karate.messages.tell(Message("error", "Something went wrong", details="line 7"))
     [card] = cards(karate)

@@ -341,7 +341,7 @@ class StatePopup(ChoicePopup):
 
     def __init__(self, editors: FieldEditors, edit: Editing, title: str) -> None:
         super().__init__(editors, edit, title)
-        self.search.setText(str(edit.value or ""))
+        self.search.setText(_words(str(edit.value or "")))
         self.search.selectAll()
         self.search.setPlaceholderText(tr("Type a state, or choose one"))
 

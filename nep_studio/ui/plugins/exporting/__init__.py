@@ -7,14 +7,14 @@ from pathlib import Path
 
 from PySide6.QtGui import QGuiApplication, QKeySequence
 
-from faults.files import whole_file
+from faults.files import as_file_name, whole_file
 from nep_studio.blocks.errors import BlocksError
 from nep_studio.blocks.generate.program import generate_program
 from nep_studio.run.python_file import SUFFIX, python_file, write_kept
 from nep_studio.ui.documents import Document
 from nep_studio.ui.host import Host, NewAction, Parts, Plugin
 from nep_studio.ui.messages import Message
-from nep_studio.ui.widgets.questions import ask_for_path
+from nep_studio.ui.widgets.questions import ask_for_path, name_what_is_printed
 from nep_studio.ui.words import tr
 
 # Save the Python of the open project as a file, and copy it.
@@ -123,7 +123,10 @@ def export_picture(host: Host) -> None:
     document = host.services.document
     if document is not None:
         folder = document.path.parent if document.path else host.services.settings.last_folder
-        PictureDialog(host.workbench.canvas, folder, document.title, host.widget).open()
+        name = as_file_name(document.title)
+        dialog = PictureDialog(host.workbench.canvas, folder, name, host.widget)
+        dialog.done_well.connect(host.services.messages.confirm)
+        dialog.open()
 
 
 def open_print_dialog(host: Host) -> None:
@@ -137,7 +140,10 @@ def open_print_dialog(host: Host) -> None:
         code = generate_program(document.project, document.editor.language).text
     except BlocksError:
         code = ""
-    ProgramPrintDialog(host.workbench.canvas, code, host.widget).open()
+    dialog = ProgramPrintDialog(host.workbench.canvas, code, host.widget)
+    name_what_is_printed(dialog.printer, document.title)
+    dialog.done_well.connect(host.services.messages.confirm)
+    dialog.open()
 
 
 plugin = Plugin("exporting", make, order=90, needs_project=True)

@@ -17,6 +17,7 @@ from PySide6.QtCore import (
     QSize,
     QSizeF,
     Qt,
+    Signal,
 )
 from PySide6.QtGui import QFont, QGuiApplication, QImage, QPageSize, QPainter, QPdfWriter
 from PySide6.QtSvg import QSvgGenerator
@@ -342,8 +343,11 @@ def _paint(
 class PictureDialog(QDialog):
     """Asks what is to be in the picture and how large it is.
 
-    ``folder`` and ``name`` are where the file dialog begins.
+    ``folder`` and ``name`` are where the file dialog begins. ``done_well`` tells in words what
+    became of the picture.
     """
+
+    done_well = Signal(str)
 
     def __init__(
         self, canvas: CanvasHost, folder: Path, name: str, parent: QWidget | None = None
@@ -398,6 +402,7 @@ class PictureDialog(QDialog):
         except EditRefused as refusal:
             self.reason.tell(refusal.sentence)
             return False
+        self.done_well.emit(tr("Saved “{name}”.", name=path.name))
         return True
 
     def _arrange(self) -> None:
@@ -436,4 +441,5 @@ class PictureDialog(QDialog):
         except EditRefused as refusal:
             self.reason.tell(refusal.sentence)
         else:
+            self.done_well.emit(tr("The picture is copied. Paste it where you like."))
             self.accept()

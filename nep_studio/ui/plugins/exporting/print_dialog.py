@@ -5,9 +5,10 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
+from pathlib import Path
 from typing import cast
 
-from PySide6.QtCore import QDate, QLocale, QRectF, QSizeF, Qt
+from PySide6.QtCore import QDate, QLocale, QRectF, QSizeF, Qt, Signal
 from PySide6.QtGui import QColor, QFont, QFontInfo, QFontMetricsF, QPageLayout, QPainter, QPen
 from PySide6.QtPrintSupport import QPageSetupDialog, QPrintDialog, QPrinter, QPrintPreviewWidget
 from PySide6.QtWidgets import (
@@ -297,7 +298,12 @@ def _side(*, is_end: bool = False) -> Qt.AlignmentFlag:
 
 
 class ProgramPrintDialog(QDialog):
-    """Asks what is printed, and on what paper; ``code`` is "" where there is no Python yet."""
+    """Asks what is printed, and on what paper; ``code`` is "" where there is no Python yet.
+
+    ``done_well`` tells of a file that came out instead of paper.
+    """
+
+    done_well = Signal(str)
 
     def __init__(
         self, canvas: CanvasHost, code: str, parent: QWidget, printer: QPrinter | None = None
@@ -389,4 +395,6 @@ class ProgramPrintDialog(QDialog):
 
     def _on_print_accepted(self) -> None:
         self.print_to(self.printer)
+        if file := self.printer.outputFileName():
+            self.done_well.emit(tr("Saved “{name}”.", name=Path(file).name))
         self.accept()

@@ -48,6 +48,7 @@ PAGES_OF_ACTIONS = {
     f"{WINDOW}#pages": "add_page",
     f"{WINDOW}#canvas": "zoom_in zoom_out zoom_100 zoom_fit",
     f"{WINDOW}#minimap": "minimap",
+    f"{WINDOW}#panels": "reset_panels",
     f"{WINDOW}#problems": "check",
     f"{WINDOW}#find": "find find_next find_previous",
     f"{WINDOW}#insert": "insert",

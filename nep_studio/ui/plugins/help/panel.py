@@ -34,6 +34,7 @@ from nep_studio.ui.theme.colours import Theme
 from nep_studio.ui.theme.icons import UnknownIcon, icon
 from nep_studio.ui.theme.look import Look
 from nep_studio.ui.widgets.layouts import InLines, in_column, in_row
+from nep_studio.ui.widgets.questions import name_what_is_printed
 from nep_studio.ui.words import is_right_to_left, tr
 
 from .browser import ZOOM_STEP, ExampleBar, HelpBrowser
@@ -567,6 +568,7 @@ def ask_to_print(browser: HelpBrowser, parent: QWidget) -> None:
     from PySide6.QtPrintSupport import QPrintDialog, QPrinter  # few people print
 
     printer = QPrinter()  # Qt's dialog only points at it: what is connected keeps it
+    name_what_is_printed(printer, browser.accessibleName())
     dialog = QPrintDialog(printer, parent)
     dialog.accepted.connect(lambda: print_page(browser, printer))
     dialog.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import TYPE_CHECKING
 
-from PySide6.QtCore import QSize, Qt
+from PySide6.QtCore import QSize, Qt, QTimer
 from PySide6.QtGui import QHideEvent, QShowEvent
 from PySide6.QtWidgets import (
     QComboBox,
@@ -180,6 +180,7 @@ class HumanPanel(QScrollArea):
         self.visitors.changed.connect(self._show_waiting)
         self.robot.currentTextChanged.connect(self._on_robot_chosen)
         self.run_button.clicked.connect(self._runner.run)
+        self._runner.state_changed.connect(self._on_run_changed)
         self.say_button.clicked.connect(self._on_said)
         self.words.returnPressed.connect(self._on_said)
         self.reset_button.clicked.connect(self.reset)
@@ -240,10 +241,18 @@ class HumanPanel(QScrollArea):
         reason = self.stimuli.why_not
         self.state.setText(reason or tr("What you do here is noticed."))
         is_idle = self._runner.state == "idle" and self._open_project.editor is not None
+        if self.run_button.hasFocus() and not is_idle:
+            self.setFocus()  # else it goes to what is far below, and the panel is scrolled there
         self.run_button.setVisible(is_idle)
         self.gestures.refresh()
 
     # What happens
+
+    def _on_run_changed(self, state: str) -> None:
+        """In a low panel, let what the program waits for be seen once it can be done."""
+        if state == "running" and self.isVisible() and self.waiting.buttons:
+            first = self.waiting.buttons[0]
+            QTimer.singleShot(0, first, lambda: self.ensureWidgetVisible(first))
 
     def _on_states(self, batch: list[Heard]) -> None:
         self.visitors.states |= {heard.message.robot: heard.message for heard in batch}

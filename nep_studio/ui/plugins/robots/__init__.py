@@ -22,6 +22,7 @@ def make(host: Host) -> Parts:
         Starts(runner, runner),
     )
     services.running.plan_changed.connect(panel.refresh)
+    services.files.document_changed.connect(panel.begin_anew)
     panel.stage.tools.real.triggered.connect(lambda: host.ask("connecting.open"))
     shown = {"robots.show": lambda: host.show_panel(panel)}
     return Parts(NewPanel(panel, "Stage", "bot", "stage", is_shown=True), commands=shown)

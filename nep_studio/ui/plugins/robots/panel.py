@@ -135,6 +135,8 @@ class RobotsPanel(InLines):
         """The room that the cards needed at most since the run began."""
         self._heard: dict[str, m.RobotState] = {}
         self._begin_at: dict[str, Base] = {}
+        self._of_last: set[str] = set()
+        """The robots of the project before this one: how they ended is nothing of this one's."""
         self.cards: dict[str, RobotCard] = {}
         self.large: LargeWindow | None = None
         self.stage = RobotStage(look, floor, sound, language)
@@ -171,6 +173,21 @@ class RobotsPanel(InLines):
         in_column(self.elsewhere, self.split, of=self, margins=self.fontMetrics().height() // 3)
 
     # What is shown
+
+    def begin_anew(self) -> None:
+        """Another project is shown: its robots stand where they begin; one that runs goes on."""
+        nodes = self._runner.board.nodes
+        self._of_last = {name for name, node in nodes.items() if node.type == "action"}
+        for name in self.cards:
+            if name not in nodes or not nodes[name].is_there:
+                self._send_home(name)
+        self._doings.clear()
+        self.stage.view.clear_paths()
+        self.refresh()
+
+    def _send_home(self, name: str) -> None:
+        self._heard.pop(name, None)
+        self.stage.remove_robot(name)  # it stands where it begins when it is shown next
 
     def refresh(self) -> None:
         """Take the robots of the project as it is now; does nothing while nobody looks."""
@@ -236,7 +253,7 @@ class RobotsPanel(InLines):
     def _show_robot(self, name: str) -> None:
         card, status = self.cards[name], self._runner.board.nodes.get(name)
         state = self._heard.get(name)
-        if status is not None:
+        if status is not None and (status.is_there or name not in self._of_last):
             look, is_there = state_look(status), status.is_there
         else:
             look, is_there = look_of(state), state is not None
@@ -270,12 +287,16 @@ class RobotsPanel(InLines):
         changed = [nodes[name] for name in names if name in nodes]
         robots = [node for node in changed if node.type == "action"]
         for node in robots:
-            if not node.is_there:
+            if not node.is_there and node.name in self._of_last:
+                self._send_home(node.name)
+            elif not node.is_there:
                 self._heard.pop(node.name, None)
         if robots:
             self.refresh()
 
     def _on_state_changed(self, state: str) -> None:
+        if state == "starting":
+            self._of_last.clear()
         if state in ("starting", "idle"):
             self._doings.clear()
             self.refresh()

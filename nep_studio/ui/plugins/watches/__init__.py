@@ -101,6 +101,7 @@ class WatchKit(QObject):
         blank = Plan(
             free_name(editor, USUAL_NAME),
             gestures=self._gestures(),
+            wanted=self._wanted(),
             folder=folder,
             equip=lambda node: with_takes(node, editor.project),
         )
@@ -113,17 +114,23 @@ class WatchKit(QObject):
             blank, name=entry.name, settings=dict(entry.parameters) or {"through": "udp"}
         )
 
-    def _gestures(self) -> str:
-        """What a simulated person is to make: what the program waits for, as far as it is known."""
+    def _gestures(self) -> dict[str, str]:
+        """What a simulated person can make, names to titles."""
         from nodes.sensory.arm.gestures import GESTURES
 
         editor = self._host.workbench.canvas.editor
         own = own_gestures(editor.project)
+        offered = self._host.services.language.choices.get("gestures", {})
+        return {
+            **{name: one.title for name, one in own.items() if one.takes},
+            **{name: title for name, title in offered.items() if name in GESTURES},
+        }
+
+    def _wanted(self) -> list[str]:
+        """What it begins with: what the program waits for, else the first few that are offered."""
+        editor, known = self._host.workbench.canvas.editor, self._gestures()
         used = names_used(editor.project, editor.language, "gesture")
-        offered = editor.language.choices.get("gestures", {})
-        known = {name for name, one in own.items() if one.takes} | set(GESTURES)
-        wanted = [name for name in used if name in known]
-        return ", ".join(wanted or [name for name in offered if name in known][:MOST_GESTURES])
+        return [name for name in used if name in known] or list(known)[:MOST_GESTURES]
 
     def _is_in_use(self, name: str) -> bool:
         """Whether a real watch of this name sends now."""

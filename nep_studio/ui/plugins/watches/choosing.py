@@ -349,29 +349,43 @@ class ChoosingPage(QWidget):
 
 
 class GesturesQuestion(QWidget):
-    """Which gestures a simulated person makes, and whether again and again."""
+    """Which gestures a simulated person makes, and whether again and again.
+
+    ``known`` are all that it can make, names to titles, ``wanted`` those that it begins with.
+    """
 
     changed = Signal()
 
-    def __init__(self, gestures: str) -> None:
+    def __init__(self, known: Mapping[str, str], wanted: Sequence[str]) -> None:
         super().__init__()
-        self.gestures = Entry(gestures)
-        self.gestures.setAccessibleName(tr("Gestures to make"))
-        self.gestures.setPlaceholderText("karate, hand_up")
+        self.boxes = {name: QCheckBox(title.replace("&", "&&")) for name, title in known.items()}
+        self._check(wanted)
         self.repeats = QCheckBox(tr("Make them again and again"))
         self.repeats.setChecked(True)
-        column_in(self, self.gestures, self.repeats)
-        self.gestures.written.connect(self.changed)
-        self.repeats.toggled.connect(self.changed)
+        offered = QWidget()
+        offered.setLayout(Flow(spacing=self.fontMetrics().height(), widgets=self.boxes.values()))
+        column_in(self, offered, self.repeats)
+        for box in (*self.boxes.values(), self.repeats):
+            box.toggled.connect(self.changed)
+
+    @property
+    def chosen(self) -> list[str]:
+        """The names of those that are to be made."""
+        return [name for name, box in self.boxes.items() if box.isChecked()]
+
+    def _check(self, wanted: Sequence[str]) -> None:
+        for name, box in self.boxes.items():
+            box.setChecked(name in wanted)
 
     @property
     def settings(self) -> dict[str, Setting]:
         """The parameters of the node."""
-        return {"gestures": self.gestures.text().strip(), "repeat": self.repeats.isChecked()}
+        return {"gestures": ", ".join(self.chosen), "repeat": self.repeats.isChecked()}
 
     def show_settings(self, settings: Mapping[str, Setting]) -> None:
         """Begin with what was chosen before."""
-        self.gestures.setText(str(settings.get("gestures", self.gestures.text())))
+        if "gestures" in settings:
+            self._check([one.strip() for one in str(settings["gestures"]).split(",")])
         self.repeats.setChecked(bool(settings.get("repeat", True)))
 
 

@@ -219,7 +219,10 @@ class Known:
 
     addresses: Sequence[str]
     token: str
-    gestures: str = ""
+    gestures: Mapping[str, str] = field(default_factory=dict)
+    """What a simulated person can make, names to titles."""
+    wanted: Sequence[str] = ()
+    """Those of them that it begins with."""
     folder: Path = field(default_factory=Path)
     settings: Mapping[str, Setting] = field(default_factory=dict)
     """Those of the watch that the project has, when it comes in the same way."""
@@ -244,7 +247,7 @@ class WayPage(QWidget):
         self.network = NetworkQuestion(known.addresses)
         self.worn, self.more = WornQuestion(), MoreSettings(connector)
         self.address = Entry()
-        self.gestures = GesturesQuestion(known.gestures)
+        self.gestures = GesturesQuestion(known.gestures, known.wanted)
         self.recording = RecordingQuestion(known.folder, look)
         self.warning = WarningHelp(look)
         self.app = QComboBox()

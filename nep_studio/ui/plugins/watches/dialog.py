@@ -212,7 +212,10 @@ class Plan:
 
     name: str
     settings: Mapping[str, Setting] = field(default_factory=dict)
-    gestures: str = ""
+    gestures: Mapping[str, str] = field(default_factory=dict)
+    """What a simulated person can make, names to titles."""
+    wanted: Sequence[str] = ()
+    """Those of them that it begins with."""
     folder: Path = field(default_factory=Path)
     equip: Callable[[PlannedNode], PlannedNode] = lambda node: node
     """Gives a node that is tried what Run would give it, such as the gestures of the project."""
@@ -313,7 +316,7 @@ class WatchDialog(QDialog):
         is_running = is_known and self.trial.before is not None
         token = str(settings.get("token") or "") if is_running else ""
         token, addresses = token or self._token, self._find_addresses()
-        known = Known(addresses, token, plan.gestures, plan.folder, settings)
+        known = Known(addresses, token, plan.gestures, plan.wanted, plan.folder, settings)
         self._drop_page()
         page = self.page = WayPage(connector, known, self.listener, self._look)
         page.changed.connect(self._settling.start)
@@ -420,7 +423,8 @@ class WatchDialog(QDialog):
 
 
 def _asked_first(page: WayPage) -> list[QWidget]:
-    return [page.network.switch, page.address, page.gestures.gestures, page.recording.button]
+    boxes = page.gestures.boxes.values()
+    return [page.network.switch, page.address, *boxes, page.recording.button]
 
 
 def _own_addresses() -> Sequence[str]:

@@ -235,6 +235,20 @@ def test_a_state_is_typed_freely_or_chosen(controller_of) -> None:
     assert desk.new_steps() == 2
 
 
+def test_a_state_is_read_and_typed_as_words_and_kept_as_the_code_of_nodes(controller_of) -> None:
+    desk = controller_of("event.human_state")
+    slot = desk.editor.language.definitions["event.human_state"].slots["state"]
+    shown = desk.editor.language.label_of(slot, desk.value("state"))
+
+    desk.click("state")
+    begun = desk.widget.search.text()
+    desk.widget.search.selectAll()
+    QTest.keyClicks(desk.widget.search, "the finale begins")
+
+    assert shown == begun == "touched head"
+    assert desk.value("state") == "the_finale_begins"
+
+
 def test_a_colour_is_chosen_with_the_arrow_keys(controller_of) -> None:
     desk = controller_of("kinds.colour", colour=COLOURS[0][1])
 
