@@ -12,8 +12,8 @@ from nep_core.networks.zmq_networks import PeerNetwork
 from nep_core.program import tasks
 from nep_core.program.actions import action_client
 from nep_core.program.behavior import Behavior
-from nep_core.program.human import state_of_word
 from nep_core.program.tasks import current_task, wait, wait_until
+from nep_core.wire.states import state_of_word
 from tests.nep_core.outside import Outside, seen
 
 pytestmark = pytest.mark.long

@@ -10,8 +10,8 @@ from pathlib import Path
 import msgspec
 import pytest
 
-from nep_core.program import human
 from nep_core.wire import messages as wire
+from nep_core.wire import states
 from robots.body import driver as messages
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -81,10 +81,10 @@ def test_what_a_robot_takes_and_tells_has_the_keys_of_the_network_s_messages(nam
 
 @pytest.mark.parametrize("words", ["Good morning!", "größe_2", "  ", "ÉTÉ", "\u22122,5 °C", "5-3"])
 def test_a_robot_tells_human_states_in_the_network_s_words(words: str) -> None:
-    assert messages.plain(words) == human.plain(words)
-    assert messages.state_of_word(words) == human.state_of_word(words)
+    assert messages.plain(words) == states.plain(words)
+    assert messages.state_of_word(words) == states.state_of_word(words)
 
 
 @pytest.mark.parametrize("thing", ["face", "face_anna", "ball", "sound", "mark_64"])
 def test_a_robot_names_what_it_notices_as_the_network_does(thing: str) -> None:
-    assert messages.state_of_thing(thing) == human.state_of_thing(thing)
+    assert messages.state_of_thing(thing) == states.state_of_thing(thing)

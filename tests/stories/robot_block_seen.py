@@ -10,8 +10,8 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from nep_core.program.human import plain
 from nep_core.wire.messages import RobotState, Thing
+from nep_core.wire.states import plain
 from tests.stories.robot_theatre import B
 
 SOUND_S = 5

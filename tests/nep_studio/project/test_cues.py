@@ -10,7 +10,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from nep_core.program.human import state_of_thing, state_of_word
+from nep_core.wire.states import state_of_thing, state_of_word
 from nep_studio import paths
 from nep_studio.blocks.edits.content import SetExtra
 from nep_studio.blocks.errors import EditRefused
