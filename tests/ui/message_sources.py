@@ -92,6 +92,7 @@ OF_THE_WINDOW = {
     "_submenu": slice(3, 4),
     "_heading": slice(0, 1),
     "hint": slice(0, 1),
+    "EmptyHint": slice(1, 2),
     "label_of": slice(0, 1),
     "labelled": slice(0, 1),
     "labelled_items": slice(1, None),

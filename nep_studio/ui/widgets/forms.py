@@ -8,6 +8,7 @@ from typing import Any, TypeVar
 from PySide6.QtCore import QPoint, QRect, QSize, Qt, QTimer
 from PySide6.QtGui import QFont, QFontMetrics, QGuiApplication, QResizeEvent, QScreen
 from PySide6.QtWidgets import (
+    QAbstractItemView,
     QFormLayout,
     QFrame,
     QHBoxLayout,
@@ -91,6 +92,29 @@ def styled(widget: Styled, **looks: str) -> Styled:
 def hint(words: Words) -> QLabel:
     """Words that explain, in a quiet colour; in English, as all labels."""
     return labels.labelled(styled(QLabel(wordWrap=True), role="hint"), text=words)
+
+
+class EmptyHint(QLabel):
+    """Words in a list, tree or table as long as that has no rows; in English, as all labels."""
+
+    def __init__(self, view: QAbstractItemView, words: Words) -> None:
+        super().__init__(view.viewport(), wordWrap=True, alignment=Qt.AlignmentFlag.AlignCenter)
+        labels.labelled(styled(self, role="hint"), text=words)
+        # the rows below it have what the mouse does
+        self.setAttribute(Qt.WidgetAttribute.WA_TransparentForMouseEvents)
+        in_column(self, of=view.viewport())
+        self._view = view
+        self.follow()
+
+    def follow(self) -> None:
+        """Follow the rows of the view, also when these are of another model than before."""
+        model = self._view.model()
+        for changed in (model.rowsInserted, model.rowsRemoved, model.modelReset):
+            changed.connect(self._look)
+        self._look()
+
+    def _look(self) -> None:
+        self.setVisible(self._view.model().rowCount() == 0)
 
 
 def label_of(words: Words, buddy: QWidget) -> QLabel:

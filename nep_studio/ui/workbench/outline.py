@@ -22,6 +22,7 @@ from nep_studio.ui.canvas.accessibility import described
 from nep_studio.ui.canvas.host import CanvasHost
 from nep_studio.ui.labels import labelled
 from nep_studio.ui.theme.colours import PLACEHOLDER, Theme
+from nep_studio.ui.widgets.forms import EmptyHint
 
 # The blocks of a page as rows of a tree, read from the program each time they are asked for.
 
@@ -201,7 +202,9 @@ class Outline(QTreeView):
         self._is_following = False
         self._is_new_page = True
         self._unfolded: set[str] = set()
+        self._empty: EmptyHint | None = None
         self._take_rows()
+        self._empty = EmptyHint(self, "The blocks of this page are listed here.")
         self.setHeaderHidden(True)
         self.setUniformRowHeights(True)
         self.setSelectionMode(QAbstractItemView.SelectionMode.SingleSelection)
@@ -238,6 +241,8 @@ class Outline(QTreeView):
         self.setModel(self._rows)
         self._rows.modelReset.connect(self._on_rows_reset)
         self.selectionModel().currentChanged.connect(self._on_current_changed)
+        if self._empty is not None:
+            self._empty.follow()
 
     def _on_rows_reset(self) -> None:
         """Unfold the rows again that were unfolded, and go back to the block of the canvas."""

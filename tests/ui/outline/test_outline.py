@@ -13,9 +13,11 @@ from nep_studio.blocks.edits.content import SetField
 from nep_studio.blocks.edits.placing import DeleteBlocks, MoveBlocks
 from nep_studio.blocks.errors import EditRefused
 from nep_studio.blocks.places import InBody, InStack
+from nep_studio.blocks.program import Project
 from nep_studio.run.installation import studio_language
 from nep_studio.ui.canvas.canvas import Canvas
 from nep_studio.ui.theme.colours import load_theme
+from nep_studio.ui.widgets.forms import EmptyHint
 from nep_studio.ui.workbench.outline import Outline, OutlineModel
 from tests.blocks.block_building import B, build
 
@@ -190,3 +192,23 @@ def test_nothing_is_done_while_nobody_looks_and_all_is_there_again_afterwards(
     [repeat] = tree(model)[0][1]
     assert repeat[0] == "repeat 1 + 2 times"
     assert outline.isExpanded(model.index(0, 0, model.index(0, 0)))
+
+
+def test_an_empty_page_says_what_belongs_here(qtbot):
+    editor = Editor(Project(), studio_language())
+    canvas = Canvas(editor, load_theme("light"))
+    outline = Outline(canvas)
+    for widget in (canvas, outline):
+        qtbot.addWidget(widget)
+        widget.show()
+    [words] = outline.findChildren(EmptyHint)
+    assert words.isVisible()
+
+    build(editor.language, [B("event.started")], editor=editor)
+    assert not words.isVisible()
+
+    outline.refresh()
+    assert not words.isVisible()
+    [stack] = editor.project.pages["behaviour"]
+    editor.apply(DeleteBlocks(stack.body[0], 1))
+    assert words.isVisible()

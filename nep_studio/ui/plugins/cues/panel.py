@@ -32,7 +32,7 @@ from nep_studio.ui.labels import follow_words, labelled
 from nep_studio.ui.messages import announce
 from nep_studio.ui.running.runner import Runner
 from nep_studio.ui.theme.icons import icon
-from nep_studio.ui.widgets.forms import hint, plain_label, styled
+from nep_studio.ui.widgets.forms import EmptyHint, hint, plain_label, styled
 from nep_studio.ui.widgets.layouts import in_column, in_row
 from nep_studio.ui.words import tr
 
@@ -166,6 +166,7 @@ class CuePage(QWidget):
         )
         self.movements.setMenu(QMenu(self.movements))
         self.log = labelled(QListWidget(), name="What was sent")
+        EmptyHint(self.log, "What you send is listed here.")
         self._has_run_button = not is_large  # a show has its own
         self._lay_out(is_large)
         self._connect()
