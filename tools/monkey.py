@@ -437,7 +437,10 @@ def watch(monkey: Monkey) -> None:
         if isinstance(error, KeyboardInterrupt):
             monkey.faults.append("interrupted")
             return
-        monkey.faults.append("".join(traceback.format_exception(kind, error, trace)))
+        try:
+            monkey.faults.append("".join(traceback.format_exception(kind, error, trace)))
+        except RecursionError:
+            monkey.faults.append(f"{kind.__name__}: {error}; too deep to tell where")
 
     def on_message(kind: QtMsgType, _context: object, text: str) -> None:
         is_bad = kind in (QtMsgType.QtCriticalMsg, QtMsgType.QtFatalMsg)

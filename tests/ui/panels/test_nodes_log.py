@@ -120,6 +120,23 @@ def test_who_reads_above_is_not_moved(view: LogView, path: Path, qtbot: QtBot) -
     assert not view.follow_button.isVisible()
 
 
+def test_what_came_meanwhile_is_written_once_for_who_goes_down_again(
+    view: LogView, path: Path, qtbot: QtBot
+) -> None:
+    lines = [f"line {number}" for number in range(400)]
+    write(path, *lines[:300])
+    qtbot.waitUntil(lambda: "line 299" in view.text.toPlainText())
+    bar = view.text.verticalScrollBar()
+    bar.setValue(10)
+    write(path, *lines[300:])
+    qtbot.waitUntil(view.follow_button.isVisible)
+
+    bar.setValue(bar.maximum())
+
+    assert view.text.toPlainText().splitlines() == lines
+    assert bar.value() == bar.maximum()
+
+
 def test_words_are_found_and_those_that_are_not_are_marked(
     view: LogView, path: Path, qtbot: QtBot
 ) -> None:

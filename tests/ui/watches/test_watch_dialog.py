@@ -72,16 +72,16 @@ def test_the_code_of_the_phone_page_is_shown_once_the_network_is_let_in(
     choose(dialog, "phone_page", qtbot)
     page = dialog.page
     assert not page.qr_code.isVisible()
-    assert runner.started[-1].parameters["listen_on"] == "this computer"
+    assert runner.launches[-1].parameters["listen_on"] == "this computer"
     runner.tell("ready", "waits for a phone")
 
     press_switch(page.network.switch, qtbot)
 
-    qtbot.waitUntil(lambda: len(runner.started) == 2)
+    qtbot.waitUntil(lambda: len(runner.launches) == 2)
     assert page.qr_code.isVisible()
     [url] = page_urls(8443, TOKEN, [ADDRESS])
     assert page.qr_code.accessibleName() == url
-    assert dict(runner.started[-1].parameters) == {
+    assert dict(runner.launches[-1].parameters) == {
         "through": "phone_page",
         "port": 8443,
         "listen_on": "network",
@@ -116,8 +116,8 @@ def test_another_port_and_columns_of_ones_own_reach_the_node(
     qtbot.keyClicks(page.more.columns, "t,ax,ay,az")
     qtbot.keyClick(page.more.columns, Qt.Key.Key_Return)
 
-    qtbot.waitUntil(lambda: runner.started[-1].parameters.get("columns") == "t,ax,ay,az")
-    assert runner.started[-1].parameters["port"] == 9001
+    qtbot.waitUntil(lambda: runner.launches[-1].parameters.get("columns") == "t,ax,ay,az")
+    assert runner.launches[-1].parameters["port"] == 9001
     assert page.steps.copy_lines[3].text.text() == "9001"
 
 
@@ -126,12 +126,12 @@ def test_where_it_is_worn_is_asked_and_told_to_the_node(
 ) -> None:
     dialog = open_dialog()
     choose(dialog, "paper_watch", qtbot)
-    assert runner.started[-1].parameters["wrist"] == "left"
+    assert runner.launches[-1].parameters["wrist"] == "left"
     runner.tell("ready")
 
     dialog.page.worn.buttons["right"].click()
 
-    qtbot.waitUntil(lambda: runner.started[-1].parameters["wrist"] == "right")
+    qtbot.waitUntil(lambda: runner.launches[-1].parameters["wrist"] == "right")
 
 
 def test_nothing_is_started_until_the_address_of_the_app_is_written(
@@ -139,14 +139,14 @@ def test_nothing_is_started_until_the_address_of_the_app_is_written(
 ) -> None:
     dialog = open_dialog()
     choose(dialog, "phyphox", qtbot)
-    assert runner.started == []
+    assert runner.launches == []
     assert dialog.page.live.title.text() == "Something is still missing"
 
     qtbot.keyClicks(dialog.page.address, "192.168.1.44:8080")
     qtbot.keyClick(dialog.page.address, Qt.Key.Key_Return)
 
-    qtbot.waitUntil(lambda: runner.started != [])
-    assert runner.started[-1].parameters["address"] == "192.168.1.44:8080"
+    qtbot.waitUntil(lambda: runner.launches != [])
+    assert runner.launches[-1].parameters["address"] == "192.168.1.44:8080"
 
 
 def test_a_movement_turns_the_dot_green_and_the_numbers_are_told(

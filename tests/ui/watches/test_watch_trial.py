@@ -108,7 +108,7 @@ def test_a_watch_that_ran_before_comes_back_when_another_is_not_used(
     assert dialog.page.connector.name == "tcp"  # what is used is shown at once
     choose_other(dialog, "udp", qtbot)
     runner.tell("ready", pid=8)
-    assert runner.started[-1].parameters["through"] == "udp"
+    assert runner.launches[-1].parameters["through"] == "udp"
 
     press(qtbot, dialog.close_button)
 
@@ -122,7 +122,7 @@ def test_a_program_that_runs_with_the_watch_keeps_it_when_the_dialog_is_closed(
     dialog = open_dialog()
     choose(dialog, "virtual_watch", qtbot)
     runner.tell("ready")
-    runner.planned = lambda: runner.started
+    runner.planned = lambda: runner.launches
     runner.state = "running"
 
     press(qtbot, dialog.close_button)

@@ -36,7 +36,7 @@ class RecordingRunner(Runner):
         self.asked.append(("stop", name))
 
     @property
-    def started(self) -> list[PlannedNode]:
+    def launches(self) -> list[PlannedNode]:
         return [what for verb, what in self.asked if isinstance(what, PlannedNode)]
 
     def tell(self, event: str, description: str = "", pid: int = 7, **measures: float) -> None:

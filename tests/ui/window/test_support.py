@@ -15,10 +15,10 @@ from PySide6.QtWidgets import QFileDialog, QPushButton
 from pytestqt.qtbot import QtBot
 
 from nep_core.places import PORTABLE_VARIABLE
+from nep_core.processes import process
 from nep_studio.support import portable, safe_mode
 from nep_studio.support.updates import Newest, UpdateChoice
 from nep_studio.ui.shell import settings_dialog
-from nep_studio.ui.shell import support as dialogs
 from nep_studio.ui.shell.main_window import MainWindow
 from nep_studio.ui.shell.settings_dialog import SettingsDialog
 from nep_studio.ui.shell.support import AfterACrash, SupportDialog, tell_how_it_runs
@@ -91,8 +91,8 @@ def test_a_report_that_is_closed_early_ends_its_process(window: MainWindow) -> N
 def test_a_report_that_cannot_be_made_is_told(
     window: MainWindow, qtbot: QtBot, monkeypatch: pytest.MonkeyPatch, words: list[str]
 ) -> None:
-    command = dialogs.program_command
-    monkeypatch.setattr(dialogs, "program_command", lambda *_: command(*words))
+    command = process.program_command
+    monkeypatch.setattr(process, "program_command", lambda *_: command(*words))
 
     dialog = SupportDialog(window)
     qtbot.waitUntil(lambda: "could not be made" in dialog.state.text())

@@ -272,8 +272,9 @@ class LogView(QWidget):
     def _write_waiting(self) -> None:
         """Show the lines that have come while the person was reading above."""
         if self._waiting:
-            self.text.appendPlainText("\n".join(self._waiting))
-            self._waiting.clear()
+            lines = "\n".join(self._waiting)
+            self._waiting.clear()  # first: the text scrolls, and that asks for what waits
+            self.text.appendPlainText(lines)
         self.follow_button.hide()
 
     def _is_at_end(self) -> bool:
