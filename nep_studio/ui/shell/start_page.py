@@ -111,7 +111,10 @@ class BigPicture(QFrame):
         self._grid.addWidget(self.play_button, at[0], 0, at[1])
         self._grid.setVerticalSpacing(line // 2)
         air = round(width * 0.1) if is_wide else 0
-        self.play_button.setStyleSheet(f"{self._sheet} margin: 0px {air}px;")
+        sheet = f"{self._sheet} margin: 0px {air}px;"
+        if self.play_button.styleSheet() != sheet:
+            self.play_button.setStyleSheet(sheet)
+            self._grid.activate()  # now, not in the next turn: its words would be cut till then
 
     def mouseReleaseEvent(self, event: QMouseEvent) -> None:
         """A click on the picture plays it, too."""
