@@ -103,6 +103,7 @@ def newcomer(window: MainWindow, qtbot: QtBot) -> Iterator[Newcomer]:
 def test_a_newcomer_tries_the_karate_example_and_makes_a_rule(
     newcomer: Newcomer, window: MainWindow, qtbot: QtBot
 ) -> None:
+    qtbot.waitUntil(lambda: window.start_page.gallery.is_complete, timeout=WAIT_MS)
     newcomer.step("welcome")
     card = next(c for path, c in window.start_page.cards.items() if path.stem == "karate_greeting")
     qtbot.mouseClick(card, LEFT)
