@@ -18,11 +18,13 @@ from pytestqt.qtbot import QtBot
 from benchmarks.virtual_display import missing_programs
 from nep_core.wire import messages as m
 from nep_studio.ui.running.needs import NeedsDialog
-from nep_studio.ui.shell.main_window import MainWindow
-from tests.ui.checklist.conftest import home, studio, window
+from nep_studio.ui.services import Studio
+from nep_studio.ui.shell.main_window import FIRST_SIZE, MainWindow
 from tests.ui.checklist.person import Key, Person
+from tests.ui.window.conftest import home, studio
+from tests.ui.window.putting_away import put_away
 
-__all__ = ["home", "studio", "window"]
+__all__ = ["home", "studio"]
 
 WAIT_MS = 60_000
 IMAGES_VARIABLE = "NEP_STORY_IMAGES"
@@ -88,6 +90,19 @@ class Newcomer(Person):
             for one in self.messages
             if isinstance(one, m.ActionResult)
         )
+
+
+@pytest.fixture
+def window(studio: Studio, qtbot: QtBot) -> MainWindow:
+    """The window as it is at first."""
+    made = MainWindow(studio)
+    qtbot.addWidget(made, before_close_func=put_away)
+    made.resize(FIRST_SIZE)
+    with qtbot.waitActive(made):
+        made.show()
+        made.activateWindow()
+    made.start(None)
+    return made
 
 
 @pytest.fixture
