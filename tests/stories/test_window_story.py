@@ -30,6 +30,8 @@ WAIT_MS = 60_000
 IMAGES_VARIABLE = "NEP_STORY_IMAGES"
 IS_ON_A_DISPLAY = bool(os.environ.get("CI")) and not missing_programs()
 """Whether test_window_story_on_a_display.py plays this story, by a process of its own."""
+SETTLE_MS = 100
+"""What has just changed has its room then."""
 LEFT = Qt.MouseButton.LeftButton
 
 
@@ -54,6 +56,7 @@ class Newcomer(Person):
         """Look at the window; a picture is kept where they are collected."""
         self._step += 1
         if self._folder:
+            self.qtbot.wait(SETTLE_MS)
             dialogs = [one for one in self.window.findChildren(QDialog) if one.isVisible()]
             shown = dialogs[0] if dialogs else self.window
             shown.grab().save(str(Path(self._folder) / f"story-{self._step}-{name}.png"))
