@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import time
 from collections.abc import Callable
 from pathlib import Path
 
@@ -199,6 +200,27 @@ def test_a_short_esc_does_nothing_and_a_long_one_leaves(
     assert was_visible
     window.messages.confirm("Back")
     assert [card.message.title for card in window.message_area.cards] == ["Back"]
+
+
+def test_a_slow_computer_asks_nobody_to_hold_longer(
+    monkeypatch: pytest.MonkeyPatch, window: MainWindow, open_program, show: Begin, qtbot: QtBot
+) -> None:
+    monkeypatch.setattr(leaving, "HOLD_MS", 20 * leaving.STEP_MS)
+    open_program(SAY)
+    shown = show()
+    slow, turns = QTimer(shown, interval=0), []
+
+    def hold_up() -> None:
+        turns.append(1)
+        time.sleep(3 * leaving.STEP_MS / 1000)
+
+    slow.timeout.connect(hold_up)
+    slow.start()
+
+    qtbot.keyPress(shown.run_button, Qt.Key.Key_Escape)
+    qtbot.waitUntil(window.isVisible, timeout=WAIT_MS)
+
+    assert len(turns) < 15, "each has room for three steps of the bar"
 
 
 def test_a_key_that_comes_as_pairs_of_press_and_release_is_held(

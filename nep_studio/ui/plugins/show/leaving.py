@@ -11,7 +11,7 @@ import sys
 from collections.abc import Callable
 from typing import TYPE_CHECKING
 
-from PySide6.QtCore import QEvent, QObject, Qt, QTimer, Signal
+from PySide6.QtCore import QElapsedTimer, QEvent, QObject, Qt, QTimer, Signal
 from PySide6.QtGui import QKeyEvent, QMouseEvent, QTouchEvent, QWindow
 from PySide6.QtWidgets import (
     QFrame,
@@ -36,6 +36,8 @@ log = logging.getLogger(__name__)
 
 HOLD_MS = 2000
 STEP_MS = 50
+LONGEST_STEP_MS = 4 * STEP_MS
+"""On a slow computer steps come late, and count as longer; a window that hung counts no more."""
 GAP_MS = 100
 """Remote desktops send a held key as presses and releases in turn, at most so long apart."""
 TOLD_MS = 5000
@@ -56,6 +58,7 @@ class Holding(QObject):
         super().__init__(keys_of)
         self._handle = handle
         self._elapsed_ms = 0
+        self._since_step = QElapsedTimer()
         self._timer = QTimer(self, interval=STEP_MS)
         self._timer.timeout.connect(self._on_step)
         self._letting_go = QTimer(self, singleShot=True, interval=GAP_MS)
@@ -90,6 +93,7 @@ class Holding(QObject):
         self._letting_go.stop()
         if not self.is_held:
             self._elapsed_ms = 0
+            self._since_step.start()
             self._timer.start()
 
     def _end(self) -> None:
@@ -98,7 +102,7 @@ class Holding(QObject):
         self.progress.emit(0.0)
 
     def _on_step(self) -> None:
-        self._elapsed_ms += STEP_MS
+        self._elapsed_ms += min(self._since_step.restart(), LONGEST_STEP_MS)
         self.progress.emit(min(1.0, self._elapsed_ms / HOLD_MS))
         if self._elapsed_ms >= HOLD_MS:
             self._end()
