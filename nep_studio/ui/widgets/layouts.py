@@ -21,6 +21,8 @@ from PySide6.QtWidgets import (
     QWidgetItem,
 )
 
+from nep_studio.ui.theme.icons import fit_icons
+
 Part = (
     QWidget | QLayout | int | tuple[QWidget | QLayout, int] | tuple[QWidget, int, Qt.AlignmentFlag]
 )
@@ -124,8 +126,9 @@ class LatePanel(InLines, Generic[Page]):
         if self.page is None:
             self.page = self._make()
             self._box.addWidget(self.page)
+            fit_icons(self.page)
+            self.made.emit(self.page)  # before it is shown: who listens to it hears of all
             self.page.show()  # now: what is done with it next may need to see it
-            self.made.emit(self.page)
         return self.page
 
     def forget(self) -> None:

@@ -311,3 +311,12 @@ def test_the_help_survives_a_change_of_language(karate, desk, studio):
 
     assert karate.workbench.canvas.editor.project.blocks
     studio.choose_language("en")
+
+
+def test_who_follows_the_help_hears_of_its_first_page_too(karate, desk):
+    followed = []
+    karate.host.ask("help.follow", lambda _panel, page: followed.append(page))
+
+    next(p for p in karate.workbench.panels.all if p.name == "HelpPanel").action.setChecked(True)
+
+    assert followed == [HOME]

@@ -13,6 +13,7 @@ from pytestqt.qtbot import QtBot
 from nep_core.networks.security.curve import Refusals
 from nep_studio.ui.plugins.network import NetworkPanel
 from nep_studio.ui.plugins.sharing import SharingKit
+from nep_studio.ui.services import Studio
 from nep_studio.ui.shell.main_window import MainWindow
 from nep_studio.ui.shell.settings_dialog import SettingsDialog
 from tests.blocks.block_building import B
@@ -115,6 +116,20 @@ def test_it_is_opened_again_at_the_next_start_only_when_that_was_chosen(
 
     assert (before, during) == ("", HOST)
     qtbot.waitUntil(lambda: window.settings.kept_open_at == "")
+
+
+def test_a_window_that_is_closed_at_once_opens_no_network(studio: Studio, qtbot: QtBot) -> None:
+    studio.settings.kept_open_at = "127.0.0.1"
+    made = MainWindow(studio)
+    qtbot.addWidget(made)
+    made.show()
+    made.start(None)
+
+    made.close()
+    qtbot.wait(50)
+
+    assert made.running.runner.network is None
+    assert told(made) == []
 
 
 def test_who_is_refused_is_told_once_with_what_to_do(window: MainWindow, kit: SharingKit) -> None:

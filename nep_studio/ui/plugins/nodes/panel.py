@@ -22,6 +22,7 @@ from PySide6.QtWidgets import (
 from nep_studio.run.plan import PlannedNode
 from nep_studio.ui.labels import follow_words, labelled
 from nep_studio.ui.network_feed import NetworkFeed
+from nep_studio.ui.theme.icons import fit_icons
 from nep_studio.ui.theme.look import Look
 from nep_studio.ui.widgets.forms import hint
 from nep_studio.ui.widgets.layouts import InLines, in_column, in_row
@@ -201,6 +202,7 @@ class NodesPage(InLines):
         card.restart_asked.connect(self.restart_asked)
         card.log_asked.connect(self.open_log)
         card.moved.connect(lambda step: self._on_moved(card, step))
+        fit_icons(card)
         return card
 
     def _on_moved(self, card: NodeCard, step: int) -> None:

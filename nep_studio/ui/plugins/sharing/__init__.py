@@ -95,7 +95,10 @@ class SharingKit(QObject):
         self._runner.network_made.connect(self._on_network_made)
         follow_words(self, self.tell)
         if address := host.services.settings.kept_open_at:
-            QTimer.singleShot(0, self, lambda: self.sharing.open(address))
+            soon = QTimer(self, singleShot=True, interval=0)
+            soon.timeout.connect(lambda: self.sharing.open(address))
+            self._runner.closing.connect(soon.stop)
+            soon.start()
 
     @property
     def sharing(self) -> Sharing:
