@@ -33,17 +33,25 @@ def test_random_clicks_drags_and_keys_break_nothing() -> None:
     assert f"{STEPS} steps" in done.stdout
 
 
+NO_WAY_BACK = """do, leave = monkey.Monkey._do_something, monkey.Monkey._leave
+def at_the_end(self):
+    do(self) if self.done < self.steps else self.window.open_settings()
+monkey.Monkey._do_something = at_the_end
+monkey.Monkey._leave = lambda self, top: leave(self, top) if self.done < self.steps else None"""
+"""The last step opens a dialog that cannot be left."""
+
+
 @pytest.mark.parametrize(
     ("fault", "told"),
     [
         ("monkey.Monkey._wait = lambda *_: 1 / 0", "ZeroDivisionError"),
         ("monkey.Monkey._wait = lambda *_: os.abort()", ""),
-        ("monkey.Monkey._leave = lambda *_: None", "no way back"),
+        (NO_WAY_BACK, "no way back"),
     ],
     ids=["an error", "a crash", "no way back"],
 )
 def test_what_goes_wrong_is_found_and_told_with_its_steps(fault: str, told: str) -> None:
-    program = f"import os, sys; from tools import monkey; {fault}; " + (
+    program = f"import os, sys\nfrom tools import monkey\n{fault}\n" + (
         "sys.exit(monkey.main(['--steps', '250', '--seed', '3']))"
     )
 

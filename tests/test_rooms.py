@@ -32,8 +32,9 @@ AROUND = ("nep_studio.ui.canvas", "nep_studio.ui.workbench", "nep_studio.ui.runn
 OFFERED = ("nep_studio.ui.host", "nep_studio.ui.services")
 """What plugins see of the window; it names what runs and the workbench, for types only."""
 SHARED = (
-    *("nep_studio.ui.floor", "nep_studio.ui.network_feed", "nep_studio.ui.speech"),
-    *("nep_studio.ui.node_style", "nep_studio.ui.watch_view", "nep_studio.ui.widgets.questions"),
+    *("nep_studio.ui.floor", "nep_studio.ui.speech", "nep_studio.ui.node_style"),
+    *("nep_studio.ui.network_feed", "nep_studio.ui.network_watch", "nep_studio.ui.watch_view"),
+    "nep_studio.ui.widgets.questions",
 )
 """What several plugins use of what runs and of the canvas: below all plugins."""
 ROOMS = {

@@ -121,6 +121,9 @@ class Monkey(QObject):
         """How often it tries yet to come back to the window; 0 while it plays."""
         self._left: QWidget | None = None
         """Where it has pressed Esc last to leave."""
+        self._is_resting = False
+        self._turns = QTimer(self, singleShot=True)
+        self._turns.timeout.connect(self._on_turn)
         app = QApplication.instance()
         assert isinstance(app, QApplication)
         settings = Settings(self.folder / "home")
@@ -157,7 +160,7 @@ class Monkey(QObject):
         app = QApplication.instance()
         assert isinstance(app, QApplication)
         app.setQuitOnLastWindowClosed(False)
-        QTimer.singleShot(0, self.step)
+        self._turns.start(0)
         app.exec()
         if self.faults:
             raise Broken(self.faults[0])
@@ -167,7 +170,7 @@ class Monkey(QObject):
         """Do one thing; the next one follows also when this one waits for an answer to it."""
         loops = QThread.currentThread().loopLevel()
         if self._busy is not None and loops <= self._busy:
-            QTimer.singleShot(20, self.step)  # Qt only looks for events: hands are still full
+            self._turns.start(20)  # Qt only looks for events: hands are still full
             return
         faulthandler.dump_traceback_later(LONGEST_STEP_S, exit=True)
         self._take_time()
@@ -175,7 +178,8 @@ class Monkey(QObject):
         if self.faults or (self.done >= self.steps and not self._tries_left):
             self._end()
             return
-        QTimer.singleShot(0, self._next)
+        self._is_resting = True
+        self._turns.start(0)
         around, self._busy = self._busy, loops
         try:
             if self._tries_left:
@@ -192,8 +196,13 @@ class Monkey(QObject):
             self._busy = around
 
     @Slot()
-    def _next(self) -> None:
-        QTimer.singleShot(self._pause_ms, self.step)
+    def _on_turn(self) -> None:
+        """First rest after a step, then do the next one."""
+        if self._is_resting:
+            self._is_resting = False
+            self._turns.start(self._pause_ms)
+        else:
+            self.step()
 
     def _take_time(self) -> None:
         """Remember the step that has held the window up longest."""

@@ -1,6 +1,6 @@
 """Plays the newcomer's story on a virtual screen and keeps a picture of each of its steps.
 
-    .venv/bin/python tools/story_images.py              into docs/images
+    .venv/bin/python tools/story_images.py              those of the pages, into docs/images
     .venv/bin/python tools/story_images.py FOLDER       into another folder
 
 The robot moves and the watch measures while the pictures are taken, so no two runs give exactly
@@ -20,6 +20,8 @@ sys.path.insert(0, str(ROOT))
 from benchmarks.virtual_display import virtual_display
 
 STORY = "tests/stories/test_window_story.py"
+SHOWN = ("story-3-impressive", "story-6-what-is-missing")
+"""Those that the documentation shows; all are kept in another folder."""
 
 
 def main() -> int:
@@ -40,7 +42,10 @@ def _keep(raw: Path, target: Path) -> None:
     from tools.image_files import write_small
 
     target.mkdir(parents=True, exist_ok=True)
+    is_docs = target == ROOT / "docs" / "images"
     for picture in sorted(raw.glob("*.png")):
+        if is_docs and picture.stem not in SHOWN:
+            continue
         size = write_small(QImage(str(picture)), target / picture.name)
         print(f"{picture.stem}: {size}")
 

@@ -114,7 +114,8 @@ class NetworkFeed(QObject):
         if self._watch is None:
             from .network_watch import NetworkWatch  # loaded when somebody looks
 
-            self._watch = NetworkWatch(self._find_network)
+            watch = self._watch = NetworkWatch(self._find_network)
+            self.destroyed.connect(watch.stop)  # its thread ends with the window, too
             self._watch.start()
         self._timer.start()
 

@@ -198,6 +198,7 @@ def test_the_karate_story_in_five_phrases(teacher: Teacher, qtbot: QtBot) -> Non
     teacher.key(Key.Key_F5)
     human = shown(teacher.window, HumanPanel)
     until(teacher, lambda: human.isVisible() and human.stimuli.has_watch)
+    until(teacher, lambda: "Show me a karate chop!" in teacher.said())
     [button] = human.waiting.buttons
     button.setFocus()
     QTest.keyClick(button, Key.Key_Space)
