@@ -98,7 +98,9 @@ class LookPage(QWidget):
         form.addRow(label_of("Language", self.language), self.language)
         form.addRow(label_of("Theme", self.theme), self.theme)
         form.addRow(label_of("Size of the text", self.text_size), size)
-        form.addRow("", hint("The window makes no sounds, and nothing in it moves by itself."))
+        form.addRow(
+            "", hint("The window makes no sounds, and only the robots in it move by themselves.")
+        )
         self.text_size.valueChanged.connect(self._show_percent)
         self.text_size.sliderReleased.connect(self.size_chosen)
         self.text_size.actionTriggered.connect(self._on_size_stepped)
