@@ -58,10 +58,8 @@ class ShortcutsDialog(QDialog):
         header.setSectionResizeMode(0, QHeaderView.ResizeMode.Stretch)
         header.setSectionResizeMode(1, QHeaderView.ResizeMode.ResizeToContents)
         header.setDefaultAlignment(Qt.AlignmentFlag.AlignLeading | Qt.AlignmentFlag.AlignVCenter)
-        closer, line = (
-            (_closer(self), 0, Qt.AlignmentFlag.AlignTrailing),
-            self.fontMetrics().height(),
-        )
+        closer = (_closer(self), 0, Qt.AlignmentFlag.AlignTrailing)
+        line = self.fontMetrics().height()
         in_column(self.table, closer, of=self, margins=line, spacing=line // 2)
         fit_on_screen(self, 40, 30)
 
