@@ -13,7 +13,7 @@ from pathlib import Path
 from types import CodeType, FrameType
 from typing import Any
 
-from nep_core.program.tasks import Task, current_task
+from nep_core.program.tasks import Task, current_task, frames_of_threads
 from nep_core.program.values import as_text
 
 MOST_CALLS = 50
@@ -61,13 +61,13 @@ class ProgramThreads:
 
     def frames(self) -> list[FrameType]:
         """All calls that have not ended yet."""
-        return [one for frame in sys._current_frames().values() for one in self._calls(frame)]
+        return [one for frame in frames_of_threads().values() for one in self._calls(frame)]
 
     def lines(self) -> dict[str, list[int]]:
         """The lines that each thread is in now, the outermost call first."""
         names = {thread.ident: thread.name for thread in threading.enumerate()}
         found = {}
-        for ident, innermost in sys._current_frames().items():
+        for ident, innermost in frames_of_threads().items():
             if lines := self._lines_of(ident, innermost):
                 found[names.get(ident, str(ident))] = lines
         return found
@@ -76,7 +76,7 @@ class ProgramThreads:
         """The lines of a thread; of very many calls the outermost and the innermost."""
         for _ in range(_LOOKS):
             frames = list(self._calls(innermost))
-            now = sys._current_frames().get(ident)
+            now = frames_of_threads().get(ident)
             if now is innermost:
                 break
             if now is None:
