@@ -35,6 +35,17 @@ def work():
         work()
 work()
 """
+CALLS = 200_000
+OWN_GOAL = 6.0
+OWN_BLOCK = f"""
+def add(value):
+    return value + 1
+def work():
+    number = 0
+    while number < {CALLS}:
+        number = add(number)
+work()
+"""
 LONG = "from nep_core import Behavior\nbehavior = Behavior()\nx = 0\ny = 0\n" + "".join(
     f"def rule{n}():\n    global x, y\n" + "    x = x + 1\n    y = x\n" * 50 for n in range(50)
 )
@@ -59,6 +70,8 @@ def run() -> list[dict[str, Any]]:
         file = Path(folder) / "program.py"
         file.write_text(LOOP, encoding="utf-8")
         plain_s, followed_s, elsewhere_s, inside_s = _loop_times(file)
+        file.write_text(OWN_BLOCK, encoding="utf-8")
+        own_s, own_followed_s = _own_block_times(file)
         file.write_text(LONG, encoding="utf-8")
         read_s = min(_cpu_s(lambda: read_source(file)) for _ in range(ROUNDS))
         file.write_text(SIDE_BY_SIDE, encoding="utf-8")
@@ -67,6 +80,7 @@ def run() -> list[dict[str, Any]]:
         _ratio("a loop that is followed", followed_s, plain_s, FOLLOWED_GOAL),
         _ratio("a loop with a breakpoint elsewhere", elsewhere_s, plain_s, FOLLOWED_GOAL),
         _ratio("a loop with a breakpoint in its function", inside_s, plain_s, INSIDE_GOAL),
+        _ratio("an own block in a loop, followed", own_followed_s, own_s, OWN_GOAL, CALLS),
         *(_rate(event, rates[event]) for event in ("line", "value")),
         {
             "name": "tracing: reading a program of 5,000 blocks",
@@ -87,6 +101,15 @@ def _loop_times(file: Path) -> tuple[float, float, float, float]:
         elsewhere.append(_cpu_s(lambda: _run(file, _tracer(file, breakpoint_at=NOWHERE))))
         inside.append(_cpu_s(lambda: _run(file, _tracer(file, breakpoint_at=NEVER_REACHED))))
     return min(plain), min(followed), min(elsewhere), min(inside)
+
+
+def _own_block_times(file: Path) -> tuple[float, float]:
+    """CPU seconds of a loop that does nothing but call an own block: as it is, and followed."""
+    plain, followed = [], []
+    for _ in range(ROUNDS):
+        plain.append(_cpu_s(lambda: _run(file)))
+        followed.append(_cpu_s(lambda: _run(file, Tracer("program", str(file), _ignore))))
+    return min(plain), min(followed)
 
 
 def _tracer(file: Path, breakpoint_at: int) -> Tracer:
@@ -134,12 +157,14 @@ def _message_rates(file: Path) -> dict[str, float]:
     }
 
 
-def _ratio(name: str, seconds: float, plain_s: float, goal: float) -> dict[str, Any]:
+def _ratio(
+    name: str, seconds: float, plain_s: float, goal: float, count: int = STATEMENTS
+) -> dict[str, Any]:
     return {
         "name": f"tracing: {name}",
-        "value": round(seconds / STATEMENTS * 1e9, 1),
-        "unit": "ns a statement",
-        "reference": round(plain_s / STATEMENTS * 1e9, 1),
+        "value": round(seconds / count * 1e9, 1),
+        "unit": "ns each",
+        "reference": round(plain_s / count * 1e9, 1),
         "ratio": round(seconds / plain_s, 2),
         "goal": f"at most {goal:g} times",
         "ok": seconds / plain_s <= goal,

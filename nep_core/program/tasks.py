@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import contextvars
 import ctypes
+import gc
 import itertools
 import math
 import os
@@ -238,7 +239,7 @@ class Part:
     def interrupt(self) -> bool:
         """Raise Cancelled in the program's own lines, not where nep_core holds something; if so."""
         ident = self._thread.ident
-        frame = sys._current_frames().get(ident) if ident is not None else None
+        frame = frames_of_threads().get(ident) if ident is not None else None
         if ident is not None and frame is not None and _is_interruptible(frame):
             ctypes.pythonapi.PyThreadState_SetAsyncExc(
                 ctypes.c_ulong(ident), ctypes.py_object(Cancelled)
@@ -259,6 +260,26 @@ class Part:
             self._parent.release(self.task)
             with _names_lock:
                 _names.discard(self._thread.name)
+
+
+_one_look = threading.Lock()
+
+
+def frames_of_threads() -> dict[int, FrameType]:
+    """The innermost call of each thread, by its ident.
+
+    WORKAROUND: Python 3.11 makes objects for it while it holds a lock that other threads need, and
+    a garbage collection in between lets them wait for each other for ever; so there is none.
+    https://github.com/python/cpython/issues/106883
+    """
+    with _one_look:
+        collects = gc.isenabled()
+        gc.disable()
+        try:
+            return sys._current_frames()
+        finally:
+            if collects:
+                gc.enable()
 
 
 def _is_interruptible(frame: FrameType) -> bool:

@@ -4,15 +4,16 @@ from __future__ import annotations
 
 import ast
 import math
+import sys
 import threading
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from itertools import islice
 from pathlib import Path
-from types import FrameType
+from types import CodeType, FrameType
 from typing import Any
 
-from nep_core.program.tasks import Task, current_task
+from nep_core.program.tasks import Task, current_task, frames_of_threads
 from nep_core.program.values import as_text
 
 MOST_CALLS = 50
@@ -21,66 +22,86 @@ MOST_CALLS = 50
 
 @dataclass(eq=False)
 class ProgramThread:
-    """A thread that is in the program's file; ``frames`` are its calls there, outermost first."""
+    """A thread that has been asked where it is; only the thread itself makes one of it."""
 
     name: str
     task: Task
-    frames: list[FrameType] = field(default_factory=list)
     is_stepped: bool = False
     """Whether it runs one line more of a paused program."""
     is_cancelled: bool = False
     """Whether it has been told, by Cancelled, to end."""
 
-    def lines(self) -> list[int]:
-        """The lines that it is in; of very many calls the outermost and the innermost."""
-        frames = list(self.frames)
-        if len(frames) > MOST_CALLS:
-            frames = frames[: MOST_CALLS // 2] + frames[-MOST_CALLS // 2 :]
-        return [frame.f_lineno or 0 for frame in frames]
-
 
 class ProgramThreads:
-    """Who is where; each thread notes its own calls, any thread may look."""
+    """Who is where in ``file``: seen by looking at the calls that Python has of every thread.
 
-    def __init__(self) -> None:
-        self._threads: dict[int, ProgramThread] = {}
+    So a call costs nothing. Python keeps those of a thread that waits or is held as they are; a
+    look at one that runs meanwhile is made again.
+    """
 
-    def enter(self, frame: FrameType) -> None:
-        """Note that this thread calls a function of the file."""
-        thread = self._threads.get(threading.get_ident())
+    def __init__(self, file: str) -> None:
+        self._file = file
+        self._asked = threading.local()
+
+    def this(self) -> ProgramThread:
+        """The thread that asks."""
+        thread: ProgramThread | None = self.asked_before()
         if thread is None:
             thread = ProgramThread(threading.current_thread().name, current_task())
-            self._threads[threading.get_ident()] = thread
-        thread.frames.append(frame)
+            self._asked.thread = thread
+        return thread
 
-    def leave(self, frame: FrameType) -> None:
-        """Note that a call has ended, and those that it made."""
-        thread = self._threads.get(threading.get_ident())
-        if thread is None:
-            return
-        if thread.frames[-1] is frame:
-            thread.frames.pop()
-        elif frame in thread.frames:  # those that it made have ended unseen
-            del thread.frames[thread.frames.index(frame) :]
-        if not thread.frames:
-            self.forget()
+    def asked_before(self) -> ProgramThread | None:
+        """The thread that asks, None when it never has."""
+        return getattr(self._asked, "thread", None)
 
-    def forget(self) -> None:
-        """Note that this thread is in the file no more."""
-        self._threads.pop(threading.get_ident(), None)
-
-    def this(self) -> ProgramThread | None:
-        """The thread that asks."""
-        return self._threads.get(threading.get_ident())
+    def line_here(self) -> int:
+        """The line of the file in which the thread is that asks, 0 when it is in none."""
+        return next((frame.f_lineno or 0 for frame in self._calls(sys._getframe())), 0)
 
     def frames(self) -> list[FrameType]:
         """All calls that have not ended yet."""
-        return [frame for thread in list(self._threads.values()) for frame in list(thread.frames)]
+        return [one for frame in frames_of_threads().values() for one in self._calls(frame)]
 
     def lines(self) -> dict[str, list[int]]:
         """The lines that each thread is in now, the outermost call first."""
-        lines = {thread.name: thread.lines() for thread in list(self._threads.values())}
-        return {name: stack for name, stack in lines.items() if stack}
+        names = {thread.ident: thread.name for thread in threading.enumerate()}
+        found = {}
+        for ident, innermost in frames_of_threads().items():
+            if lines := self._lines_of(ident, innermost):
+                found[names.get(ident, str(ident))] = lines
+        return found
+
+    def _lines_of(self, ident: int, innermost: FrameType) -> list[int]:
+        """The lines of a thread; of very many calls the outermost and the innermost."""
+        for _ in range(_LOOKS):
+            frames = list(self._calls(innermost))
+            now = frames_of_threads().get(ident)
+            if now is innermost:
+                break
+            if now is None:
+                return []
+            innermost = now
+        if len(frames) > MOST_CALLS:
+            frames = frames[: MOST_CALLS // 2] + frames[-MOST_CALLS // 2 :]
+        return [frame.f_lineno or 0 for frame in reversed(frames)]
+
+    def _calls(self, innermost: FrameType | None) -> Iterator[FrameType]:
+        """The calls of the file in which a thread is, the innermost first."""
+        while innermost is not None:
+            code = innermost.f_code
+            if code.co_filename == self._file and not is_part_of_line(code):
+                yield innermost
+            innermost = innermost.f_back
+
+
+_LOOKS = 3
+"""So often is looked at a thread that goes on meanwhile."""
+
+
+def is_part_of_line(code: CodeType) -> bool:
+    """Whether code is only a piece of a line, such as the condition of a wait."""
+    return code.co_name.startswith("<") and code.co_name != "<module>"
 
 
 # What the text of a program tells before it runs: its variables, and which lines are no step.

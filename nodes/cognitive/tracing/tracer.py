@@ -5,7 +5,7 @@ from __future__ import annotations
 import sys
 import threading
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from functools import lru_cache
 from itertools import islice
 from pathlib import Path
@@ -186,7 +186,7 @@ class Tracer:
         self._name = name
         self._send = send
         source = read_source(Path(file))
-        self._threads = ProgramThreads()
+        self._threads = ProgramThreads(file)
         self._values = ProgramValues(source.variables)
         self._pace = Pace(source, self._tell)
         self._watch = (make_watch or cheapest_watch())(file, self._threads, self)
@@ -225,26 +225,13 @@ class Tracer:
         self._set_lines()
         self._pace.wake()
 
-    def enter(self, frame: FrameType) -> None:
-        """Note a call in the program's file."""
-        if frame.f_code.co_name == "<module>":
-            self._values.namespace = frame.f_globals
-        self._threads.enter(frame)
-
-    def leave(self, frame: FrameType) -> None:
-        """Note the end of a call."""
-        self._threads.leave(frame)
+    def begun(self, namespace: Mapping[str, object]) -> None:
+        """Note where the program keeps its names."""
+        self._values.namespace = namespace
 
     def line(self, _frame: FrameType, line: int) -> bool:
         """Hold this thread at a line for as long as the pace says."""
-        thread = self._threads.this()
-        if thread is None:
-            return False
-        try:
-            return self._pace.at_line(thread, line)
-        except BaseException:
-            self._threads.forget()  # settrace tells no more of a thread in which it has failed
-            raise
+        return self._pace.at_line(self._threads.this(), line)
 
     def report(self, caller: FrameType, value: object) -> None:
         """Note what a call in the program's file gave."""
@@ -265,12 +252,12 @@ class Tracer:
 
     def _hold(self) -> None:
         """Hold a thread that waits while the program is paused, at the line in which it waits."""
-        if (thread := self._threads.this()) is not None and thread.frames:
-            self._pace.in_wait(thread, thread.frames[-1].f_lineno or 0)
+        if line := self._threads.line_here():
+            self._pace.in_wait(self._threads.this(), line)
 
     def _is_stepped(self) -> bool:
         """Whether the thread that asks runs a line of a program that is paused."""
-        thread = self._threads.this()
+        thread = self._threads.asked_before()
         return thread is not None and thread.is_stepped
 
     def _set_lines(self) -> None:

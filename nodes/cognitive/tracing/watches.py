@@ -6,13 +6,13 @@ import contextlib
 import importlib
 import sys
 import threading
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from functools import cache
 from inspect import CO_GENERATOR, isfunction
 from types import CodeType, FrameType
 from typing import Any, Protocol
 
-from .state import ProgramThreads
+from .state import ProgramThreads, is_part_of_line
 
 WORDS_OF_ROBOTS = ("program.behavior", "program.human", "program.robot", "program.tasks")
 """Modules of nep_core whose functions programs call."""
@@ -21,11 +21,8 @@ WORDS_OF_ROBOTS = ("program.behavior", "program.human", "program.robot", "progra
 class Events(Protocol):
     """What hears of a program; all are called in the program's own threads."""
 
-    def enter(self, frame: FrameType) -> None:
-        """Hear that a call of a function of the file begins or goes on."""
-
-    def leave(self, frame: FrameType) -> None:
-        """Hear that a call has ended."""
+    def begun(self, namespace: Mapping[str, object]) -> None:
+        """Hear that the file runs, and where it keeps its names."""
 
     def line(self, frame: FrameType, line: int) -> bool:
         """Return when the line may run; whether it need not be told until the next refresh."""
@@ -45,18 +42,13 @@ class Watch(Protocol):
         """Watch this thread and those that begin from now on."""
 
     def set_lines(self, lines: Lines) -> None:
-        """Tell of these lines from now on; the functions of the others cost less."""
+        """Tell of these lines from now on; the functions of the others cost little."""
 
     def refresh(self) -> None:
         """Tell again of every line."""
 
     def end(self) -> None:
         """Watch no more."""
-
-
-def is_part_of_line(code: CodeType) -> bool:
-    """Whether code is only a piece of a line, such as the condition of a wait."""
-    return code.co_name.startswith("<") and code.co_name != "<module>"
 
 
 def has_any(code: CodeType, lines: Lines) -> bool:
@@ -94,15 +86,13 @@ if sys.version_info >= (3, 12):
     from sys import monitoring
 
     _E = monitoring.events
-    _CALLS = _E.PY_START | _E.PY_RESUME | _E.PY_RETURN | _E.PY_YIELD
     _NAME = "nep-studio"
 
     class MonitoringWatch:
-        """Python calls it at the calls of the program's own code, and at lines only while asked."""
+        """Python calls it when code begins for the first time, and at lines only while asked."""
 
-        def __init__(self, file: str, threads: ProgramThreads, events: Events) -> None:
+        def __init__(self, file: str, _threads: ProgramThreads, events: Events) -> None:
             self._file = file
-            self._threads = threads
             self._events = events
             self._code: dict[int, CodeType] = {}  # by id: to compare code takes long
             self._lines: Lines = frozenset()
@@ -113,16 +103,13 @@ if sys.version_info >= (3, 12):
             monitoring.use_tool_id(self._tool, _NAME)
             for event, callback in (
                 (_E.PY_START, self._on_start),
-                (_E.PY_RESUME, self._on_start),
                 (_E.PY_RETURN, self._on_return),
-                (_E.PY_YIELD, self._on_return),
-                (_E.PY_UNWIND, self._on_unwind),
                 (_E.LINE, self._on_line),
             ):
                 monitoring.register_callback(self._tool, event, callback)
             for code in reporting_code():
                 monitoring.set_local_events(self._tool, code, _E.PY_RETURN)
-            monitoring.set_events(self._tool, _E.PY_START | _E.PY_UNWIND)
+            monitoring.set_events(self._tool, _E.PY_START)
 
         def set_lines(self, lines: Lines) -> None:
             """Tell of these lines from now on; the functions of the others cost less."""
@@ -139,44 +126,28 @@ if sys.version_info >= (3, 12):
             monitoring.set_events(self._tool, 0)
             for code in (*self._code.values(), *reporting_code()):
                 monitoring.set_local_events(self._tool, code, 0)
-            for event in (
-                _E.PY_START,
-                _E.PY_RESUME,
-                _E.PY_RETURN,
-                _E.PY_YIELD,
-                _E.PY_UNWIND,
-                _E.LINE,
-            ):
+            for event in (_E.PY_START, _E.PY_RETURN, _E.LINE):
                 monitoring.register_callback(self._tool, event, None)
             monitoring.free_tool_id(self._tool)
 
         def _watch(self, code: CodeType) -> None:
             lines = _E.LINE if has_any(code, self._lines) else 0
             with contextlib.suppress(ValueError):  # another thread has ended the watch
-                monitoring.set_local_events(self._tool, code, _CALLS | lines)
-
-        def _is_ours(self, code: CodeType) -> bool:
-            return code.co_filename == self._file and not is_part_of_line(code)
+                monitoring.set_local_events(self._tool, code, lines)
 
         def _on_start(self, code: CodeType, _offset: int) -> object:
-            if not self._is_ours(code):
-                return monitoring.DISABLE
-            if id(code) not in self._code:
-                self._code[id(code)] = code  # before: set_lines may look in between
-                self._watch(code)
-            self._events.enter(sys._getframe(1))
-            return None
+            if code.co_filename == self._file and not is_part_of_line(code):
+                if not self._code:
+                    self._events.begun(sys._getframe(1).f_globals)
+                if id(code) not in self._code:
+                    self._code[id(code)] = code  # before: set_lines may look in between
+                    self._watch(code)
+            return monitoring.DISABLE
 
-        def _on_return(self, code: CodeType, _offset: int, value: object) -> None:
-            frame = sys._getframe(1)
-            if code.co_filename == self._file:
-                self._events.leave(frame)
-            elif frame.f_back is not None and frame.f_back.f_code.co_filename == self._file:
-                self._events.report(frame.f_back, value)
-
-        def _on_unwind(self, code: CodeType, _offset: int, _error: BaseException) -> None:
-            if self._is_ours(code):
-                self._events.leave(sys._getframe(1))
+        def _on_return(self, _code: CodeType, _offset: int, value: object) -> None:
+            caller = sys._getframe(1).f_back
+            if caller is not None and caller.f_code.co_filename == self._file:
+                self._events.report(caller, value)
 
         def _on_line(self, _code: CodeType, line: int) -> object:
             return monitoring.DISABLE if self._events.line(sys._getframe(1), line) else None
@@ -193,7 +164,11 @@ Trace = Callable[[FrameType, str, Any], Any]
 
 
 class SettraceWatch:
-    """Python calls it at every call in the program's threads, and at lines only while asked."""
+    """Python calls it at every call in the program's threads, and at lines only while asked.
+
+    At each call it looks up the file, and no more, where nothing is wanted of it: that is what
+    following a program costs.
+    """
 
     def __init__(self, file: str, threads: ProgramThreads, events: Events) -> None:
         self._file = file
@@ -201,19 +176,31 @@ class SettraceWatch:
         self._events = events
         self._lines: Lines = frozenset()
         self._has_lines: dict[int, bool] = {}  # by id of code, for the lines that are wanted now
-        self._api_files, self._api = reporting_files(), reporting_code()
+        self._api = {id(code): code for code in reporting_code()}
+        self._wanted: dict[str, Trace] = dict.fromkeys(reporting_files(), self._on_api_call)
+        self._wanted[file] = self._on_first_call
+        self._has_begun = False
 
     def begin(self) -> None:
         """Watch this thread and those that begin from now on."""
-        threading.settrace(self._on_call)
-        sys.settrace(self._on_call)
+        wanted = self._wanted.get
+
+        def on_call(frame: FrameType, event: str, argument: object) -> Trace | None:
+            look = wanted(frame.f_code.co_filename)
+            return None if look is None else look(frame, event, argument)
+
+        threading.settrace(on_call)
+        sys.settrace(on_call)
 
     def set_lines(self, lines: Lines) -> None:
-        """Tell of these lines from now on; the functions of the others cost less."""
+        """Tell of these lines from now on; the functions of the others cost little."""
         if lines != self._lines:
             self._lines, self._has_lines = lines, {}
+        self._want_calls()
         for frame in self._threads.frames():
             frame.f_trace_lines = has_any(frame.f_code, lines)
+            if frame.f_trace_lines:
+                frame.f_trace = self._on_event
 
     def refresh(self) -> None:
         """Tell again of every line: here no line is left out."""
@@ -223,20 +210,33 @@ class SettraceWatch:
         sys.settrace(None)
         threading.settrace(None)
 
+    def _want_calls(self) -> None:
+        """Look at the calls of the file while lines of it are wanted, and at the very first."""
+        if not self._has_begun:
+            self._wanted[self._file] = self._on_first_call
+        elif self._lines is None or self._lines:
+            self._wanted[self._file] = self._on_call
+        else:
+            self._wanted.pop(self._file, None)
+
+    def _on_first_call(self, frame: FrameType, event: str, argument: object) -> Trace | None:
+        self._has_begun = True
+        self._events.begun(frame.f_globals)
+        self._want_calls()
+        return self._on_call(frame, event, argument)
+
     def _on_call(self, frame: FrameType, _event: str, _argument: object) -> Trace | None:
         code = frame.f_code
-        if code.co_filename == self._file:
-            if is_part_of_line(code):
-                return None
-            self._events.enter(frame)
-            frame.f_trace_lines = self._wants(code)  # after enter: set_lines may look in between
-            return self._on_event
-        if code.co_filename in self._api_files and code in self._api:
-            caller = frame.f_back
-            if caller is not None and caller.f_code.co_filename == self._file:
-                frame.f_trace_lines = False
-                return self._on_report
-        return None
+        return self._on_event if not is_part_of_line(code) and self._wants(code) else None
+
+    def _on_api_call(self, frame: FrameType, _event: str, _argument: object) -> Trace | None:
+        caller = frame.f_back
+        if id(frame.f_code) not in self._api or caller is None:
+            return None
+        if caller.f_code.co_filename != self._file:
+            return None
+        frame.f_trace_lines = False
+        return self._on_report
 
     def _wants(self, code: CodeType) -> bool:
         wanted = self._has_lines.get(id(code))
@@ -246,12 +246,9 @@ class SettraceWatch:
         return wanted
 
     def _on_event(self, frame: FrameType, event: str, _argument: object) -> Trace:
-        if event == "line":
-            lines = self._lines
-            if lines is None or frame.f_lineno in lines:
-                self._events.line(frame, frame.f_lineno)
-        elif event == "return":
-            self._events.leave(frame)
+        lines = self._lines
+        if event == "line" and (lines is None or frame.f_lineno in lines):
+            self._events.line(frame, frame.f_lineno)
         return self._on_event
 
     def _on_report(self, frame: FrameType, event: str, value: object) -> Trace:
