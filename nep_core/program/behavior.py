@@ -120,6 +120,10 @@ class Rule:
     lock: threading.Lock = field(default_factory=threading.Lock)
 
 
+class StopRefused(NepError, title="The program stopped with an error"):
+    """What is to be stopped is no rule."""
+
+
 class Behavior:
     """The rules of a program; ``run`` returns when the program ends.
 
@@ -254,6 +258,11 @@ class Behavior:
 
         Goes on when that has ended. The rule may fire again. In the rule itself, it ends there.
         """
+        if rule not in self._starts and not any(one.action is rule for one in self._rules):
+            raise StopRefused(
+                "What is to be stopped here is no rule.",
+                checklist=("Write the name of the function of a rule.",),
+            )
         own = own_run()
         parts = [self._stop_rule(one) for one in self._rules if one.action is rule]
         if rule in self._starts:

@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 from nep_studio.blocks.definitions import Definition
 from nep_studio.blocks.generate.expressions import DEEPEST_VALUE, value_cost
-from nep_studio.blocks.generate.rules import DEEPEST_INDENT, DEEPEST_LOOP
+from nep_studio.blocks.generate.rules import DEEPEST_INDENT, DEEPEST_LOOP, LOOPS_OF_GUARD
 from nep_studio.blocks.language import Language
 from nep_studio.blocks.program import ALL_ROBOTS, Block, Project
 from nep_studio.blocks.sharing import (
@@ -172,7 +172,9 @@ def _inside(block: Block, definition: Definition, depth: _Depth) -> _Depth | Non
         return None if values > DEEPEST_VALUE else depth._replace(values=values)
     loops, indent, values = depth
     if definition.shape == "c":
-        loops = 0 if "apart" in definition.flags else loops + ("loop" in definition.flags)
+        more = 1 if "loop" in definition.flags else 0
+        more += LOOPS_OF_GUARD if "guards" in definition.flags else 0
+        loops = 0 if "apart" in definition.flags else loops + more
         indent, values = indent + 1, 0
     too_deep = loops > DEEPEST_LOOP or indent > DEEPEST_INDENT
     return None if too_deep else _Depth(loops, indent, values)
