@@ -17,6 +17,7 @@ from nep_studio.blocks.sharing import (
     Sharing,
     is_slow,
     variables_set,
+    waits,
 )
 from nep_studio.blocks.text import sentence
 
@@ -44,7 +45,7 @@ def _loops_without_pause(project: Project, language: Language, blocks: list[Bloc
         yield None
         definition = language.definitions.get(block.type)
         goes_on = definition is not None and not (
-            "takes_time" in definition.flags
+            waits(definition, block)
             or (definition.shape == "cap" and definition.generator != "next_round")
         )
         if not goes_on or not pauses.isdisjoint(block.children()):
