@@ -17,7 +17,7 @@ from nep_studio.blocks.generate.program import ProgramGenerator, generate_progra
 from nep_studio.blocks.generate.source_map import Code
 
 from .learning import CodeUnread
-from .naming import functions_of, locals_of, names_made
+from .naming import functions_of, locals_of, names_made, stopped_in
 from .outside import HEADERS, Part, is_frame
 from .reading import as_block
 from .source import Source, begin_of, end_of, read_source
@@ -154,19 +154,8 @@ def _lost_functions(
 
 def _call_as_there(made: Source, names: Mapping[str, str]) -> None:
     """Let the blocks stop rules by the names that the functions of these have in the text."""
-    for stopped in _stopped(made.tree):
+    for stopped in stopped_in(made.tree):
         stopped.id = names.get(stopped.id, stopped.id)
-
-
-def _stopped(tree: ast.AST) -> Iterator[ast.Name]:
-    """Where a rule is named to be stopped."""
-    for node in ast.walk(tree):
-        match node:
-            case ast.Call(
-                func=ast.Attribute(value=ast.Name(id="behavior"), attr="stop"),
-                args=[ast.Name() as named],
-            ):
-                yield named
 
 
 def _functions_made(editor: Editor, code: Code, made: Source) -> dict[str, ast.FunctionDef]:
@@ -282,7 +271,7 @@ def _is_shared(function: ast.FunctionDef | ast.AsyncFunctionDef, name: str) -> b
 
 def _require_no_use(source: Source, renamed: Mapping[str, int]) -> None:
     """The program names the functions of rules by itself: nothing may call them, only stop them."""
-    stopped = set(map(id, _stopped(source.tree)))
+    stopped = set(map(id, stopped_in(source.tree)))
     for node in ast.walk(source.tree):
         is_use = isinstance(node, ast.Name) and isinstance(node.ctx, ast.Load)
         if is_use and node.id in renamed and id(node) not in stopped:

@@ -12,10 +12,12 @@ from nep_studio.blocks.edits.content import AddProcedure, SetExtra, SetField
 from nep_studio.blocks.edits.project import RenameProject
 from nep_studio.blocks.procedures import DEFINE, parameters, words
 
-from ..deployment import names_used, robot_entries
+from ..deployment import can_be_stopped, names_used, robot_entries
 from ..editor import Editor
+from ..errors import CodeRefused
 from ..generate.kinds import ANY, LIST, RESULT_KINDS, TEXT, TRUTH, Seen, kinds_of, note
 from ..generate.names import RESERVED, python_name
+from ..generate.program import generate_program
 from ..operations.fixes import append_entry
 from ..program import (
     ALL_ROBOTS,
@@ -117,6 +119,8 @@ def names_in(
             ) if made in HEADERS:
                 with at_line(node.lineno):
                     _note(editor, names, name, made, node)
+    if loose and any(stopped_in(tree)):
+        names.rules |= _rules_there(editor)
     names.rules |= rules_in(functions)
     of_functions = {node.name: node for node in functions if not node.decorator_list}
     others = {n.name for n in tree.body if isinstance(n, ast.FunctionDef | ast.ClassDef)}
@@ -142,6 +146,32 @@ def names_in(
 
 
 # Rules are named by their functions; the block with which one begins is made after it is read.
+
+
+def stopped_in(tree: ast.AST) -> Iterator[ast.Name]:
+    """Where Python names a rule to be stopped."""
+    for node in ast.walk(tree):
+        match node:
+            case ast.Call(
+                func=ast.Attribute(value=ast.Name(id="behavior"), attr="stop"),
+                args=[ast.Name() as named],
+            ):
+                yield named
+
+
+def _rules_there(editor: Editor) -> dict[str, str]:
+    """The blocks with which the rules of a project begin, by the names of their functions."""
+    try:
+        code = generate_program(editor.project, editor.language)
+    except CodeRefused:
+        return {}
+    found: dict[str, str] = {}
+    for number, line in enumerate(code.text.splitlines(), start=1):
+        hat = code.block_at(number) or ""
+        if line.startswith("def ") and can_be_stopped(editor.project, editor.language, hat):
+            found[line.removeprefix("def ").partition("(")[0]] = hat
+    return found
+
 
 _TO_COME = "def "
 """What stands before the name of a function in place of the block that is not there yet."""
