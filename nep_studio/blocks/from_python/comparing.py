@@ -273,8 +273,9 @@ def _require_no_use(source: Source, renamed: Mapping[str, int]) -> None:
     """The program names the functions of rules by itself: nothing may call them, only stop them."""
     stopped = set(map(id, stopped_in(source.tree)))
     for node in ast.walk(source.tree):
-        is_use = isinstance(node, ast.Name) and isinstance(node.ctx, ast.Load)
-        if is_use and node.id in renamed and id(node) not in stopped:
+        if id(node) in stopped:
+            continue
+        if isinstance(node, ast.Name) and node.id in renamed and isinstance(node.ctx, ast.Load):
             raise CodeUnread(
                 "“{name}” is the function of a rule: the program gives it a name by itself.",
                 node.lineno,

@@ -157,10 +157,9 @@ def _rule_for(editor: Editor, clip: Project, names: Names, hat: str) -> str:
     if hat in names.blocks:
         return names.blocks[hat]
     said, project = clip.extra.get(RULES), editor.project
-    is_known = isinstance(said, dict) and hat in said and hat in project.blocks
-    if is_known and sentence(project, editor.language, hat) == said[hat]:
-        return hat
-    return ""
+    if not isinstance(said, dict) or hat not in project.blocks:
+        return ""
+    return hat if said.get(hat) == sentence(project, editor.language, hat) else ""
 
 
 def _name_rules(editor: Editor, clip: Clip, names: Names) -> None:
