@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from .networks.zmq_networks import Broker, BrokerNetwork, DirectNetwork, PeerNetwork
     from .processes.launcher import Launcher
     from .processes.node import Node
-    from .program.behavior import Behavior, in_turn, one_of
+    from .program.behavior import Behavior, in_turn, one_of, what_went_wrong
     from .program.human import (
         heard_word,
         human_state,
@@ -28,8 +28,25 @@ if TYPE_CHECKING:
         until_state,
         was_seen,
     )
+    from .program.messages import tell, told_value
     from .program.robot import Robot, colour_from, mix_colours
-    from .program.tasks import at_once, stop_program, stop_rule, together, wait, wait_until
+    from .program.tasks import (
+        at_once,
+        end_actions,
+        stop_program,
+        stop_rule,
+        together,
+        wait,
+        wait_until,
+    )
+    from .program.timing import (
+        date_today,
+        start_timer,
+        time_now,
+        time_part,
+        timer_seconds,
+        weekday_today,
+    )
     from .program.values import (
         add_item,
         append_text,
@@ -81,11 +98,13 @@ _HOMES = {
         "networks.zmq_networks": "Broker BrokerNetwork DirectNetwork PeerNetwork",
         "processes.launcher": "Launcher",
         "processes.node": "Node",
-        "program.behavior": "Behavior in_turn one_of",
+        "program.behavior": "Behavior in_turn one_of what_went_wrong",
         "program.human": "heard_word human_state is_remembered remember times_seen until_state "
         "was_seen",
+        "program.messages": "tell told_value",
         "program.robot": "Robot colour_from mix_colours",
-        "program.tasks": "at_once stop_program stop_rule together wait wait_until",
+        "program.tasks": "at_once end_actions stop_program stop_rule together wait wait_until",
+        "program.timing": "date_today start_timer time_now time_part timer_seconds weekday_today",
         "program.values": "add_item append_text as_list as_number as_text count_from deviation_of "
         "has_item has_part insert_item is_at_least is_at_most is_less is_more is_same item_of "
         "items_between join_items largest_of length_of letter_of list_with mean_of median_of "
@@ -101,6 +120,8 @@ __all__ += ["NepError", "Node", "PeerNetwork", "Publisher", "Robot", "Subscriber
 __all__ += ["colour_from", "heard_word", "human_state", "in_turn", "is_remembered", "mix_colours"]
 __all__ += ["one_of", "remember", "stop_program", "stop_rule", "times_seen", "together"]
 __all__ += ["until_state", "wait", "wait_until", "was_seen"]
+__all__ += ["date_today", "end_actions", "start_timer", "tell", "time_now", "time_part"]
+__all__ += ["timer_seconds", "told_value", "weekday_today", "what_went_wrong"]
 __all__ += ["add_item", "append_text", "as_list", "as_number", "as_text", "count_from"]
 __all__ += ["deviation_of"]
 __all__ += ["has_item", "has_part", "insert_item", "is_at_least", "is_at_most", "is_less"]

@@ -7,13 +7,15 @@ import logging
 import random
 import threading
 import time
-from collections.abc import Callable
+from collections import deque
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 from functools import partial
 from types import CodeType, FunctionType
 from typing import Literal
 
-from faults import Fault, fault_in, fault_of
+from faults import Fault, Tr, fault_in, fault_of, plain
+from faults import told as words_of
 from nep_core.errors import NepError
 from nep_core.networks.network import Network
 from nep_core.networks.transports import default_network
@@ -30,7 +32,19 @@ from nep_core.wire.pubsub import Publisher
 from nep_core.wire.states import state_of_thing, state_of_word, word_of_state
 
 from .human import human_listener
-from .tasks import CLOCK, POLL_S, PROGRAM, Cancelled, Part, RuleStopped, Task, current_task
+from .messages import Run, heard_by, own_run
+from .tasks import (
+    CLOCK,
+    POLL_S,
+    PROGRAM,
+    Cancelled,
+    Part,
+    RuleStopped,
+    Task,
+    current_task,
+    handled_error,
+)
+from .triggers import TELL_AGAIN_S, Days, Watch, each, each_day, each_time_true
 from .values import speak
 
 log = logging.getLogger(__name__)
@@ -42,8 +56,6 @@ Again = Literal["ignore", "restart", "queue"]
 OnError = Literal["go_on", "end"]
 
 MOST_QUEUED = 1000
-TELL_AGAIN_S = 1.0
-"""What happens over and over is told no more often than this, with how often it happened."""
 
 # Who runs a program can say more about an error of it than that there was one.
 
@@ -63,24 +75,53 @@ def explain_by(explain: Explain) -> None:
     _explainers[:] = [explain]
 
 
+_translators: list[Tr] = [plain]
+
+
+def translate_by(tr: Tr) -> None:
+    """Let what a program tells itself of its errors be in the words of ``tr`` from now on."""
+    _translators[:] = [tr]
+
+
+def what_went_wrong() -> str:
+    """The sentence of the error because of which this is done; an empty text elsewhere."""
+    error = handled_error()
+    if error is None:
+        return ""
+    fault, _ = _explainers[0](error)
+    return words_of(fault.sentence, _translators[0])
+
+
+Sort = Literal["state", "message", "watch"]
+
+
 @dataclass
 class Rule:
     """When the person does this, do that; ``again``: what if it fires while it runs.
 
-    ``source`` is who must tell of the state, "" for anybody. A rule with a ``condition`` fires
-    each time that becomes true instead.
+    ``source`` is who must tell of the state, "" for anybody. Of the other sorts, one fires each
+    time that a message is told, which is its ``state`` then, or when its ``watch`` says so.
     """
 
     state: str
     action: Action
     again: Again = "ignore"
     source: str = ""
-    condition: Condition | None = None
+    sort: Sort = "state"
+    watch: Watch | None = None
     running: Part | None = None
-    queued: int = 0
+    run: Run | None = None
+    """What is running."""
+    ending: Part | None = None
+    """What was stopped, and may not have ended yet."""
+    queued: deque[Run] = field(default_factory=deque)
     dropped: int = 0
     """How many starts did not fit into the queue since that was last told."""
     lock: threading.Lock = field(default_factory=threading.Lock)
+
+
+class StopRefused(NepError, title="The program stopped with an error"):
+    """What is to be stopped is no rule."""
 
 
 class Behavior:
@@ -105,7 +146,7 @@ class Behavior:
         self._ends_on_error = on_error == "end"
         self._network = network
         self._rules: list[Rule] = []
-        self._starts: list[Action] = []
+        self._starts: dict[Action, Part | None] = {}
         self._goals = Goals(self._tell, self._note_error)
         self._busy_s = CLOCK.now_s()
         self._parts: list[Part] = []
@@ -143,18 +184,40 @@ class Behavior:
     def when_true(self, condition: Condition, *, again: Again = "ignore") -> Decorator:
         """Run the decorated function each time that ``condition()`` becomes true."""
 
-        return _decorator(
-            lambda action: self._rules.append(Rule("condition", action, again, condition=condition))
-        )
+        return self._watching("condition", self._each_time(condition), again)
 
     def when_idle(self, seconds: float) -> Decorator:
         """Run the decorated function each time that for so long no state came and no rule ran."""
 
+        return self._watching("idle", self._each_time(lambda: self._idle_s() >= seconds))
+
+    def when_told(self, message: str, *, again: Again = "ignore") -> Decorator:
+        """Run the decorated function each time that the program tells itself ``message``."""
         return _decorator(
-            lambda action: self._rules.append(
-                Rule("idle", action, condition=lambda: self._idle_s() >= seconds)
-            )
+            lambda action: self._rules.append(Rule(message, action, again, sort="message"))
         )
+
+    def every(self, seconds: float) -> Decorator:
+        """Run the decorated function after so many seconds, and so on, but never twice at once.
+
+        While the program is paused nothing is counted.
+        """
+        return self._watching("every", each(seconds))
+
+    def at(self, time: str, *, days: Days = "every_day") -> Decorator:
+        """Run the decorated function when the clock shows ``time``, such as "09:30".
+
+        ``days`` are "every_day", "weekdays", "weekends", or a day such as "monday".
+        """
+        return self._watching(f"at {time}", each_day(time, days))
+
+    def _watching(self, state: str, watch: Watch, again: Again = "ignore") -> Decorator:
+        return _decorator(
+            lambda action: self._rules.append(Rule(state, action, again, sort="watch", watch=watch))
+        )
+
+    def _each_time(self, condition: Condition) -> Watch:
+        return each_time_true(condition, lambda error: self._note_error(error, "condition"))
 
     def goal(
         self,
@@ -187,8 +250,41 @@ class Behavior:
 
     def when_started(self, action: Action) -> Action:
         """Run the decorated function when the program starts."""
-        self._starts.append(action)
+        self._starts[action] = None
         return action
+
+    def stop(self, rule: Action) -> None:
+        """Stop what the rule of a function does, and what it was to do after that.
+
+        Goes on when that has ended. The rule may fire again. In the rule itself, it ends there.
+        """
+        if rule not in self._starts and not any(one.action is rule for one in self._rules):
+            raise StopRefused(
+                "What is to be stopped here is no rule.",
+                checklist=("Write the name of the function of a rule.",),
+            )
+        own = own_run()
+        parts = [self._stop_rule(one) for one in self._rules if one.action is rule]
+        if rule in self._starts:
+            parts.append(self._starts[rule])
+        if own is not None and own.action is rule:
+            raise RuleStopped
+        for part in parts:
+            if part is not None:
+                part.task.cancel()
+                part.await_end(current_task().check)
+
+    def _stop_rule(self, rule: Rule) -> Part | None:
+        """Empty the queue of a rule, and let it fire afresh; gives what is to be ended."""
+        with rule.lock:
+            queued, rule.queued = rule.queued, deque()
+            is_own = rule.run is not None and rule.run is own_run()
+            stopped = rule.running
+            if not is_own and stopped is not None:
+                rule.ending, rule.running, rule.run = stopped, None, None
+        for run in queued:
+            run.end()
+        return None if is_own else stopped
 
     def run(self) -> None:
         """Run until the program is stopped or all is done; raises the first error of its parts."""
@@ -196,21 +292,24 @@ class Behavior:
         self._states = Publisher(PROGRAM_STATE, network=network)
         words = Publisher(EXPECTED_WORDS, network=network)
         # What rules and goals wait for: real robots must know it before
-        states = [*(rule.state for rule in self._rules), *self._goals.states]
+        of_rules = (rule.state for rule in self._rules if rule.sort == "state")
+        states = [*of_rules, *self._goals.states]
         expected = dict.fromkeys(filter(None, map(word_of_state, states)))
         words.send(ExpectedWords(words=list(expected)))
         listener = human_listener(network)
         self._busy_s = CLOCK.now_s()
         listener.listen(self._on_behavior)
         try:
-            for rule in self._rules:
-                if rule.condition is not None:
-                    self._start(partial(self._watch, rule), f"watch-{rule.state}")
-            if self._goals:
-                self._start(self._goals.run, "goals")
-            for action in self._starts:
-                self._start(partial(self._play, action, ""), "")
-            self._supervise()
+            with heard_by(self):
+                for rule in self._rules:
+                    if rule.watch is not None:
+                        fire = partial(self._fire, rule)
+                        self._start(partial(rule.watch, fire), f"watch-{rule.state}")
+                if self._goals:
+                    self._start(self._goals.run, "goals")
+                for action in self._starts:
+                    self._starts[action] = self._start(partial(self._begin, action), "")
+                self._supervise()
         finally:
             listener.unlisten(self._on_behavior)
             for part in self._parts:
@@ -224,15 +323,10 @@ class Behavior:
         if self._first_error is not None and not PROGRAM.cancelled.is_set():
             raise self._first_error
 
-    def _watch(self, rule: Rule) -> None:
-        """Fire a rule each time that its condition becomes true."""
-        was_true = False
-        while rule.condition is not None:
-            is_true = bool(rule.condition())
-            if is_true and not was_true:
-                self._fire(rule)
-            was_true = is_true
-            current_task().sleep(POLL_S)
+    def _begin(self, action: Action) -> None:
+        """Do what is done when the program starts."""
+        Run(action).begin()
+        self._play(action, "")
 
     def _idle_s(self) -> float:
         """For how long nothing has happened."""
@@ -243,7 +337,9 @@ class Behavior:
         return now_s - max(self._busy_s, heard_s)
 
     def _supervise(self) -> None:
-        while self._rules or self._parts:
+        # nobody else tells messages: where nothing runs, no rule for one will begin
+        is_open = any(rule.sort != "message" for rule in self._rules)
+        while is_open or self._parts:
             if PROGRAM.cancelled.wait(0.02):
                 return
             with self._parts_lock:
@@ -298,46 +394,77 @@ class Behavior:
 
     def _on_behavior(self, behavior: HumanBehavior) -> None:
         for rule in self._rules:
-            is_meant = rule.source in ("", behavior.source) and rule.condition is None
+            is_meant = rule.source in ("", behavior.source) and rule.sort == "state"
             if is_meant and rule.state == behavior.human_state:
                 self._fire(rule)
         self._goals.hear(behavior.human_state)
 
-    def _fire(self, rule: Rule) -> None:
+    def last_run(self, message: str) -> Iterator[tuple[Again, Run | None]]:
+        """For each rule for a message, what it does while it runs, and its run that ends last."""
+        for rule in self._rules_for(message):
+            with rule.lock:
+                yield rule.again, rule.queued[-1] if rule.queued else rule.run
+
+    def hear(self, message: str, value: object) -> Iterator[Run]:
+        """Start the rules for a message, in their order; gives the runs that begin by it."""
+        for rule in self._rules_for(message):
+            if (run := self._fire(rule, value)) is not None:
+                yield run
+
+    def _rules_for(self, message: str) -> list[Rule]:
+        return [rule for rule in self._rules if rule.sort == "message" and rule.state == message]
+
+    def _fire(self, rule: Rule, value: object = "") -> Run | None:
+        """Let a rule begin, or do what it does while it runs; gives the run that comes of it."""
+        run = Run(rule.action, value)
         with rule.lock:
             if rule.running is None or not rule.running.is_running:
-                rule.running = self._start(lambda: self._run_rule(rule), rule.state)
+                self._begin_run(rule, run, rule.ending)
             elif rule.again == "queue":
-                rule.dropped += rule.queued >= MOST_QUEUED
-                rule.queued = min(rule.queued + 1, MOST_QUEUED)
+                if len(rule.queued) >= MOST_QUEUED:
+                    rule.dropped += 1
+                    return None
+                run.after = rule.queued[-1] if rule.queued else rule.run
+                rule.queued.append(run)
             elif rule.again == "restart":
-                old = rule.running
-                old.task.cancel()
-                rule.running = self._start(lambda: self._restart_rule(rule, old), rule.state)
+                rule.running.task.cancel()
+                self._begin_run(rule, run, rule.running)
+            else:
+                return None
+        return run
 
-    def _restart_rule(self, rule: Rule, old: Part) -> None:
-        old.await_end()
-        current_task().check()  # a newer one may have taken its place meanwhile
-        self._run_rule(rule)
+    def _begin_run(self, rule: Rule, run: Run, old: Part | None) -> None:
+        """Start a run of a rule, which begins when an old one has ended."""
+        rule.run, rule.ending = run, None
+        rule.running = self._start(lambda: self._run_rule(rule, run, old), rule.state)
 
-    def _run_rule(self, rule: Rule) -> None:
-        again = True
-        while again:
-            self._tell("rule_started", rule.state, _line_of(rule.action))
-            self._play(rule.action, rule.state)
-            self._busy_s = CLOCK.now_s()
-            again = self._goes_on(rule)  # before it is told: who hears it may fire the rule
-            self._tell("rule_finished", rule.state, _line_of(rule.action))
+    def _run_rule(self, rule: Rule, run: Run, old: Part | None) -> None:
+        following: Run | None = run
+        try:
+            if old is not None:
+                old.await_end()
+                current_task().check()  # a newer one may have taken its place meanwhile
+            while following is not None:
+                run = following
+                run.begin()
+                self._tell("rule_started", rule.state, _line_of(rule.action))
+                self._play(rule.action, rule.state)
+                self._busy_s = CLOCK.now_s()
+                following = self._goes_on(rule)  # before it is told: who hears it may fire the rule
+                run.end()
+                self._tell("rule_finished", rule.state, _line_of(rule.action))
+        finally:
+            run.end()
 
-    def _goes_on(self, rule: Rule) -> bool:
-        """Whether another run is queued; if not, the rule may fire afresh from now on."""
+    def _goes_on(self, rule: Rule) -> Run | None:
+        """The next run that is queued; if there is none, the rule may fire afresh from now on."""
         with rule.lock:
-            if rule.queued > 0:
-                rule.queued -= 1
-                return True
-            if rule.running is not None and rule.running.task is current_task():
+            if rule.running is None or rule.running.task is not current_task():
+                return None  # it was stopped, and may run anew already
+            rule.run = rule.queued.popleft() if rule.queued else None
+            if rule.run is None:
                 rule.running = None
-            return False
+            return rule.run
 
     def _start(self, action: Action, state: str) -> Part:
         part = Part(action, f"nep-{state or 'start'}", PROGRAM)

@@ -114,6 +114,7 @@ class Task:
         self.undo: dict[tuple[str, ...], Callable[[], object]] = {}
         """What is still to be ended, by what it is, when this part is cancelled."""
         self._children: list[Task] = []
+        self._wakes: list[threading.Event] = []
         self._lock = threading.Lock()
         if parent is not None:
             parent._adopt(self)
@@ -123,6 +124,9 @@ class Task:
         with self._lock:
             self.cancelled.set()
             children = list(self._children)
+            wakes = list(self._wakes)
+        for wake in wakes:
+            wake.set()
         self.end_undone()
         for child in children:
             child.cancel()
@@ -143,6 +147,21 @@ class Task:
         """Wait so long; raises Cancelled as soon as this part is asked to end."""
         if self.cancelled.wait(max(0.0, min(seconds, threading.TIMEOUT_MAX))):
             raise Cancelled
+
+    def await_wake(self, wake: threading.Event) -> None:
+        """Wait for an event; raises Cancelled as soon as this part is asked to end, which sets it.
+
+        So the event is one of whoever waits alone.
+        """
+        with self._lock:
+            self._wakes.append(wake)
+        try:
+            if not self.cancelled.is_set():
+                wake.wait()
+        finally:
+            with self._lock:
+                self._wakes.remove(wake)
+        self.check()
 
     def _adopt(self, child: Task) -> None:
         with self._lock:
@@ -170,6 +189,22 @@ def current_task() -> Task:
     return _current.get()
 
 
+_handled: contextvars.ContextVar[BaseException | None] = contextvars.ContextVar(
+    "nep_handled", default=None
+)
+"""What went wrong where this part was begun."""
+
+
+def handled_error() -> BaseException | None:
+    """What went wrong, in what is done because of that, also in its parts; None elsewhere."""
+    return sys.exception() or _handled.get()
+
+
+def forget_handled() -> None:
+    """Let nothing have gone wrong yet here: a rule begins that another has told to."""
+    _handled.set(None)
+
+
 _names: set[str] = set()
 _names_lock = threading.Lock()
 
@@ -192,7 +227,8 @@ GIVEN_UP_S = 5.0
 class Part:
     """A function in a thread and task of its own; its error is kept for whoever joins it.
 
-    The thread's name is ``name``, with a number while another part of that name runs.
+    The thread's name is ``name``, with a number while another part of that name runs. What was
+    told to the rule that begins the part, and what went wrong there, is known in the part too.
     """
 
     def __init__(self, function: Callable[[], object], name: str, parent: Task) -> None:
@@ -200,7 +236,11 @@ class Part:
         self.error: BaseException | None = None
         self._function = function
         self._parent = parent
-        self._thread = threading.Thread(target=self._run, name=name, daemon=True)
+        context = contextvars.copy_context()
+        context.run(_handled.set, handled_error())
+        self._thread = threading.Thread(
+            target=context.run, args=(self._run,), name=name, daemon=True
+        )
 
     def start(self) -> Part:
         """Begin."""
@@ -334,6 +374,11 @@ def together(*functions: Callable[[], object]) -> None:
     for part in parts:
         if part.error is not None:
             raise part.error
+
+
+def end_actions() -> None:
+    """End what this part of the program has begun on robots and not waited for, such as a walk."""
+    current_task().end_undone()
 
 
 def stop_program() -> None:

@@ -192,8 +192,9 @@ def _check_shape(definition: Definition) -> None:
     if has_body != (definition.shape == "c"):
         raise SentenceError("a block with a body, and only that, has the shape c")
     for slot in definition.slots.values():
-        if (slot.kind.name == "variable") != (slot.name == "variable"):
-            raise SentenceError("a slot for a variable, and only that, is called “variable”")
+        for name in ("variable", "rule"):  # which others look for by that name
+            if (slot.kind.name == name) != (slot.name == name):
+                raise SentenceError(f"a slot for a {name}, and only that, is called “{name}”")
     if "posture" in definition.flags and "posture" not in definition.slots:
         raise SentenceError("a block with the flag posture needs a slot “posture”")
 

@@ -310,6 +310,7 @@ FLAGS = {
     "silent": "it makes a comment, no code",
     "in_loop": "it belongs inside a loop",
     "apart": "its bodies are functions of their own",
+    "guards": "its bodies are tried: Python counts two loops for it, of those in each other",
     "last": "nothing after this block is ever reached",
     "stands": "the robot must stand",
     "stands_up": "the robot stands from then on",

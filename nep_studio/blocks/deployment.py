@@ -65,7 +65,10 @@ def node_entries(project: Project, language: Language) -> tuple[NodeEntry, ...]:
 
 
 class Use(NamedTuple):
-    """A block of a rule names a "robot" ("*" is all of them) or a "gesture"."""
+    """A block of a rule names a "robot" ("*" is all of them), a "gesture", a "message" or a "rule".
+
+    Of messages, "heard" are those with which a rule begins.
+    """
 
     kind: str
     name: str
@@ -83,12 +86,14 @@ def find_uses(project: Project, language: Language, chain: list[str]) -> Iterato
             kind, name = slot.kind.name, str(definition.value(block, key))
             if kind == "gesture" or (kind == "state" and name.startswith(GESTURE_STATE)):
                 yield Use("gesture", name.removeprefix(GESTURE_STATE), block.id)
-            elif kind == "robot":
-                yield Use("robot", name, block.id)
+            elif kind == "message" and definition.shape == "hat":
+                yield Use("heard", name, block.id)
+            elif kind in ("robot", "message", "rule"):
+                yield Use(kind, name, block.id)
 
 
-_NAMING = frozenset(("robot", "gesture", "state"))
-"""The kinds of the slots that name a robot or a gesture."""
+_NAMING = frozenset(("robot", "gesture", "state", "message", "rule"))
+"""The kinds of the slots that name something of the project."""
 
 
 def names_used(project: Project, language: Language, kind: str) -> dict[str, str]:
@@ -129,6 +134,20 @@ def rules(project: Project, language: Language) -> Iterator[list[str]]:
         hat = project.blocks[chain[0]].type
         if not hat.startswith(DEFINE) and hat != OUTSIDE_BLOCK:
             yield chain
+
+
+_NOT_STOPPED = frozenset(("goal", "when_goal"))
+"""What makes the code of the beginnings of what is no rule by itself."""
+
+
+def can_be_stopped(project: Project, language: Language, hat: str) -> bool:
+    """Whether a block begins a rule that another rule can stop."""
+    block = project.blocks.get(hat)
+    definition = language.of(project).definitions.get(block.type) if block is not None else None
+    if block is None or definition is None or definition.shape != "hat" or block.disabled:
+        return False
+    is_rule = not block.type.startswith(DEFINE) and block.type != OUTSIDE_BLOCK
+    return is_rule and definition.generator not in _NOT_STOPPED
 
 
 def chains(project: Project, language: Language) -> Iterator[list[str]]:

@@ -252,6 +252,10 @@ _BESIDE = 40.0
 """How far from its old stack a block is put that has lost its place, in canvas units."""
 
 
+RULE_SLOT = "rule"
+"""The slot in which a block names a rule, by the first block of that."""
+
+
 class Editor:
     """A project with its language and its history."""
 
@@ -378,12 +382,23 @@ class Editor:
     def _on_changes(self, changes: Changes) -> None:
         """Bring the language up to date before anybody else is told; see Language.of.
 
-        Another kind of robot concerns the words of all blocks.
+        Another kind of robot concerns the words of all blocks, and what a rule begins with those
+        that name it.
         """
         choices = self.language.choices
         if choices != self._offered:
             self._offered = dict(choices)
             changes.whole = True
+        for block in self.project.blocks.values() if changes.stacks else ():
+            rule = block.fields.get(RULE_SLOT)
+            if rule and self._is_renamed(str(rule), changes):
+                changes.stacks.add(self.project.stack_of(block.id).id)
+                changes.owners.add(block.id)
+
+    def _is_renamed(self, hat: str, changes: Changes) -> bool:
+        """Whether what a rule begins with may say something else."""
+        project = self.project
+        return hat not in project.blocks or project.stack_of(hat).id in changes.stacks
 
     def _followers(self, edit: SetField) -> list[str]:
         """The keys of the choices that depend on a field."""

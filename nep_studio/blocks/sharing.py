@@ -12,6 +12,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 
 from .code_text import CodeTextRefused, read_lines
+from .definitions import Definition
 from .language import Language
 from .procedures import CALL, DEFINE, procedure_of
 from .program import Block, Project
@@ -82,7 +83,7 @@ def look_at(project: Project, language: Language, chain: list[str]) -> Iterator[
         definition = definitions.get(block.type)
         if block.disabled or definition is None:
             continue
-        takes_time = takes_time or "takes_time" in definition.flags
+        takes_time = takes_time or waits(definition, block)
         if "variable" in block.fields or block.type in CHANGING_LISTS:
             for variable in variables_set(project, language, block):
                 sets[variable].add(path)
@@ -135,7 +136,16 @@ def is_slow(language: Language, sharing: Sharing, block: Block) -> bool:
     """Whether a block waits for something, such as an answer."""
     definition = language.definitions.get(block.type)
     is_own = block.type.startswith(CALL) and procedure_of(block.type) in sharing.slow
-    return is_own or (definition is not None and "takes_time" in definition.flags)
+    return is_own or (definition is not None and waits(definition, block))
+
+
+def waits(definition: Definition, block: Block) -> bool:
+    """Whether the program waits at a block; who tells a message does so only where it says so."""
+    is_short = WAIT_GROUP in definition.groups and not block.groups.get(WAIT_GROUP)
+    return "takes_time" in definition.flags and not is_short
+
+
+WAIT_GROUP = "wait"
 
 
 def sharing_of(chains: Iterable[Chain], names: Mapping[str, str]) -> Sharing:

@@ -161,6 +161,24 @@ def _why_not_duration(value: object) -> Text | None:
     return reason
 
 
+_CLOCK = re.compile(r"(?:[01]?[0-9]|2[0-3]):[0-5][0-9]")
+
+
+def _why_not_clock(value: object) -> Text | None:
+    if isinstance(value, str) and _CLOCK.fullmatch(value):
+        return None
+    return text_of(
+        "A time of the day is written like 09:30, from 00:00 to 23:59, not {told}.",
+        told=_described(value),
+    )
+
+
+def _clock_time(typed: str) -> str:
+    """A time with two digits for the hour, also when a point was typed."""
+    text = typed.strip().replace(".", ":")
+    return text.rjust(5, "0") if _CLOCK.fullmatch(text) else text
+
+
 def _why_not_checked(value: object) -> Text | None:
     if isinstance(value, bool):
         return None
@@ -367,6 +385,11 @@ _words = partial(
 """A kind of field that holds a text; what is plugged in and is no text is written out."""
 
 
+def _message(typed: str) -> str:
+    """The words of a message, as they are compared."""
+    return " ".join(typed.split())
+
+
 def _state(typed: str) -> str:
     """The state that a node tells of, of which people see the words."""
     return "_".join(typed.split())
@@ -468,9 +491,20 @@ KINDS: dict[str, Kind] = {
             mark="tick",
             is_pressed=True,
         ),
+        Kind("clock", "a time of the day", why_not=_why_not_clock, read=_clock_time, hint="time"),
+        _name("message", "a message", read=_message),
         _name("state", "a human state", read=_state),
         _name("gesture", "a gesture", prefix=GESTURE_STATE, table="gestures"),
         _name("robot", "a robot", is_said=False),
+        Kind(
+            "rule",
+            "a rule",
+            constants=(),
+            missing=text_of("{noun} is missing.", noun=Text("a rule")),
+            advice="Choose a rule in this block.",
+            hint="rule",
+            opens=True,
+        ),
         _name("variable", "a variable", missing=False, is_said=False),
         Kind("choice", "one of a list", hint="choose", opens=True),
         Kind(

@@ -75,6 +75,9 @@ def field_text(
     if slot.kind.name == "variable":
         variable = project.variable(str(value))
         return variable.name if variable is not None else _EMPTY
+    if slot.kind.name == "rule":
+        hat = project.blocks.get(str(value))
+        return _sentence(project, language, hat, 1) if hat is not None else _EMPTY
     if slot.kind.name == "parameter":
         return slot.label
     if isinstance(value, bool):

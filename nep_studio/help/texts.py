@@ -46,7 +46,7 @@ from nep_studio.blocks.slots import FieldValue
 # mouth or in the one that a line ``mouth:`` names. A value in brackets is a block. Quoted texts are
 # for people and can be translated, bare words cannot. ``own p1 value "double" a1:x:number`` defines
 # an own block, which the lines below use as ``my.define.p1``, ``my.call.p1``,
-# ``my.parameter.p1.a1``.
+# ``my.parameter.p1.a1``. A rule is named by the number of its stack, which stands above: rule=1.
 
 _TOKEN = re.compile(r'\s*("(?:[^"\\]|\\.)*"|[()=]|[^\s()="]+)')
 _NUMBER = re.compile(r"-?\d+(\.\d+)?")
@@ -276,6 +276,8 @@ def _field(
     kind = slot.kind.name if slot is not None else ""
     if isinstance(value, bool) and kind == "choice":
         return str(value).lower()
+    if kind == "rule" and type(value) is int:
+        return editor.project.pages["behaviour"][value - 1].body[0]
     if not isinstance(value, str):
         return value
     said = translate(str(value)) if isinstance(value, Quoted) else value

@@ -21,7 +21,7 @@ from faults import Fault, fault_of
 from nep_core.networks.transports import set_default_network
 from nep_core.processes.node import STOP_SIGNALS, Node
 from nep_core.processes.node_log import BUSY_S, GOES_ON
-from nep_core.program.behavior import explain_by
+from nep_core.program.behavior import explain_by, translate_by
 from nep_core.program.human import human_listener
 from nep_core.program.tasks import PROGRAM, Cancelled, RuleStopped, wait_until
 from nep_core.wire.messages import (
@@ -34,6 +34,7 @@ from nep_core.wire.messages import (
 )
 from nep_core.wire.pubsub import Publisher
 from nodes.cognitive.failures import ProgramFailed, failure_of, line_of
+from nodes.cognitive.words import in_spoken_language
 
 if TYPE_CHECKING:
     from nodes.cognitive.tracing.tracer import Tracer
@@ -74,6 +75,7 @@ def run(node: Node, *, file: str, hold: bool, trace: bool) -> None:
         return failure_of(error), line_of(error, file)
 
     explain_by(explain)
+    translate_by(in_spoken_language)
     human = human_listener(node.network)  # what the person does from now on reaches the rules
     node.follow(human.subscriber)  # what does not is told
     node.ready("runs {name}", name=Path(file).name)

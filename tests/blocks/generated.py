@@ -24,6 +24,7 @@ PARTS_OF_PROGRAMS = {
     *("find", "lower", "replace", "title", "upper"),
 }
 HATS_AND_ROBOTS = {
+    *("at", "days", "every", "when_told", "wait"),
     *("goal", "when_goal", "when_heard", "when_noticed", "when_true", "when_idle", "source"),
     *("priority", "stop", "interrupted", "ask", "wait_for_word", "seconds", "sees", "seen_name"),
 }

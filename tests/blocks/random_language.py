@@ -67,6 +67,7 @@ class Maker:
         self.kinds = {
             self.editor.add_variable(name): kind for name, kind in zip(names, kinds, strict=False)
         }
+        self.messages = ["go", "come on"][: self.dice.choice([0, 0, 1, 2])]
         self.procedures = [self._procedure(n) for n in range(self.dice.choice([0, 0, 1, 2]))]
         self.where = Inside(variables=list(self.kinds))
 
@@ -81,6 +82,8 @@ class Maker:
         end = [self._say(B("variable.get", {"variable": v})) for v in self.kinds]
         rule = [B("event.started"), *begin, *self._chain(self.dice.randint(2, 6)), *end]
         build(self.editor.language, rule, editor=self.editor)
+        for message in self.messages:
+            self._rule_for(message)
         build(self.editor.language, [B("robots.robot")], page="robots", editor=self.editor)
         if self._chance(0.2):
             self._disable()
@@ -93,6 +96,14 @@ class Maker:
         usual = sorted(key for key, shape in shapes.items() if shape != "hat")
         for block in self.dice.sample(usual, min(3, len(usual))):
             self.editor.apply(SetFlag(block, "disabled", True))
+
+    def _rule_for(self, message: str) -> None:
+        again = self.dice.choice(["", "ignore", "queue"])
+        groups = {"repeated": 1} if again else {}
+        fields = {"message": message, **({"again.1": again} if again else {})}
+        said = self._say(B("event.told_value"))
+        rule = [B("event.told", fields, groups=groups), said, *self._chain(2)]
+        build(self.editor.language, rule, editor=self.editor)
 
     def _chance(self, part: float) -> bool:
         return self.dice.random() < part
@@ -202,7 +213,9 @@ class Maker:
         choices += [self._list_statement, self._list_statement]
         if self.where.depth < DEEPEST:
             choices += [self._if, self._repeat, self._count, self._for_each, self._parts]
-            choices += [self._while, self._two_names]
+            choices += [self._while, self._two_names, self._try]
+        if self.messages:
+            choices.append(self._tell)
         if self.where.loops and self._chance(0.3):
             return B(self.dice.choice(["control.leave_loop", "control.next_round"]))
         if self.where.depth and self._chance(0.03):
@@ -307,6 +320,27 @@ class Maker:
         )
         same = B("variable.set", {"variable": second}, {"value": names[3]})
         return B("control.repeat", {"times": 1}, bodies={"do": [same, loop]})
+
+    def _try(self) -> B:
+        """Something that mostly fails, and what is done then."""
+        bodies = {"do": self._body(), "otherwise": self._body()}
+        if self._chance(0.7):
+            place = B("math.number", {"number": self.dice.choice([1, 9])})
+            item = B("list.get", inputs={"number": place, "list": self._list()})
+            bodies["do"].insert(0, self._say(item))
+        if self._chance(0.5):
+            bodies["otherwise"].insert(0, self._say(self._no_reason()))
+        return B("control.try", bodies=bodies)
+
+    def _no_reason(self) -> B:
+        """Whether nothing went wrong: the words of what did are nobody's to judge."""
+        return B("text.is_empty", inputs={"text": B("control.went_wrong")})
+
+    def _tell(self) -> B:
+        """A message whose rule is waited for: of two that run at once nobody knows the order."""
+        fields = {"message": self.dice.choice(self.messages)}
+        given = {"value.1": self._any()} if self._chance(0.7) else {}
+        return B("event.tell", fields, given, groups={"value": len(given), "wait": 1})
 
     def _parts(self) -> B:
         kind = self.dice.choice(["control.together", "goal.one_of", "goal.in_turn"])
@@ -510,6 +544,8 @@ class Maker:
     def _boolean(self) -> B:
         if not self._deeper():
             if self._chance(0.5):
+                if self._chance(0.05):
+                    return self._no_reason()
                 return B("logic.truth", {"truth": self.dice.choice(["true", "false"])})
             return self._get("boolean" if self._chance(0.8) else "any")
         self.where.depth += 1

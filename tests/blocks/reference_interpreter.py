@@ -75,6 +75,10 @@ class Interpreter:
         self._turns: dict[str, int] = {}
         self._parameters: list[dict[str, Value]] = []
         self._own: list[dict[str, Value]] = []
+        self._told: list[tuple[str, Value]] = []
+        """The rules that run because of a message, each with what came with it."""
+        self.wrong: list[str] = []
+        """What went wrong, where something else is done instead."""
         self._locals = self._variables_of_calls()
         self.variables: dict[str, Value] = {v.id: self._first(v.id) for v in project.variables}
 
@@ -272,6 +276,39 @@ class Interpreter:
             self._own.pop()
             self._calls -= 1
         return 0
+
+    # Messages
+
+    def told_value(self) -> Value:
+        """What came with the message of this rule."""
+        return self._told[-1][1] if self._told else ""
+
+    def tell(self, message: str, value: Value) -> None:
+        """Let the rule for a message do what it does, and wait for it."""
+        for stack in self.project.pages["behaviour"]:
+            hat = self.project.blocks[stack.body[0]]
+            if hat.type != "event.told" or self._choice(hat, "message") != message:
+                continue
+            running = [rule for rule, _ in self._told]
+            again = self._choice(hat, "again.1") if hat.groups.get("repeated") else "ignore"
+            if hat.id in running and again == "restart":
+                raise GivenUp
+            if running[-1:] == [hat.id] or (hat.id in running and again == "queue"):
+                raise Wrong("it would wait for itself")
+            if hat.id not in running:
+                self._do_rule(hat.id, stack.body[1:], value)
+
+    def _do_rule(self, hat: str, body: list[str], value: Value) -> None:
+        self._told.append((hat, value))
+        around = self._own, self._parameters, self.wrong
+        self._own, self._parameters, self.wrong = [], [], []
+        try:
+            self._chain(body)
+        except (Wrong, RuleEnded):
+            pass  # it ends this rule only
+        finally:
+            self._own, self._parameters, self.wrong = around
+            self._told.pop()
 
     # Statements
 
@@ -516,6 +553,8 @@ REPORTERS: dict[str, Callable[[Interpreter, Block], Value]] = {
     "list.reversed": lambda run, block: items_of(run.slot(block, "list"))[::-1],
     "list.split": _split,
     "list.joined": _joined,
+    "event.told_value": lambda run, block: run.told_value(),
+    "control.went_wrong": lambda run, block: run.wrong[-1] if run.wrong else "",
 }
 
 
@@ -628,6 +667,24 @@ def _in_turn(run: Interpreter, block: Block) -> None:
     run.body(block, f"do.{run.turn(block) % count + 1}")
 
 
+def _tell(run: Interpreter, block: Block) -> None:
+    if not block.groups.get("wait"):
+        raise GivenUp  # nobody can judge who is faster
+    value = run.slot(block, "value.1") if block.groups.get("value") else ""
+    run.tell(run._choice(block, "message"), value)
+
+
+def _try(run: Interpreter, block: Block) -> None:
+    try:
+        run.body(block, "do")
+    except Wrong as wrong:
+        run.wrong.append(f"{wrong}")
+        try:
+            run.body(block, "otherwise")
+        finally:
+            run.wrong.pop()
+
+
 def _raise(error: type[Exception]) -> Callable[[Interpreter, Block], None]:
     def statement(run: Interpreter, block: Block) -> None:
         raise error
@@ -654,6 +711,8 @@ STATEMENTS: dict[str, Callable[[Interpreter, Block], None]] = {
     "control.leave_loop": _raise(LoopLeft),
     "control.next_round": _raise(RoundLeft),
     "control.stop_rule": _raise(RuleEnded),
+    "control.try": _try,
+    "event.tell": _tell,
     "control.note": lambda run, block: None,
     "control.together": _together,
     "goal.one_of": _one_of,

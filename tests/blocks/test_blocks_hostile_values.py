@@ -76,6 +76,8 @@ def holder(block_type: str) -> tuple[Editor, Block, bytes]:
         if "variable" in LANGUAGE.definitions[made.type].slots:
             made.fields["variable"] = "v1"
     used = next(b for b in editor.project.blocks.values() if b.type == block_type)
+    if "rule" in definition.slots:
+        used.fields["rule"] = editor.project.pages["behaviour"][0].body[0]
     return Editor(editor.project, LANGUAGE), used, to_bytes(editor.project)
 
 

@@ -18,6 +18,7 @@ from reference_interpreter import GivenUp, Interpreter
 
 import nep_core
 from nep_core.program import behavior
+from nep_core.program.messages import Run, heard_by
 from nep_core.program.tasks import Part, RuleStopped, Task
 from nep_core.program.values import speak
 from nep_studio.blocks.errors import CodeRefused
@@ -57,15 +58,43 @@ class Runner:
     def __init__(self, _name: str, language: str = "en", **_options: object) -> None:
         speak(language)
         self._starts: list[Callable[[], object]] = []
+        self._rules: dict[str, tuple[Callable[[], object], str]] = {}
+        self._running: dict[str, Run] = {}
 
     def when_started(self, action: Callable[[], object]) -> Callable[[], object]:
         self._starts.append(action)
         return action
 
+    def when_told(self, message: str, *, again: str = "ignore") -> Callable[..., object]:
+        def decorate(action: Callable[[], object]) -> Callable[[], object]:
+            self._rules[message] = action, again
+            return action
+
+        return decorate
+
+    def last_run(self, message: str) -> Iterator[tuple[str, Run | None]]:
+        if message in self._rules:
+            yield self._rules[message][1], self._running.get(message)
+
+    def hear(self, message: str, value: object) -> Iterator[Run]:
+        if message in self._rules and message not in self._running:
+            run = self._running[message] = Run(self._rules[message][0], value)
+            Part(lambda: self._play(message, run), message, Task()).start()
+            yield run
+
+    def _play(self, message: str, run: Run) -> None:
+        run.begin()
+        try:
+            run.action()
+        finally:
+            del self._running[message]
+            run.end()
+
     def run(self) -> None:
         (action,) = self._starts
-        part = Part(action, "rule", Task()).start()
-        part.join(LONGEST_S)
+        with heard_by(self):
+            part = Part(action, "rule", Task()).start()
+            part.join(LONGEST_S)
         assert not part.is_running, "the program does not end"
         type(self).error = part.error
 
@@ -154,7 +183,7 @@ def test_most_random_programs_can_be_judged(language: Language) -> None:
 def test_a_planted_difference_is_found(language: Language, monkeypatch: pytest.MonkeyPatch) -> None:
     """The test can fail: Python that counts wrongly differs."""
     with stand_ins(monkeypatch):
-        project = Maker(6, language).project()
+        project = Maker(3, language).project()
         expected = Interpreter(project, language).run()
         text = generate_program(project, language).text
         assert "nao.say(" in text

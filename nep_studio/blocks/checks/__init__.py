@@ -19,6 +19,7 @@ from .deployment import (
     check_goals,
     check_real_robots,
     check_rules,
+    check_talk,
 )
 from .diagnostic import SEVERITIES, Diagnostic, Fix
 from .flow import check_flow, check_limits, check_shared
@@ -117,6 +118,7 @@ def check_steps(
     nodes, uses = node_entries(project, language), dict[tuple[str, str], tuple[str, str]]()
     for use in (yield from known.in_chains(find_uses, project, language, running)):
         uses.setdefault((use.kind, use.name), (use.block, project.page_of(use.block)))
+    problems += check_talk(project, language, running, uses)
     pages = partial(check_deployment, project, language, nodes, uses)
     problems += yield from known.find(check_deployment, (nodes, uses), pages)
     return [one for severity in SEVERITIES for one in problems if one.severity == severity]

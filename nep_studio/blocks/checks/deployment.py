@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable, Iterator, Mapping
 from difflib import get_close_matches
 from itertools import count
@@ -11,6 +12,7 @@ from nep_studio.blocks.deployment import (
     OUTSIDE_BLOCK,
     NodeEntry,
     RobotEntry,
+    can_be_stopped,
     is_recognised,
     robot_entries,
 )
@@ -188,6 +190,36 @@ def check_rules(
         if first.setdefault(_trigger(language, hat), hat.id) != hat.id:
             yield found("same_trigger", project, language, hat.id)
 
+
+# Checks of what rules say to each other: messages without a rule, rules that are not there.
+
+_TELLS, _HEARS = re.compile(r"\btell\("), re.compile(r"\bwhen_told\(")
+
+
+def check_talk(
+    project: Project, language: Language, running: Iterable[list[str]], uses: Uses
+) -> Iterator[Diagnostic]:
+    """Messages that nobody hears or tells, and stopped rules that are not there.
+
+    What own Python tells and hears is not known.
+    """
+    named = {kind: {n: use for (k, n), use in uses.items() if k == kind} for kind in _TALK}
+    if not any(named.values()):
+        return
+    blocks = [block for chain in running for block in project.within(chain, enabled=True)]
+    code = "\n".join(str(b.fields["code"]) for b in blocks if "code" in b.fields)
+    for message, (block, _) in named["message"].items():
+        if message not in named["heard"] and message.strip() and not _HEARS.search(code):
+            yield found("unheard_message", project, language, block, message=message)
+    for message, (block, _) in named["heard"].items():
+        if message not in named["message"] and message.strip() and not _TELLS.search(code):
+            yield found("untold_message", project, language, block, message=message)
+    for hat, (block, _) in named["rule"].items():
+        if hat and not can_be_stopped(project, language, hat):
+            yield found("unknown_rule", project, language, block)
+
+
+_TALK = ("message", "heard", "rule")
 
 GOAL, OF_GOAL = "goal.goal", "goal.when_goal"
 

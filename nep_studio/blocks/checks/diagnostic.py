@@ -109,6 +109,21 @@ SORTS = {
         "There is no goal with the name “{name}”.",
         ("Write the name as the goal's own block has it.",),
     ),
+    "unheard_message": Sort(
+        "warning",
+        "No rule begins when “{message}” is told.",
+        ("Make a rule with “when … is told”.", "Or choose another message in this block."),
+    ),
+    "untold_message": Sort(
+        "info",
+        "Nothing tells “{message}” yet.",
+        ("Put a “tell” block with this message into another rule.",),
+    ),
+    "unknown_rule": Sort(
+        "error",
+        "The rule that “{block}” stops is not there.",
+        ("Choose a rule in this block.", "Or take this block out."),
+    ),
     "torn_apart": Sort(
         "warning",
         "“{block}” waits: what other rules do to “{variable}” meanwhile is lost.",

@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 from nep_studio.blocks.definitions import Definition
 from nep_studio.blocks.generate.expressions import DEEPEST_VALUE, value_cost
-from nep_studio.blocks.generate.rules import DEEPEST_INDENT, DEEPEST_LOOP
+from nep_studio.blocks.generate.rules import DEEPEST_INDENT, DEEPEST_LOOP, LOOPS_OF_GUARD
 from nep_studio.blocks.language import Language
 from nep_studio.blocks.program import ALL_ROBOTS, Block, Project
 from nep_studio.blocks.sharing import (
@@ -17,6 +17,7 @@ from nep_studio.blocks.sharing import (
     Sharing,
     is_slow,
     variables_set,
+    waits,
 )
 from nep_studio.blocks.text import sentence
 
@@ -44,7 +45,7 @@ def _loops_without_pause(project: Project, language: Language, blocks: list[Bloc
         yield None
         definition = language.definitions.get(block.type)
         goes_on = definition is not None and not (
-            "takes_time" in definition.flags
+            waits(definition, block)
             or (definition.shape == "cap" and definition.generator != "next_round")
         )
         if not goes_on or not pauses.isdisjoint(block.children()):
@@ -172,7 +173,9 @@ def _inside(block: Block, definition: Definition, depth: _Depth) -> _Depth | Non
         return None if values > DEEPEST_VALUE else depth._replace(values=values)
     loops, indent, values = depth
     if definition.shape == "c":
-        loops = 0 if "apart" in definition.flags else loops + ("loop" in definition.flags)
+        more = 1 if "loop" in definition.flags else 0
+        more += LOOPS_OF_GUARD if "guards" in definition.flags else 0
+        loops = 0 if "apart" in definition.flags else loops + more
         indent, values = indent + 1, 0
     too_deep = loops > DEEPEST_LOOP or indent > DEEPEST_INDENT
     return None if too_deep else _Depth(loops, indent, values)

@@ -17,7 +17,7 @@ from nep_studio.blocks.generate.program import ProgramGenerator, generate_progra
 from nep_studio.blocks.generate.source_map import Code
 
 from .learning import CodeUnread
-from .naming import functions_of, locals_of, names_made
+from .naming import functions_of, locals_of, names_made, stopped_in
 from .outside import HEADERS, Part, is_frame
 from .reading import as_block
 from .source import Source, begin_of, end_of, read_source
@@ -131,6 +131,7 @@ def _lost_functions(
 ) -> tuple[set[int], set[int]]:
     """The statements, or functions, that the blocks would make in another way; the innermost."""
     by_stack = _functions_made(editor, code, made)
+    _call_as_there(made, {by_stack[s].name: functions[s].name for s in by_stack if s in functions})
     lost: set[int] = set()
     places: set[int] = set()
     renamed: dict[str, int] = {}
@@ -149,6 +150,12 @@ def _lost_functions(
     if not lost:
         _require_no_use(source, renamed)
     return lost, places
+
+
+def _call_as_there(made: Source, names: Mapping[str, str]) -> None:
+    """Let the blocks stop rules by the names that the functions of these have in the text."""
+    for stopped in stopped_in(made.tree):
+        stopped.id = names.get(stopped.id, stopped.id)
 
 
 def _functions_made(editor: Editor, code: Code, made: Source) -> dict[str, ast.FunctionDef]:
@@ -263,8 +270,11 @@ def _is_shared(function: ast.FunctionDef | ast.AsyncFunctionDef, name: str) -> b
 
 
 def _require_no_use(source: Source, renamed: Mapping[str, int]) -> None:
-    """The program names the functions of rules by itself: nothing may call them."""
+    """The program names the functions of rules by itself: nothing may call them, only stop them."""
+    stopped = set(map(id, stopped_in(source.tree)))
     for node in ast.walk(source.tree):
+        if id(node) in stopped:
+            continue
         if isinstance(node, ast.Name) and node.id in renamed and isinstance(node.ctx, ast.Load):
             raise CodeUnread(
                 "“{name}” is the function of a rule: the program gives it a name by itself.",

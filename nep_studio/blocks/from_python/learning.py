@@ -210,6 +210,8 @@ def _lines(pieces: Sequence[Piece]) -> Iterator[str]:
         elif isinstance(piece, Body | Function):
             if isinstance(piece, Function):
                 yield f"def {piece.name}():"
+            if isinstance(piece, Body) and piece.first:
+                yield f"    {piece.first}"
             yield f"    {mark(BODY, piece.slot)}"
         else:
             yield str(getattr(piece, "line", ""))

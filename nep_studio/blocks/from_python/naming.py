@@ -8,14 +8,16 @@ from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 
 from nep_studio.blocks.code_text import made_by, outside_functions
-from nep_studio.blocks.edits.content import AddProcedure, SetExtra
+from nep_studio.blocks.edits.content import AddProcedure, SetExtra, SetField
 from nep_studio.blocks.edits.project import RenameProject
 from nep_studio.blocks.procedures import DEFINE, parameters, words
 
-from ..deployment import names_used, robot_entries
+from ..deployment import can_be_stopped, names_used, robot_entries
 from ..editor import Editor
+from ..errors import CodeRefused
 from ..generate.kinds import ANY, LIST, RESULT_KINDS, TEXT, TRUTH, Seen, kinds_of, note
 from ..generate.names import RESERVED, python_name
+from ..generate.program import generate_program
 from ..operations.fixes import append_entry
 from ..program import (
     ALL_ROBOTS,
@@ -32,15 +34,17 @@ from .outside import HEADERS
 
 @dataclass(slots=True)
 class SourceNames:
-    """What identifiers stand for: names of robots, ids of variables, own blocks.
+    """What identifiers stand for: names of robots, ids of variables, own blocks, rules.
 
-    ``parameters`` are the values of the own block that is being read, by identifier.
+    ``parameters`` are the values of the own block that is being read, by identifier; ``rules``
+    are as ``settle_rules`` takes them.
     """
 
     robots: dict[str, str] = field(default_factory=dict)
     variables: dict[str, str] = field(default_factory=dict)
     procedures: dict[str, Procedure] = field(default_factory=dict)
     parameters: dict[str, str] = field(default_factory=dict)
+    rules: dict[str, str] = field(default_factory=dict)
 
 
 MOST_TURNS, TURNS_OF_KINDS = 6, 3
@@ -115,6 +119,9 @@ def names_in(
             ) if made in HEADERS:
                 with at_line(node.lineno):
                     _note(editor, names, name, made, node)
+    if loose and any(stopped_in(tree)):
+        names.rules |= _rules_there(editor)
+    names.rules |= rules_in(functions)
     of_functions = {node.name: node for node in functions if not node.decorator_list}
     others = {n.name for n in tree.body if isinstance(n, ast.FunctionDef | ast.ClassDef)}
     for name in others - of_functions.keys():
@@ -136,6 +143,72 @@ def names_in(
             names.variables[name] = editor.add_variable(name if name not in taken else f"{name}_")
     _require_variables(names, tree)
     return names
+
+
+# Rules are named by their functions; the block with which one begins is made after it is read.
+
+
+def stopped_in(tree: ast.AST) -> Iterator[ast.Name]:
+    """Where Python names a rule to be stopped."""
+    for node in ast.walk(tree):
+        match node:
+            case ast.Call(
+                func=ast.Attribute(value=ast.Name(id="behavior"), attr="stop"),
+                args=[ast.Name() as named],
+            ):
+                yield named
+
+
+def _rules_there(editor: Editor) -> dict[str, str]:
+    """The blocks with which the rules of a project begin, by the names of their functions."""
+    try:
+        code = generate_program(editor.project, editor.language)
+    except CodeRefused:
+        return {}
+    found: dict[str, str] = {}
+    for number, line in enumerate(code.text.splitlines(), start=1):
+        hat = code.block_at(number) or ""
+        if line.startswith("def ") and can_be_stopped(editor.project, editor.language, hat):
+            found[line.removeprefix("def ").partition("(")[0]] = hat
+    return found
+
+
+_TO_COME = "def "
+"""What stands before the name of a function in place of the block that is not there yet."""
+
+
+def rules_in(functions: Sequence[ast.FunctionDef]) -> dict[str, str]:
+    """What stands for the rules of functions, by name, until their blocks are there."""
+    found: dict[str, str] = {}
+    for node in functions:
+        match node.decorator_list:
+            case [ast.Call(func=ast.Attribute(attr=made)) | ast.Attribute(attr=made)]:
+                if made not in ("goal", "when_goal"):
+                    found[node.name] = _TO_COME + node.name
+    return found
+
+
+def settle_rules(
+    editor: Editor, hats: Mapping[str, str], before: Mapping[str, str] | None = None
+) -> None:
+    """Let blocks that name a rule name its first block; ``hats`` are these by their functions.
+
+    ``before`` are the functions of blocks that were there: where one is gone, its function's is
+    meant.
+    """
+    project, definitions = editor.project, editor.language.definitions
+    for block in list(project.blocks.values()):
+        definition = definitions.get(block.type)
+        if definition is None or "rule" not in definition.kinds:
+            continue
+        for key, slot in definition.keys(block.groups):
+            named = str(block.fields.get(key, ""))
+            if slot.kind.name != "rule" or named in project.blocks:
+                continue
+            function = named.removeprefix(_TO_COME)
+            function = (before or {}).get(named, "") if function == named else function
+            if function in hats:
+                editor.apply(SetField(block.id, key, hats[function]))
 
 
 def _begun(tree: ast.Module) -> Iterator[str]:

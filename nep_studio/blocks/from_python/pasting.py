@@ -15,7 +15,7 @@ from nep_studio.blocks.program import Project
 
 from .comparing import lost_of_functions
 from .learning import CodeUnread, Made
-from .naming import locals_of, names_in, names_made, names_taken
+from .naming import locals_of, names_in, names_made, names_taken, settle_rules
 from .outside import HERE, TOP, is_frame, is_made_docstring, parts_of
 from .reading import StatementReader, create_chain, create_outside, scratch_of
 from .source import Source, begin_of, end_of, read_source, without_margin
@@ -63,12 +63,14 @@ def _read_lines(source: Source, scratch: Editor, kept: set[int]) -> tuple[Clip, 
     reader = StatementReader(scratch.language, names, source, kept)
     made, loose = [], []
     stacks: dict[str, ast.FunctionDef] = {}
+    hats: dict[str, str] = {}
     has_functions = any(isinstance(node, ast.FunctionDef) for node in source.tree.body)
     is_alone = len(source.tree.body) == 1
     for node in source.tree.body:
         if isinstance(node, ast.FunctionDef) and node in functions:
             made.append(create_chain(scratch, reader.rule(node, 0)))
             stacks[scratch.project.stack_of(made[-1]).id] = node
+            hats[node.name] = made[-1]
         elif isinstance(node, ast.FunctionDef):
             first = source.first_line(node, 0)
             text = source.whole(first, source.end_inside(node))
@@ -82,6 +84,7 @@ def _read_lines(source: Source, scratch: Editor, kept: set[int]) -> tuple[Clip, 
     if loose:
         until = len(source.lines) if is_loose_last else 0
         made.append(create_chain(scratch, _loose(reader, source, loose, until)))
+    settle_rules(scratch, hats)
     if made and not is_loose_last and (below := _comments_below(source)):
         made.append(create_outside(scratch, below, HERE))
     if not made:

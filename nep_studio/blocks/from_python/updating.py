@@ -40,7 +40,7 @@ from nep_studio.blocks.program import Block, Parameter, Procedure, Project, spli
 from .comparing import lost_lines
 from .learning import CodeUnread, Made, RefusedAtLine, at_line, blocks_of
 from .mistakes import too_deep
-from .naming import Hints, Turns, own_names, variable_name, words_of
+from .naming import Hints, Turns, own_names, settle_rules, variable_name, words_of
 from .outside import Part, parts_of
 from .reading import ReadRule, create_chain, create_outside, read_rules
 from .source import Source, read_source
@@ -321,6 +321,7 @@ def _update(
     known_texts = [] if anew else [w.text for w in written if not own & w.shared]
     rules = read_rules(editor, source, parts, kept, known_texts, hints)
     left = {stack.stack: stack for stack in written}
+    before = {editor.project.stacks[one.stack].body[0]: one.function for one in written}
     same = [
         None if rule.chain else _take(left, (w for w in left.values() if w.text == rule.text))
         for rule in rules
@@ -341,6 +342,8 @@ def _update(
     for gone in left.values():
         stack = editor.project.stacks[gone.stack]
         editor.apply(DeleteBlocks(stack.body[0], len(stack.body)))
+    hats = {rule.function.name: first for rule, first in zip(rules, firsts, strict=True)}
+    settle_rules(editor, hats, before)
     _remove_own_blocks(editor, written)
     _remove_variables(editor, own)
     _put_in_order(editor, _update_outside(editor, parts, firsts))

@@ -61,11 +61,13 @@ class Found:
 
     def lists(self, wanted: Sequence[object], there: Sequence[object]) -> bool:
         """Whether nodes are as wanted, each in its turn."""
-        if len(wanted) == 1 and isinstance(wanted[0], ast.Expr):
-            name = wanted[0].value
+        if wanted and isinstance(wanted[-1], ast.Expr):
+            name, above = wanted[-1].value, len(wanted) - 1
             if isinstance(name, ast.Name) and (body := marked(BODY, name.id)):
-                self.bodies[body] = list(there)  # type: ignore[arg-type]
-                return bool(there)
+                if rest := list(there[above:]):
+                    self.bodies[body] = rest  # type: ignore[assignment]
+                is_there = bool(rest) or (above > 0 and len(there) == above)
+                return is_there and all(map(self.one, wanted[:-1], there[:above]))
         return len(wanted) == len(there) and all(map(self.one, wanted, there))
 
     def one(self, wanted: object, there: object) -> bool:
@@ -453,7 +455,8 @@ class ValueReader:
         if isinstance(node, ast.Name):
             if kind == "robot":
                 return self.names.robots.get(node.id)
-            return self.names.variables.get(node.id) if kind == "variable" else None
+            named = {"variable": self.names.variables, "rule": self.names.rules}.get(kind, {})
+            return named.get(node.id)
         value = _constant(node)
         return None if value is None else slot.kind.from_python(value)
 

@@ -148,6 +148,10 @@ class Expressions:
         self.robots: set[str] = set()
         self.variables: set[str] = set()
         """The ids of the variables that are used."""
+        self.rules: Mapping[str, str] = {}
+        """The names of the functions of rules, by the blocks with which these begin."""
+        self.rules_named: dict[str, str] = {}
+        """Those that are named here."""
         self.procedure = ""
         """The own block that is being written, or an empty text."""
         self.sharing = Sharing()
@@ -260,6 +264,8 @@ class Expressions:
             return ast.Name(self.variable(block))
         if kind.name == "choice":
             return ast.Constant(self.choice(block, key))
+        if kind.name == "rule":
+            return ast.Name(self.rule(block, str(value)))
         if not kind.is_number or not isinstance(value, str):
             return kind.to_python(value)
         with refusing(block):
@@ -345,6 +351,17 @@ class Expressions:
             )
         self.variables.add(variable_id)  # a variable that is used is there
         return self.names.variables[variable_id]
+
+    def rule(self, block: Block, hat: str) -> str:
+        """The name of the function of the rule that begins with a block."""
+        if hat not in self.rules:
+            raise CodeRefused(
+                "The rule that this block stops is not there.",
+                block=block.id,
+                checklist=("Choose a rule in this block.", "Or take this block out."),
+            )
+        self.rules_named[hat] = self.rules[hat]
+        return self.rules[hat]
 
     def list_changes(self, variable: str) -> bool:
         """Whether a list may change meanwhile; ``variable`` is "" for one without a name."""
@@ -514,10 +531,16 @@ _PRINTERS: dict[type[ast.expr], Callable[..., tuple[str, int]]] = {
 
 @dataclass(frozen=True, slots=True)
 class Body:
-    """The chain of blocks in a slot; CPython limits how deep those of a ``loop`` are nested."""
+    """The chain of blocks in a slot; CPython limits how deep those of a ``loop`` are nested.
+
+    One that is tried, or done when that fails, is in a ``guard``, which CPython counts as it does
+    two loops. ``first`` is a line above the blocks, or an empty text.
+    """
 
     slot: str
     loop: bool = False
+    guard: bool = False
+    first: str = ""
 
 
 @dataclass(frozen=True, slots=True)

@@ -494,6 +494,13 @@ def note_names(code: Expressions, read: CodeText) -> None:
     code.modules.update(MODULES & read.read - read.made)
 
 
+def _within(code: Expressions, block: Block) -> ast.expr:
+    condition = ast.Lambda(_NO_ARGUMENTS, code.slot(block, "condition"))
+    return code.api_call("wait_until", condition, code.slot(block, "seconds"))
+
+
+_NO_ARGUMENTS = ast.arguments([], [], None, [], [], None, [])
+
 REPORTERS: dict[str, ValueGenerator] = {
     **{name: _python(text) for name, text in _LINES.items()},
     **{name: _by_choice(slot, texts) for name, (slot, texts) in _CHOSEN.items()},
@@ -520,6 +527,7 @@ REPORTERS: dict[str, ValueGenerator] = {
     "list_split": _split,
     "list_joined": _joined,
     "of_list": _of_list,
+    "within": _within,
     "own_call": _own_call,
     "own_parameter": _own_parameter,
     "code_value": _code_value,
@@ -530,8 +538,6 @@ REPORTERS: dict[str, ValueGenerator] = {
 
 ANSWER = "answer"
 """The name of what a robot was answered, in the function that asks."""
-
-_NO_ARGUMENTS = ast.arguments([], [], None, [], [], None, [])
 
 
 def _loop(word: str, text: str) -> StatementGenerator:
@@ -656,6 +662,33 @@ def _wait_until(code: Expressions, block: Block) -> list[Piece]:
     return [show(code.api_call("wait_until", condition, *limit))]
 
 
+def _tell(code: Expressions, block: Block) -> list[Piece]:
+    given = [code.slot(block, "message")]
+    if block.groups.get("value"):
+        given.append(code.slot(block, "value.1"))
+    options = {"wait": ast.Constant(True)} if block.groups.get("wait") else {}
+    return [show(code.api_call("tell", *given, **options))]
+
+
+def _stop_other_rule(code: Expressions, block: Block) -> list[Piece]:
+    return [show(method_call(ast.Name("behavior"), "stop", [code.slot(block, "rule")]))]
+
+
+def _try(code: Expressions, block: Block) -> list[Piece]:
+    """What was begun is ended before what is done instead, as at the end of a rule by an error."""
+    end = show(code.api_call("end_actions"))
+    return [
+        "try:",
+        Body("do", guard=True),
+        f"except {ERROR}:",
+        Body("otherwise", guard=True, first=end),
+    ]
+
+
+ERROR = "Exception"
+"""What is caught: not what ends a rule or the program."""
+
+
 def _add(code: Expressions, block: Block) -> list[Piece]:
     value, items = code.slot(block, "value"), code.value_in(block, "list")
     if are(kinds_of(items), LIST) and code.may_swap(value, items):
@@ -725,6 +758,9 @@ STATEMENTS: dict[str, StatementGenerator] = {
     "one_of": _parts("one_of"),
     "in_turn": _parts("in_turn"),
     "wait_until": _wait_until,
+    "tell": _tell,
+    "stop_other_rule": _stop_other_rule,
+    "try": _try,
     "set_variable": _assign("=", "value"),
     "change_variable": _change,
     "append_text": _append,

@@ -76,7 +76,8 @@ _CALLS = {
     **dict.fromkeys(("str", "as_text", "title_case", "letter_of", "replace_part"), TEXT),
     **dict.fromkeys(("join_items", "append_text"), TEXT),
     **dict.fromkeys(("bool", "has_item", "has_part", "is_same", "is_less", "is_more"), TRUTH),
-    **dict.fromkeys(("is_at_most", "is_at_least"), TRUTH),
+    **dict.fromkeys(("is_at_most", "is_at_least", "wait_until"), TRUTH),
+    **dict.fromkeys(("date_today", "time_now", "weekday_today", "what_went_wrong"), TEXT),
     **dict.fromkeys(("list", "sorted", "as_list", "items_between", "list_with"), LIST),
     **dict.fromkeys(("parts_of", "sorted_items"), LIST),
     **dict.fromkeys(("as_number", "to_power", "number_in", "sum_of", "mean_of"), NUMBER),
@@ -316,6 +317,7 @@ class FactReader:
                 self._inputs(block, definition)
             if definition.generator in _LOOKED_AT:
                 self._block(block, definition)
+        self._reads(hat, NO_NAMES)  # what a rule waits for is worked out before all
         end = self._walk(chain[1:], frozenset(), 0)
         if self._procedure and end is not None:  # it ends without giving back: 0
             self._put.add((result_key(self._procedure), Given(WHOLE)))

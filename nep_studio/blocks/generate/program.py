@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 import itertools
 import re
-from collections.abc import Collection, Iterator, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 
@@ -13,6 +13,7 @@ from nep_studio.blocks.code_text import CodeText, read_outside
 from nep_studio.blocks.deployment import (
     OUTSIDE_BLOCK,
     RobotEntry,
+    can_be_stopped,
     chains,
     node_entries,
     robot_entries,
@@ -37,7 +38,7 @@ from .kinds import (
     variable_key,
 )
 from .names import MODULES, NameTable, ProgramNames
-from .rules import HATS, Line, RuleWriter
+from .rules import HATS, Hat, Line, RuleWriter
 from .source_map import Code
 
 
@@ -53,6 +54,8 @@ class _Rule:
     variables: frozenset[str]
     kinds: dict[str, int]
     """The kinds that it was written for."""
+    rules: dict[str, str]
+    """The names of the functions of other rules that it was written with."""
 
 
 PLACES = ("top", "here", "end")
@@ -147,10 +150,15 @@ class ProgramGenerator:
         self._kinds = yield from self._kinds_in(written, names)
         functions = NameTable(names.taken())
         ordered = self._in_order(written, names, headers, outside)
-        for stack in ordered:
-            self._rules[stack] = yield from self._rule(
-                stack, written[stack], names, functions, sharing
-            )
+        begun = [self._begin(written[stack], names, functions, sharing) for stack in ordered]
+        rules = {
+            written[stack][0]: function
+            for stack, (_, _, function) in zip(ordered, begun, strict=True)
+            if can_be_stopped(self._project, self._language, written[stack][0])
+        }
+        for stack, (code, hat, function) in zip(ordered, begun, strict=True):
+            code.rules = rules
+            self._rules[stack] = yield from self._rule(stack, written[stack], code, hat, function)
         self._rules = {stack: self._rules[stack] for stack in ordered}
         return self._assemble(names, outside)
 
@@ -251,36 +259,39 @@ class ProgramGenerator:
         facts_of = {stack: facts for stack, (_, facts) in self._facts.items()}
         return together(facts_of, self._project, names)
 
-    def _rule(
-        self,
-        stack: str,
-        chain: list[str],
-        names: ProgramNames,
-        functions: NameTable,
-        sharing: Sharing,
-    ) -> Steps[_Rule]:
-        """Write the rule of a stack, unless it is written already."""
+    def _begin(
+        self, chain: list[str], names: ProgramNames, functions: NameTable, sharing: Sharing
+    ) -> tuple[Expressions, Hat, str]:
+        """What a rule is written with, how it begins, and the name of its function."""
         code = Expressions(self._project, self._language, names, REPORTERS, self._kinds)
         code.sharing = sharing
         hat_block = self._project.blocks[chain[0]]
         hat = HATS[code.definition(hat_block).generator](code, hat_block)
         if hat_block.type.startswith(DEFINE):
             code.procedure, function = procedure_of(hat_block.type), hat.name
-            gives_value = self._project.procedures[code.procedure].gives_value
-            code.gives_nothing = gives_value and self._facts[stack][1].is_open
         elif hat.outside is not None:
             function = ""
         else:
             function = functions.give(hat.name, "when")
+        return code, hat, function
+
+    def _rule(
+        self, stack: str, chain: list[str], code: Expressions, hat: Hat, function: str
+    ) -> Steps[_Rule]:
+        """Write the rule of a stack, unless it is written already."""
+        names = code.names
+        if code.procedure:
+            gives_value = self._project.procedures[code.procedure].gives_value
+            code.gives_nothing = gives_value and self._facts[stack][1].is_open
         revision = self._project.revisions.get(stack)
         own = self._kinds.own.get(stack, frozenset())
         code.own = frozenset(names.variables[variable] for variable in own)
         made_for = (
             *(revision, function, names, self._project.procedure_revision),
-            *(sharing, own, self._kinds.has_lists_twice),
+            *(code.sharing, own, self._kinds.has_lists_twice),
         )
         known = self._rules.get(stack)
-        if known is not None and known.made_for == made_for and self._fits(known.kinds):
+        if known is not None and known.made_for == made_for and self._fits(known, code.rules):
             return known
         writer = RuleWriter(code)
         yield from writer.write(function, hat, chain)
@@ -292,11 +303,13 @@ class ProgramGenerator:
             frozenset(code.robots),
             frozenset(code.variables - own),
             code.written_for,
+            code.rules_named,
         )
 
-    def _fits(self, kinds: dict[str, int]) -> bool:
-        """Whether these are still the kinds of what is kept."""
-        return all(self._kinds.of(key) == kind for key, kind in kinds.items())
+    def _fits(self, known: _Rule, rules: Mapping[str, str]) -> bool:
+        """Whether the kinds of what is kept, and the names of other rules, are as they were."""
+        is_same = all(rules.get(hat) == name for hat, name in known.rules.items())
+        return is_same and all(self._kinds.of(key) == kind for key, kind in known.kinds.items())
 
     def _names(
         self, written: dict[str, list[str]], headers: dict[str, str], outside: dict[str, Outside]

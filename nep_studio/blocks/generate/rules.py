@@ -128,6 +128,23 @@ def _sensor(code: Expressions, block: Block) -> Hat:
     return _hat(f"when_{name}_is_{side}", "when_true", test, **_again(code, block))
 
 
+def _when_true(code: Expressions, block: Block) -> Hat:
+    test = ast.Lambda(_NO_ARGUMENTS, code.slot(block, "condition"))
+    return _hat("when_true", "when_true", test, **_again(code, block))
+
+
+def _when_told(code: Expressions, block: Block) -> Hat:
+    name = f"when_told_{code.text(block, 'message')}"
+    return _hat(name, "when_told", code.slot(block, "message"), **_again(code, block))
+
+
+def _at(code: Expressions, block: Block) -> Hat:
+    name = f"at_{code.text(block, 'time')}"
+    days = code.choice(block, "days")
+    options: dict[str, ast.expr] = {} if days == "every_day" else {"days": ast.Constant(days)}
+    return _hat(name, "at", code.slot(block, "time"), **options)
+
+
 def _goal(code: Expressions, block: Block) -> Hat:
     options: dict[str, ast.expr] = {"when": code.slot(block, "state")}
     if (priority := code.choice(block, "priority")) != "normal":
@@ -160,6 +177,10 @@ HATS: dict[str, HatGenerator] = {
     "when_emotion": lambda code, block: _when_state(code, block, "emotion", "emotion"),
     "when_sensor": _sensor,
     "when_idle": lambda code, block: _hat("when_idle", "when_idle", code.slot(block, "seconds")),
+    "when_true": _when_true,
+    "when_told": _when_told,
+    "every": lambda code, block: _hat("every", "every", code.slot(block, "seconds")),
+    "at": _at,
     "goal": _goal,
     "when_goal": _when_goal,
     "own_define": _own_define,
@@ -184,6 +205,9 @@ DEEPEST_LOOP = 20
 
 DEEPEST_INDENT = 90
 """CPython stops at 100 indents."""
+
+LOOPS_OF_GUARD = 2
+"""A “try” counts so much among loops: the part that is tried, and the part that is done then."""
 
 _MARGINS = tuple("    " * indent for indent in range(DEEPEST_INDENT + 2))
 
@@ -212,6 +236,8 @@ class _Frame:
     loops: int
     scope: _Scope
     opens: bool = False
+    guards: int = 0
+    """How many blocks that try something are around it in its function."""
 
 
 Line = tuple[str, str]
@@ -295,7 +321,8 @@ class RuleWriter:
         else:
             pieces = STATEMENTS[definition.generator](self._code, block)
         pieces = self._whole(block, pieces)
-        return _Frame(iter(pieces), block.id, chain.indent, chain.loops, chain.scope)
+        around = (chain.indent, chain.loops, chain.scope)
+        return _Frame(iter(pieces), block.id, *around, guards=chain.guards)
 
     def _whole(self, block: Block, pieces: Sequence[Piece]) -> Sequence[Piece]:
         """The same, so that no other rule sets a variable between its being read and set here."""
@@ -334,8 +361,10 @@ class RuleWriter:
             self._line(f"{margin}def {piece.name}():", frame.block)
             return self._function(chain, frame.block, frame.indent + 1)
         indent, loops = frame.indent + 1, frame.loops + piece.loop
-        blocks = self._enabled(chain, frame.block, indent, loops)
-        return _Frame(blocks, frame.block, indent, loops, frame.scope)
+        guards = frame.guards + piece.guard
+        nested = loops + LOOPS_OF_GUARD * guards
+        blocks = self._enabled(chain, frame.block, indent, nested, piece.first)
+        return _Frame(blocks, frame.block, indent, loops, frame.scope, guards=guards)
 
     def _simple(
         self,
@@ -387,9 +416,12 @@ class RuleWriter:
         return _Frame(blocks, owner, indent, 0, scope, opens=True)
 
     def _enabled(
-        self, chain: Sequence[str], owner: str, indent: int, loops: int
+        self, chain: Sequence[str], owner: str, indent: int, loops: int, first: str = ""
     ) -> Iterator[Block | Piece]:
-        """The blocks of a chain that are not disabled; where there are none, write ``pass``."""
+        """The blocks of a chain that are not disabled; where there are none, write ``pass``.
+
+        Not where a ``first`` line stands above them.
+        """
         if loops > DEEPEST_LOOP or indent > DEEPEST_INDENT:
             raise CodeRefused(
                 "Blocks are nested too deep: {deepest_loop} loops or {deepest_indent} blocks "
@@ -402,9 +434,9 @@ class RuleWriter:
         project_blocks = self._code.project.blocks
         blocks = [project_blocks[i] for i in chain if not project_blocks[i].disabled]
         definitions = [self._code.language.definitions.get(block.type) for block in blocks]
-        if all(one is not None and "silent" in one.flags for one in definitions):
-            return chain_of(blocks, ["pass"])
-        return iter(blocks)
+        is_silent = all(one is not None and "silent" in one.flags for one in definitions)
+        above = [first] if first else []
+        return chain_of(above, blocks, ["pass"] if is_silent and (blocks or not first) else [])
 
     def _line(self, line: str, block: str) -> None:
         self.lines.append((line, block))

@@ -15,7 +15,7 @@ from msgspec.structs import replace
 
 from nep_studio.blocks.definitions import Definition
 from nep_studio.blocks.editor import Editor
-from nep_studio.blocks.edits.content import AddProcedure
+from nep_studio.blocks.edits.content import AddProcedure, SetExtra, SetField
 from nep_studio.blocks.edits.placing import CreateBlocks, DeleteBlocks, MoveBlocks
 from nep_studio.blocks.edits.project import AddVariable
 from nep_studio.blocks.errors import EditRefused
@@ -35,6 +35,7 @@ from nep_studio.blocks.procedures import (
 )
 from nep_studio.blocks.program import PAGES, Block, Procedure, Project, Stack
 from nep_studio.blocks.slots import FieldValue
+from nep_studio.blocks.text import sentence
 
 from .animations import bring_animations, take_along
 from .selection import Run, members, require_runs, runs
@@ -98,6 +99,7 @@ def copy(project: Project, language: Language, ids: Iterable[str], at: Points = 
         if variable.id in used:
             AddVariable(variable.id, variable.name, len(target.variables)).apply(target)
     _add_procedures(clip.project, project)
+    _note_rules(clip.project, project, language)
     take_along(clip.project, project, language)
     return clip
 
@@ -124,10 +126,51 @@ def from_text(text: str, language: Language) -> Clip:
 
 def variable_keys(block: Block, definitions: Mapping[str, Definition]) -> list[str]:
     """The slots of a block that name a variable."""
+    return _keys_of_kind(block, definitions, "variable")
+
+
+def _keys_of_kind(block: Block, definitions: Mapping[str, Definition], kind: str) -> list[str]:
     definition = definitions.get(block.type)
-    if definition is None:
+    if definition is None or kind not in definition.kinds:
         return []
-    return [key for key, slot in definition.keys(block.groups) if slot.kind.name == "variable"]
+    return [key for key, slot in definition.keys(block.groups) if slot.kind.name == kind]
+
+
+RULES = "rules"
+"""Where a clip keeps what the rules say that its blocks name and that are not in it."""
+
+
+def _note_rules(clip: Project, project: Project, language: Language) -> None:
+    """Note which rules blocks name, so that they mean no other one in another project."""
+    said: dict[str, str] = {}
+    for block in clip.blocks.values():
+        for key in _keys_of_kind(block, language.of(project).definitions, "rule"):
+            hat = str(block.fields.get(key, ""))
+            if hat in project.blocks and hat not in clip.blocks:
+                said[hat] = sentence(project, language, hat)
+    if said:
+        SetExtra(RULES, said).apply(clip)
+
+
+def _rule_for(editor: Editor, clip: Project, names: Names, hat: str) -> str:
+    """The block with which a rule of a clip begins in the project; "" where it is not there."""
+    if hat in names.blocks:
+        return names.blocks[hat]
+    said, project = clip.extra.get(RULES), editor.project
+    if not isinstance(said, dict) or hat not in project.blocks:
+        return ""
+    return hat if said.get(hat) == sentence(project, editor.language, hat) else ""
+
+
+def _name_rules(editor: Editor, clip: Clip, names: Names) -> None:
+    """Let the new blocks of a clip name the rules that they named there."""
+    for new in names.blocks.values():
+        block = editor.project.blocks[new]
+        for key in _keys_of_kind(block, editor.language.definitions, "rule"):
+            named = str(block.fields.get(key, ""))
+            meant = _rule_for(editor, clip.project, names, named)
+            if meant != named:
+                editor.apply(SetField(new, key, meant))
 
 
 def _create(
@@ -160,12 +203,15 @@ def _place(project: Project, run: Run, number: int) -> tuple[float, float]:
 class Names:
     """Ids in the project by those in the clip; parameters by "own block.parameter" of the clip.
 
+    ``blocks`` are those that have been made.
+
     ``made`` are the ids of own blocks that the project did not have.
     """
 
     variables: dict[str, str] = field(default_factory=dict)
     procedures: dict[str, str] = field(default_factory=dict)
     parameters: dict[str, str] = field(default_factory=dict)
+    blocks: dict[str, str] = field(default_factory=dict)
     made: list[str] = field(default_factory=list)
 
 
@@ -284,6 +330,7 @@ def paste(editor: Editor, clip: Clip, page: str, x: float, y: float) -> tuple[st
             )[0]
             for stack in clip.stacks
         )
+        _name_rules(editor, clip, names)
         _add_headers(editor, names, page, x + STEP, y)
     return new
 
@@ -298,7 +345,10 @@ def paste_at(editor: Editor, clip: Clip, place: Place) -> tuple[str, ...]:
         )
     with editor.transaction("paste blocks"):
         bring_animations(editor, clip.project)
-        return _put(editor, clip, clip.roots[0], names_for(editor, clip), place)
+        names = names_for(editor, clip)
+        new = _put(editor, clip, clip.roots[0], names, place)
+        _name_rules(editor, clip, names)
+    return new
 
 
 def duplicate(editor: Editor, ids: Iterable[str], at: Points = UNKNOWN) -> tuple[str, ...]:
@@ -324,6 +374,7 @@ def _put(
     blocks = tuple(renewed(editor.language, block, ids, names) for block in old)
     roots = tuple(ids[root] for root in chain)
     editor.apply(CreateBlocks(roots, blocks, place))
+    names.blocks |= ids
     return roots
 
 

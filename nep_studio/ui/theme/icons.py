@@ -36,6 +36,7 @@ CATEGORY_ICONS = {
     "lights": "lightbulb",
     "senses": "ear",
     "camera": "camera",
+    "time": "clock",
 }
 """A category's icon, by the category's ``colour``: so that colour never speaks alone."""
 

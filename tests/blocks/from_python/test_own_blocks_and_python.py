@@ -155,13 +155,13 @@ def double(n):
     return n * 2
 
 
-def tell(x):
+def report(x):
     nao.say(str(double(x)))
 
 
 @behavior.when_started
 def when_started():
-    tell(2)
+    report(2)
     nao.say(str(double(3)))
 
 
@@ -173,8 +173,8 @@ behavior.run()
     "changes",
     [
         [("double", "twice")],
-        [("tell", "say_it")],
-        [("double", "twice"), ("tell", "say_it")],
+        [("report", "say_it")],
+        [("double", "twice"), ("report", "say_it")],
         [("double(n)", "double(much)"), ("n * 2", "much * 2")],
     ],
     ids=str,
@@ -199,12 +199,12 @@ SAID = ("nao.say(str(double(3)))", "double(3)")
 @pytest.mark.parametrize(
     "changes",
     [
-        [("tell(x)", "tell(x, y)"), ("tell(2)", "tell(2, 3)")],
-        [("tell(x)", "tell(x, y)"), ("tell(2)", "tell(2, 3)"), ("tell", "say_it")],
-        [("nao.say(str(double(x)))", "return x"), ("    tell(2)", "    nao.say(str(tell(2)))")],
+        [("report(x)", "report(x, y)"), ("report(2)", "report(2, 3)")],
+        [("report(x)", "report(x, y)"), ("report(2)", "report(2, 3)"), ("report", "say_it")],
+        [("nao.say(str(double(x)))", "return x"), ("    report(2)", "    nao.say(str(report(2)))")],
         [("return n * 2", 'nao.say("a")'), ("nao.say(str(double(x)))", "double(x)"), SAID],
         [("double(n)", "double(n, m)"), ("double(x)", "double(x, 1)"), ("e(3)", "e(3, 1)")],
-        [("tell(x)", "tell()"), ("double(x)", "double(1)"), ("tell(2)", "tell()")],
+        [("report(x)", "report()"), ("double(x)", "double(1)"), ("report(2)", "report()")],
         [
             ("def double(n):\n    return n * 2\n\n\n", ""),
             ("str(double(x))", '"a"'),
@@ -229,15 +229,15 @@ def test_an_own_block_with_other_values_is_made_anew(language, changes):
 
 def test_an_own_block_that_a_loose_block_calls_stays_beside_the_new_one(language):
     editor = updated(Editor(Project("Two"), language), TWO)
-    (old,) = (p for p in editor.project.procedures.values() if words(p) == "tell")
+    (old,) = (p for p in editor.project.procedures.values() if words(p) == "report")
     build(language, [B(f"my.call.{old.id}")], editor=editor)
     text = generate_program(editor.project, language).text
-    text = text.replace("tell(x)", "tell(x, y)").replace("tell(2)", "tell(2, 3)")
+    text = text.replace("report(x)", "report(x, y)").replace("report(2)", "report(2, 3)")
 
     updated(editor, text)
 
     assert generate_program(editor.project, language).text == text
-    assert [words(p) for p in editor.project.procedures.values()].count("tell") == 2
+    assert [words(p) for p in editor.project.procedures.values()].count("report") == 2
     assert_same_again(editor)
 
 

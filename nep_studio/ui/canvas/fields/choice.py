@@ -12,9 +12,11 @@ from PySide6.QtCore import QEvent, QObject, QSize, Qt, QTimer
 from PySide6.QtGui import QIcon, QKeyEvent
 from PySide6.QtWidgets import QLineEdit, QListWidget, QListWidgetItem, QWidget
 
+from nep_studio.blocks.deployment import can_be_stopped, rules
 from nep_studio.blocks.language import Language
 from nep_studio.blocks.program import Project
 from nep_studio.blocks.slots import GESTURE_STATE
+from nep_studio.blocks.text import sentence
 from nep_studio.ui.theme.icons import icon
 from nep_studio.ui.words import tr
 
@@ -80,17 +82,38 @@ def _states(project: Project, language: Language) -> list[Option]:
     return found + [Option(_words(s), s, "user", tr("In this project")) for s in rest]
 
 
+def _messages(project: Project, language: Language) -> list[Option]:
+    """The messages that the blocks of a project tell or wait for."""
+    used = dict.fromkeys(_used(project, language, "message"))
+    return [Option(message, message, "message-square-text") for message in sorted(used)]
+
+
+def _rules(project: Project, language: Language) -> list[Option]:
+    """The rules that can be stopped, as their first blocks say."""
+    firsts = [chain[0] for chain in rules(project, language)]
+    return [
+        Option(sentence(project, language, hat), hat, "flag")
+        for hat in firsts
+        if can_be_stopped(project, language, hat)
+    ]
+
+
 def _words(state: str) -> str:
     return state.replace("_", " ")
 
 
 def _used_states(project: Project, language: Language) -> Iterator[str]:
+    return _used(project, language, "state")
+
+
+def _used(project: Project, language: Language, kind: str) -> Iterator[str]:
+    """What stands in the fields of a kind."""
     for block in project.blocks.values():
         definition = language.definitions.get(block.type)
         if definition is None:
             continue
-        for name in (slot.name for slot in definition.slots.values() if slot.kind.name == "state"):
-            value = definition.value(block, name)
+        for key in (k for k, slot in definition.keys(block.groups) if slot.kind.name == kind):
+            value = definition.value(block, key)
             if isinstance(value, str) and value:
                 yield value
 
@@ -351,9 +374,37 @@ class StatePopup(ChoicePopup):
         return _states(editor.project, editor.language)
 
 
+class MessagePopup(ChoicePopup):
+    """A message: one that the project has already, or any words."""
+
+    is_free = True
+
+    def __init__(self, editors: FieldEditors, edit: Editing, title: str) -> None:
+        super().__init__(editors, edit, title)
+        self.search.setText(str(edit.value or ""))
+        self.search.selectAll()
+        self.search.setPlaceholderText(tr("Type a message, or choose one"))
+
+    def options(self) -> list[Option]:
+        """The messages of the project."""
+        editor = self._editors.canvas.editor
+        return _messages(editor.project, editor.language)
+
+
+class RulePopup(ChoicePopup):
+    """One of the rules of the project."""
+
+    def options(self) -> list[Option]:
+        """The rules that can be stopped."""
+        editor = self._editors.canvas.editor
+        return _rules(editor.project, editor.language)
+
+
 CHOSEN: dict[str, type[FieldPopup]] = {
     "choice": ChoicePopup,
     "gesture": GesturePopup,
+    "message": MessagePopup,
+    "rule": RulePopup,
     "state": StatePopup,
 }
 """The editors of this file, by the kind of field."""

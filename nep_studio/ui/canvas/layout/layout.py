@@ -238,8 +238,9 @@ class Layout:
         except TypeError:  # a field that holds settings
             return self._new_box(block)
         is_gap_owner = self.gap is not None and self.gap.owner == block.id
-        if is_gap_owner or block.type not in self.language.definitions:
-            return self._new_box(block)
+        definition = self.language.definitions.get(block.type)
+        if is_gap_owner or definition is None or "rule" in definition.kinds:
+            return self._new_box(block)  # what it says is not in its fields alone
         if known is None:
             known = self._leaves[look] = self._new_box(block)
         return known if known.block == block.id else replace(known, block=block.id)

@@ -12,6 +12,7 @@ from nep_studio.blocks.definitions import Definition, Group, Part, Slot
 from nep_studio.blocks.language import Language
 from nep_studio.blocks.program import ALL_ROBOTS, Block, Project
 from nep_studio.blocks.slots import RESULT_SHAPES, FieldValue, Kind
+from nep_studio.blocks.text import field_text
 from nep_studio.ui.words import tr
 
 from .boxes import Outline
@@ -99,6 +100,8 @@ def _shown_text(project: Project, language: Language, block: Block, key: str, sl
     if kind == "variable":
         variable = project.variable(str(value))
         return variable.name if variable is not None else ""
+    if kind == "rule":
+        return field_text(project, language, block, slot, value) if value in project.blocks else ""
     if kind == "robot" and value == ALL_ROBOTS:
         return tr("all robots")
     if slot.kind.unit:

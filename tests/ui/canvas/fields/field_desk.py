@@ -11,7 +11,7 @@ from nep_studio.blocks.edits.content import SetField
 from nep_studio.blocks.program import Project
 from nep_studio.blocks.slots import FieldValue
 from nep_studio.ui.canvas.canvas import Canvas
-from nep_studio.ui.canvas.fields.field_edit import view_rect_of
+from nep_studio.ui.canvas.fields.field_edit import piece_of, view_rect_of
 from nep_studio.ui.theme.colours import load_theme
 from nep_studio.ui.theme.look import text_font
 
@@ -50,6 +50,12 @@ class Desk:
     def value(self, key: str, block: str = "") -> FieldValue | None:
         there = self.editor.project.blocks[block or self.block]
         return self.editor.language.definitions[there.type].value(there, key)
+
+    def shown(self, key: str) -> str:
+        """What the field shows on the canvas."""
+        found = piece_of(self.canvas, self.block, key)
+        assert found is not None
+        return found[1].text
 
     def new_steps(self) -> int:
         """How many steps of undo there are since the beginning."""

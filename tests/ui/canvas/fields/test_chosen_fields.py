@@ -7,6 +7,7 @@ from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication
 
 from nep_studio.blocks.deployment import robot_entries
+from nep_studio.blocks.edits.content import SetField
 from nep_studio.ui.canvas.fields.colour import COLOURS
 
 PLAIN = Qt.KeyboardModifier.NoModifier
@@ -247,6 +248,43 @@ def test_a_state_is_read_and_typed_as_words_and_kept_as_the_code_of_nodes(contro
 
     assert shown == begun == "touched head"
     assert desk.value("state") == "the_finale_begins"
+
+
+def test_a_message_is_typed_freely_or_chosen_of_those_that_are_there(controller_of) -> None:
+    desk = controller_of("event.told", message="sing")
+    desk.editor.create("event.tell", desk.editor.new_stack("behaviour", 40, 300))
+
+    desk.click("message")
+    desk.widget.fill("")
+    offered = labels(desk.widget)
+    desk.widget.first().selectAll()
+    QTest.keyClicks(desk.widget.first(), "go on  please")
+    typed = desk.value("message")
+    desk.fields.close()
+    desk.click("message")
+    desk.widget.first().clear()
+    desk.widget.fill("")
+    choose(desk.widget, "dance")
+
+    assert offered == ["dance", "sing"]
+    assert typed == "go on please"
+    assert desk.value("message") == "dance"
+
+
+def test_a_rule_is_chosen_by_what_it_begins_with_and_follows_that(controller_of) -> None:
+    desk = controller_of("control.stop_other_rule")
+    hat = desk.editor.create("event.told", desk.editor.new_stack("behaviour", 40, 300))
+    desk.editor.create("goal.goal", desk.editor.new_stack("behaviour", 40, 500))
+
+    desk.click("rule")
+    offered = labels(desk.widget)
+    choose(desk.widget, "when dance is told")
+    before = desk.shown("rule")
+    desk.editor.apply(SetField(hat, "message", "sing"))
+
+    assert offered == ["when dance is told"]
+    assert desk.value("rule") == hat
+    assert (before, desk.shown("rule")) == ("when dance is told", "when sing is told")
 
 
 def test_a_colour_is_chosen_with_the_arrow_keys(controller_of) -> None:
