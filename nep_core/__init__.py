@@ -29,6 +29,16 @@ if TYPE_CHECKING:
         was_seen,
     )
     from .program.robot import Robot, colour_from, mix_colours
+    from .program.tables import (
+        as_table,
+        change_at,
+        has_key,
+        names_in,
+        remove_key,
+        set_at,
+        table_of,
+        value_at,
+    )
     from .program.tasks import at_once, stop_program, stop_rule, together, wait, wait_until
     from .program.values import (
         add_item,
@@ -85,6 +95,7 @@ _HOMES = {
         "program.human": "heard_word human_state is_remembered remember times_seen until_state "
         "was_seen",
         "program.robot": "Robot colour_from mix_colours",
+        "program.tables": "as_table change_at has_key names_in remove_key set_at table_of value_at",
         "program.tasks": "at_once stop_program stop_rule together wait wait_until",
         "program.values": "add_item append_text as_list as_number as_text count_from deviation_of "
         "has_item has_part insert_item is_at_least is_at_most is_less is_more is_same item_of "
@@ -109,6 +120,8 @@ __all__ += ["length_of", "letter_of", "list_with", "mean_of", "median_of", "numb
 __all__ += ["parts_of", "place_in_text", "place_of", "random_whole", "remove_item"]
 __all__ += ["replace_part", "set_item", "smallest_of", "sorted_items", "sum_of", "take_item"]
 __all__ += ["title_case", "to_nearest", "to_power"]
+__all__ += ["as_table", "change_at", "has_key", "names_in", "remove_key", "set_at", "table_of"]
+__all__ += ["value_at"]
 
 
 def __getattr__(name: str) -> Any:

@@ -14,7 +14,7 @@ from nep_studio.blocks.procedures import DEFINE, parameters, words
 
 from ..deployment import names_used, robot_entries
 from ..editor import Editor
-from ..generate.kinds import ANY, LIST, RESULT_KINDS, TEXT, TRUTH, Seen, kinds_of, note
+from ..generate.kinds import ANY, LIST, RESULT_KINDS, TABLE, TEXT, TRUTH, Seen, kinds_of, note
 from ..generate.names import RESERVED, python_name
 from ..operations.fixes import append_entry
 from ..program import (
@@ -143,9 +143,10 @@ def _begun(tree: ast.Module) -> Iterator[str]:
     own = {name for function in functions_of(tree) for name in locals_of(function)}
     for node in tree.body:
         match node:
-            case ast.Assign(targets=[ast.Name(id=name)], value=ast.Constant() | ast.List()):
-                if name not in own:
-                    yield name
+            case ast.Assign(
+                targets=[ast.Name(id=name)], value=ast.Constant() | ast.List() | ast.Dict()
+            ) if name not in own:
+                yield name
 
 
 def functions_of(tree: ast.AST) -> Iterator[ast.FunctionDef | ast.AsyncFunctionDef]:
@@ -414,7 +415,7 @@ def _is_value(name: str, tree: ast.Module) -> bool:
 
 
 _MAKES = {
-    **{"as_list": "list", "as_number": "number", "bool": "boolean"},
+    **{"as_list": "list", "as_number": "number", "as_table": "table", "bool": "boolean"},
     **{"as_text": "text", "str": "text"},
 }
 
@@ -462,8 +463,9 @@ def _kinds_begun(
     function: ast.FunctionDef, parameter: str, given: Sequence[ast.expr], begun: Mapping[str, str]
 ) -> Iterator[str]:
     """The kinds that variables have by being given to an own block, or by being set in it."""
-    if any(isinstance(node, ast.Name) and begun.get(node.id) == "list" for node in given):
-        yield "list"
+    for kind in ("list", "table"):
+        if any(isinstance(node, ast.Name) and begun.get(node.id) == kind for node in given):
+            yield kind
     for node in ast.walk(function):
         match node:
             case ast.Assign(targets=[ast.Name(id=name)], value=ast.Name(id=value)):
@@ -482,7 +484,7 @@ def _begun_otherwise(tree: ast.Module, hints: Hints | None) -> dict[str, str]:
         match node:
             case ast.Assign(targets=[ast.Name(id=name)], value=value):
                 if hints is not None and node.lineno in hints.differed:
-                    kinds = {LIST: "list", TEXT: "text", TRUTH: "boolean"}
+                    kinds = {LIST: "list", TABLE: "table", TEXT: "text", TRUTH: "boolean"}
                     found[name] = kinds.get(kinds_of(value), "")
     return found
 
