@@ -177,6 +177,10 @@ class Learner(Expressions):
     def f_string(self, parts: Sequence[ast.expr]) -> None:
         """None: a join is learned as a sum, and f-strings are read by their form."""
 
+    def has_two_names(self, variable: str) -> bool:
+        """As this variant has it."""
+        return not self._known.may_swap
+
     def may_swap(self, first: ast.expr, second: ast.expr) -> bool:
         """As this variant has it."""
         return self._known.may_swap

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import ast
+import functools
 import itertools
+import operator
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 
@@ -217,15 +219,29 @@ def _kept(function: ast.FunctionDef, tree: ast.Module) -> list[str]:
 def _kinds_given(tree: ast.Module, names: SourceNames) -> dict[str, int]:
     """The kinds of what a text puts into the variables that it makes itself."""
     found: dict[str, int] = {}
+    same: dict[str, set[str]] = {}
     for node in ast.walk(tree):
         match node:
+            case ast.Assign(targets=[ast.Name(id=name)], value=ast.Name(id=other)):
+                same.setdefault(name, set()).add(other)
             case ast.Assign(targets=[ast.Name(id=name)], value=value):
                 found[name] = found.get(name, 0) | kinds_of(value)
             case ast.Name(id=name, ctx=ast.Store()):
                 found.setdefault(name, 0)
             case ast.AugAssign(target=ast.Name(id=name)) | ast.For(target=ast.Name(id=name)):
                 found[name] = ANY
+    for _ in range(MOST_NAMES_OF_ONE):
+        for name, others in same.items():
+            found[name] = found.get(name, 0) | _all_kinds(found.get(one, 0) for one in others)
     return {name: kinds for name, kinds in found.items() if kinds and name not in names.variables}
+
+
+MOST_NAMES_OF_ONE = 4
+"""So often what is known of one name is said of another that is set to it."""
+
+
+def _all_kinds(kinds: Iterator[int]) -> int:
+    return functools.reduce(operator.or_, kinds, 0)
 
 
 def _note_kinds(tree: ast.Module, kinds: Mapping[str, int]) -> None:

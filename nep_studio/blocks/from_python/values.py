@@ -441,18 +441,28 @@ class ValueReader:
             return None
         made = Made(block_type, groups={"item": max(len(parts), definition.minimum["item"])})
         for number, part in enumerate(parts, 1):
-            match part:
-                case ast.FormattedValue(value=value, conversion=-1, format_spec=None):
-                    told = ast.Call(ast.Name("as_text"), [value], [])
-                    is_there = self.fill(made, f"item.{number}", value)
-                    is_there = is_there or self.fill(made, f"item.{number}", told)
-                case ast.Constant():
-                    is_there = self.fill(made, f"item.{number}", part)
-                case _:
-                    return None
-            if not is_there:
+            is_plain = isinstance(part, ast.Constant) or (
+                isinstance(part, ast.FormattedValue)
+                and part.conversion == -1
+                and part.format_spec is None
+            )
+            if not is_plain or not self._fill_told(made, f"item.{number}", part):
                 return None
         return made, definition.result
+
+    def _fill_told(self, made: Made, key: str, part: ast.expr) -> bool:
+        """Put a part of an f-string into a slot for a text, where any value is told."""
+        if not isinstance(part, ast.FormattedValue):
+            return self.fill(made, key, part)
+        slot, value = self.language.definitions[made.type].slots[split_slot(key)[0]], part.value
+        told = ast.Call(ast.Name(TOLD[0]), [value], [])
+        found = [self.plugged(slot, value), self.plugged(slot, told)]
+        best = min((one for one in found if one), key=lambda one: one.written, default=None)
+        if best is None:
+            return False
+        made.inputs[key] = best
+        made.written += best.written
+        return True
 
     def _converted(self, node: ast.expr) -> tuple[Made, str] | None:
         """The block of a text or a number that is made of the value in it, and its result."""

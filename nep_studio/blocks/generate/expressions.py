@@ -539,8 +539,10 @@ def _part_of_f_string(part: ast.expr) -> str | None:
 
 
 def _is_open(node: ast.AST) -> bool:
-    """Whether a colon or another sign in it would end the value inside the braces."""
-    return isinstance(node, ast.Lambda) or (isinstance(node, Verbatim) and not node.is_closed)
+    """Whether a sign in it may end the value inside the braces: “:”, “!” or “=”."""
+    if isinstance(node, Verbatim) and not node.is_closed:
+        return any(sign in node.text for sign in ":!=")
+    return isinstance(node, ast.Lambda)
 
 
 def _unary(node: ast.UnaryOp) -> tuple[str, int]:
