@@ -43,8 +43,10 @@ def told_in_braces(
     """
     if ours.conversion == _AS_STR:
         return [(ours.value, theirs.value)]
-    formats = ours.conversion, ours.format_spec
-    return [(within(ours.value, TOLD), within(theirs.value, TOLD)), (formats, (-1, None))]
+    pairs: list[tuple[object, object]] = [(within(ours.value, TOLD), within(theirs.value, TOLD))]
+    if not {ours.conversion, theirs.conversion} <= {-1, _AS_STR}:
+        pairs.append((ours.conversion, theirs.conversion))
+    return [*pairs, (ours.format_spec, theirs.format_spec)]
 
 
 def _parts(node: ast.expr) -> Iterator[ast.expr]:

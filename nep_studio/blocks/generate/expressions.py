@@ -303,12 +303,7 @@ class Expressions:
         cost = value_cost(block)
         self._depth += cost
         if self._depth > DEEPEST_VALUE:
-            raise CodeRefused(
-                "Blocks are plugged into blocks too deep: {deepest_value} levels at most.",
-                block=block.id,
-                checklist=("Set a variable to a part of this, and use the variable here.",),
-                deepest_value=DEEPEST_VALUE,
-            )
+            raise _too_deep(block)
         if definition.call is not None:
             node: ast.expr = self.call(block, definition.call)
         else:
@@ -319,6 +314,14 @@ class Expressions:
             if not are(kinds_of(node), result):
                 note(node, result)
         return node
+
+    def require_flat(self, block: Block, node: ast.expr) -> None:
+        """Refuse a value that is too long where its parts are in each other in Python."""
+        level: list[ast.AST] = [node]
+        for _ in range(2 * DEEPEST_VALUE):
+            level = [child for one in level for child in ast.iter_child_nodes(one)]
+        if level:
+            raise _too_deep(block)
 
     def call(self, block: Block, made: Call) -> ast.Call:
         """The call that a block stands for."""
@@ -379,6 +382,15 @@ class Expressions:
 def value_cost(block: Block) -> int:
     """How many levels a value block adds; the parts of a junction may be in each other."""
     return 1 if block.type == JOIN_BLOCK else 1 + sum(block.groups.values())
+
+
+def _too_deep(block: Block) -> CodeRefused:
+    return CodeRefused(
+        "Blocks are plugged into blocks too deep: {deepest_value} levels at most.",
+        block=block.id,
+        checklist=("Set a variable to a part of this, and use the variable here.",),
+        deepest_value=DEEPEST_VALUE,
+    )
 
 
 _MAYBE_OTHERS = frozenset({"own_parameter", "code_value"})
