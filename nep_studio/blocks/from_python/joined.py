@@ -68,9 +68,11 @@ def _is_text(node: ast.expr) -> bool:
 def _values(node: ast.expr) -> list[ast.expr]:
     """A text as parts of an f-string."""
     match node:
-        case ast.JoinedStr(values=values):
-            return list(values)
-        case ast.Constant(value=str()):
+        case ast.JoinedStr(values=values) | ast.FormattedValue(
+            ast.JoinedStr(values=values), -1, None
+        ):
+            return [inner for value in values for inner in _values(value)]
+        case ast.Constant(value=str()) | ast.FormattedValue():
             return [node]
     inner = within(node, TOLD)
     is_block = inner is not node and within(node, ("as_text",)) is inner

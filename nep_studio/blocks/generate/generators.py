@@ -221,9 +221,9 @@ def _join(code: Expressions, block: Block) -> ast.expr:
         return joined
     if not any(map(_is_clear, items)) and not any(code.shows_text(block, key) for key in keys):
         items[0] = code.api_call("as_text", items[0])  # else it would be a sum of numbers
-    joined = reduce(lambda left, right: ast.BinOp(left, ast.Add(), right), items)
-    code.require_flat(block, joined)
-    return joined
+    total = reduce(lambda left, right: ast.BinOp(left, ast.Add(), right), items)
+    code.require_flat(block, total)
+    return total
 
 
 def _is_clear(node: ast.expr) -> bool:
