@@ -30,6 +30,16 @@ if TYPE_CHECKING:
     )
     from .program.messages import tell, told_value
     from .program.robot import Robot, colour_from, mix_colours
+    from .program.tables import (
+        as_table,
+        change_at,
+        has_key,
+        names_in,
+        remove_key,
+        set_at,
+        table_of,
+        value_at,
+    )
     from .program.tasks import (
         at_once,
         end_actions,
@@ -105,6 +115,7 @@ _HOMES = {
         "program.robot": "Robot colour_from mix_colours",
         "program.tasks": "at_once end_actions stop_program stop_rule together wait wait_until",
         "program.timing": "date_today start_timer time_now time_part timer_seconds weekday_today",
+        "program.tables": "as_table change_at has_key names_in remove_key set_at table_of value_at",
         "program.values": "add_item append_text as_list as_number as_text count_from deviation_of "
         "has_item has_part insert_item is_at_least is_at_most is_less is_more is_same item_of "
         "items_between join_items largest_of length_of letter_of list_with mean_of median_of "
@@ -130,6 +141,8 @@ __all__ += ["length_of", "letter_of", "list_with", "mean_of", "median_of", "numb
 __all__ += ["parts_of", "place_in_text", "place_of", "random_whole", "remove_item"]
 __all__ += ["replace_part", "set_item", "smallest_of", "sorted_items", "sum_of", "take_item"]
 __all__ += ["title_case", "to_nearest", "to_power"]
+__all__ += ["as_table", "change_at", "has_key", "names_in", "remove_key", "set_at", "table_of"]
+__all__ += ["value_at"]
 
 
 def __getattr__(name: str) -> Any:

@@ -1,7 +1,7 @@
 """What blocks do with values where Python does something else: docs/language.md says what.
 
-A value is a number, a text, a truth or a list. Nothing becomes another kind by itself; what does
-not fit is a ``ValueRefused``, whose sentence is made where the error is told.
+A value is a number, a text, a truth, a list or a table. Nothing becomes another kind by itself;
+what does not fit is a ``ValueRefused``, whose sentence is made where the error is told.
 
 The arguments stand in the order of the sentence of the block, in which they are worked out.
 """
@@ -69,26 +69,59 @@ def as_text(value: object) -> str:
         return _digits(value)
     if isinstance(value, float):
         return _told_fraction(value)
-    if isinstance(value, list | tuple):
+    if isinstance(value, _DEEP):
         _require_end(value)
-        return _told_items(value)
+        return _told_inside(value)
     return "" if value is None else str(value)
 
 
-def _told_items(items: Sequence[object]) -> str:
-    is_list = (list, tuple)
-    return _enumerated([_told_items(i) if isinstance(i, is_list) else as_text(i) for i in items])
+class TruthKey:
+    """A truth as the key of a table, in which Python takes True for 1."""
+
+    __slots__ = ("value",)
+
+    def __init__(self, value: bool) -> None:
+        self.value = value
+
+    def __repr__(self) -> str:
+        return repr(self.value)
 
 
-def _require_end(items: Sequence[object]) -> None:
-    """Raise ValueRefused for a list through which nobody comes to an end."""
+TRUE_KEY, FALSE_KEY = TruthKey(True), TruthKey(False)
+
+_DEEP = (list, tuple, dict)
+"""What has values in it."""
+
+
+def _told_inside(value: object) -> str:
+    """A value that comes to an end, as it is told to people."""
+    if isinstance(value, dict):
+        entries = list(value.items())  # another rule may set it meanwhile
+        return ", ".join(f"{_told_key(key)}: {_told_inside(held)}" for key, held in entries)
+    if isinstance(value, list | tuple):
+        return _enumerated([_told_inside(item) for item in value])
+    return as_text(value)
+
+
+def _told_key(key: object) -> str:
+    return as_text(key.value if isinstance(key, TruthKey) else key)
+
+
+def _values_in(value: Any) -> list[Any]:
+    return list(value.values() if isinstance(value, dict) else value)
+
+
+def _require_end(items: object) -> None:
+    """Raise ValueRefused for a list or a table through which nobody comes to an end."""
     level, seen = [items], 0
     for _ in range(DEEPEST_LIST):
         seen += len(level)
         if not level or seen > MOST_LISTS:
             break
-        level = [one for many in level for one in many if isinstance(one, list | tuple)]
+        level = [one for many in level for one in _values_in(many) if isinstance(one, _DEEP)]
     if level:
+        if isinstance(items, dict):
+            refuse("This table goes too deep: perhaps it is kept in itself.", LOOK, SHOW_VALUES)
         refuse("This list goes too deep: perhaps it is an item of itself.", LOOK, CHECK_LIST)
 
 
@@ -151,6 +184,7 @@ _KINDS: tuple[tuple[type | tuple[type, ...], Text], ...] = (
     ((int, float), Text("a number")),
     (str, Text("a text")),
     ((list, tuple), Text("a list")),
+    (dict, Text("a table")),
     (type(None), Text("nothing")),
 )
 
@@ -166,9 +200,11 @@ def shown(value: Any) -> str:
         text = f"“{value[: LONGEST + 1]}”"
     elif _is_number(value) and not -(10**LONGEST) < value < 10**LONGEST:
         return "…"
-    elif isinstance(value, list):
+    elif isinstance(value, list | dict):
         try:
-            text = as_text(value[:LONGEST]) or "[]"
+            is_list = isinstance(value, list)
+            some = value[:LONGEST] if is_list else dict(list(value.items())[:LONGEST])
+            text = as_text(some) or ("[]" if is_list else "{}")
         except ValueRefused:
             return "…"
     else:
@@ -177,7 +213,8 @@ def shown(value: Any) -> str:
     return text if len(text) <= LONGEST + 2 else f"{text[:LONGEST]}…"
 
 
-def _noun(value: object) -> Text:
+def noun_of(value: object) -> Text:
+    """What kind of value it is, in plain words."""
     return next((noun for kind, noun in _KINDS if isinstance(value, kind)), Text("something else"))
 
 
@@ -197,7 +234,7 @@ def as_number(value: Any) -> Number:
         LOOK,
         CONVERT,
         value=shown(value),
-        noun=_noun(value),
+        noun=noun_of(value),
     )
 
 
@@ -210,7 +247,7 @@ def as_list(value: Any) -> list[Any]:
         LOOK,
         PUT_LIST,
         value=shown(value),
-        noun=_noun(value),
+        noun=noun_of(value),
     )
 
 
@@ -236,7 +273,7 @@ def is_same(a: Any, b: Any) -> bool:
     """Whether two values are of one kind and equal; 1 is neither true nor the text "1"."""
     if isinstance(a, bool) or isinstance(b, bool):
         return a is b
-    if isinstance(a, list) and isinstance(b, list):
+    if _are_deep(a, b):
         if a is b or len(a) != len(b):
             return a is b
         _require_end(a)
@@ -244,12 +281,21 @@ def is_same(a: Any, b: Any) -> bool:
     return bool(a == b)
 
 
-def _have_same(a: list[Any], b: list[Any]) -> bool:
-    pairs = zip(a, b, strict=False)
-    is_deep = [isinstance(one, list) and isinstance(other, list) for one, other in pairs]
-    return len(a) == len(b) and all(
-        _have_same(one, other) if deep else is_same(one, other)
-        for one, other, deep in zip(a, b, is_deep, strict=True)
+def _are_deep(a: Any, b: Any) -> bool:
+    """Whether both are lists, or both are tables."""
+    return any(isinstance(a, kind) and isinstance(b, kind) for kind in (list, dict))
+
+
+def _have_same(a: Any, b: Any) -> bool:
+    """Whether two lists, or two tables, have the same in them, and come to an end."""
+    if len(a) != len(b) or (isinstance(a, dict) and a.keys() != b.keys()):
+        return False
+    pairs = (
+        [(a[key], b[key]) for key in list(a)] if isinstance(a, dict) else zip(a, b, strict=False)
+    )
+    return all(
+        _have_same(one, other) if _are_deep(one, other) else is_same(one, other)
+        for one, other in pairs
     )
 
 
@@ -282,8 +328,8 @@ def _comparable(a: Any, b: Any) -> bool:
         CONVERT,
         left=shown(a),
         right=shown(b),
-        noun=_noun(a),
-        result=_noun(b),
+        noun=noun_of(a),
+        result=noun_of(b),
     )
 
 
@@ -428,8 +474,8 @@ def _numbers(items: Any, least: int = 0) -> list[Number]:
 
 
 def length_of(value: Any) -> int:
-    """How many items a list has; else with how many letters the value is told."""
-    return len(value) if isinstance(value, list) else len(as_text(value))
+    """How much a list or a table has in it; else with how many letters the value is told."""
+    return len(value) if isinstance(value, list | dict) else len(as_text(value))
 
 
 def letter_of(number: Any, text: str) -> str:
@@ -542,9 +588,10 @@ def place_of(item: Any, items: Any) -> int:
 
 
 def list_with(item: Any, times: Any) -> list[Any]:
-    """A list of a value so many times, rounded; a list is copied for each place."""
+    """A list of a value so many times, rounded; a list or a table is copied for each place."""
     count = max(to_nearest(times), 0)
-    return [list(item) if isinstance(item, list) else item for _ in range(count)]
+    copied = type(item) if isinstance(item, list | dict) else None
+    return [item if copied is None else copied(item) for _ in range(count)]
 
 
 def sorted_items(items: Any, reverse: bool = False) -> list[Any]:

@@ -19,8 +19,9 @@ from .program import Block, Project
 
 TOGETHER, CODE_LINES, VARIABLE = "control.together", "code.lines", "variable.get"
 CHANGING_LISTS = frozenset({"list.add", "list.set", "list.insert", "list.remove", "list.take"})
+CHANGING_TABLES = frozenset({"table.set", "table.take", "table.change"})
 RESIZING_LISTS = CHANGING_LISTS - {"list.set"}
-LIST_SLOT = "list"
+LIST_SLOT, TABLE_SLOT = "list", "table"
 
 Path = tuple[tuple[str, str], ...]
 """The parts of “do together” around a block, from the outermost to the innermost: block, slot."""
@@ -84,7 +85,7 @@ def look_at(project: Project, language: Language, chain: list[str]) -> Iterator[
         if block.disabled or definition is None:
             continue
         takes_time = takes_time or waits(definition, block)
-        if "variable" in block.fields or block.type in CHANGING_LISTS:
+        if "variable" in block.fields or block.type in CHANGING_LISTS | CHANGING_TABLES:
             for variable in variables_set(project, language, block):
                 sets[variable].add(path)
         if block.type in CHANGING_LISTS:
@@ -116,19 +117,20 @@ def look_at(project: Project, language: Language, chain: list[str]) -> Iterator[
 
 
 def variables_set(project: Project, language: Language, block: Block) -> Iterator[str]:
-    """The variables into which a block puts something, or into whose lists."""
+    """The variables into which a block puts something, or into whose lists or tables."""
     definition = language.definitions[block.type]
-    if block.type in CHANGING_LISTS:
-        held = _held(project, block)
+    if block.type in CHANGING_LISTS | CHANGING_TABLES:
+        slot = LIST_SLOT if block.type in CHANGING_LISTS else TABLE_SLOT
+        held = _held(project, block, slot)
         if held is not None and held.type == VARIABLE:
             yield str(held.fields.get("variable", ""))
     elif not definition.is_value and "variable" in definition.slots:
         yield str(block.fields.get("variable", ""))
 
 
-def _held(project: Project, block: Block) -> Block | None:
-    """The block in the place of the list that a block changes, or None."""
-    held = project.blocks.get(block.inputs.get(LIST_SLOT, ""))
+def _held(project: Project, block: Block, slot: str = LIST_SLOT) -> Block | None:
+    """The block in the place of the list, or of the table, that a block changes, or None."""
+    held = project.blocks.get(block.inputs.get(slot, ""))
     return None if held is None or held.disabled else held
 
 

@@ -50,6 +50,7 @@ RESULTS = {
     "text": "a text",
     "boolean": "yes or no",
     "list": "a list",
+    "table": "a table",
     "colour": "a colour",
     "any": "any value",
 }
@@ -63,6 +64,7 @@ RESULT_SHAPES: dict[str, SlotShape] = {
     "text": "square",
     "boolean": "hexagon",
     "list": "bracket",
+    "table": "bracket",
     "colour": "pill",
     "any": "pill",
 }
@@ -459,6 +461,17 @@ KINDS: dict[str, Kind] = {
             missing=Text("a list is missing."),
             advice="Put a list or a variable into the slot.",
             hint="list",
+        ),
+        Kind(
+            "table",
+            "a table",
+            "bracket",
+            frozenset({"table", "any"}),
+            typed=False,
+            of_nothing=lambda: ast.Dict([], []),
+            missing=Text("a table is missing."),
+            advice="Put a table or a variable into the slot.",
+            hint="table",
         ),
         Kind(
             "any",

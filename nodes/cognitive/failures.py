@@ -10,6 +10,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from itertools import islice
 from types import FrameType, TracebackType
+from typing import Any
 
 from faults import Fault, Text, Words, fault_of
 from nep_core.errors import NepError
@@ -25,6 +26,7 @@ _KINDS = {
     "str": "a text",
     "list": "a list",
     "tuple": "a list",
+    "dict": "a table",
     "bool": "true or false",
     "NoneType": "nothing",
     "Robot": "a robot",
@@ -35,7 +37,7 @@ _SIGNS: dict[type[ast.operator], str] = {
     ast.Add: "+", ast.Sub: "-", ast.Mult: "*", ast.Div: "/", ast.FloorDiv: "//", ast.Mod: "%",
     ast.Pow: "**",
 }  # fmt: skip
-_PLAIN = (int, float, str, bool, list, tuple, type(None))
+_PLAIN = (int, float, str, bool, list, tuple, dict, type(None))
 
 
 class _Unknown(Exception):
@@ -81,6 +83,7 @@ def _values(node: ast.AST, frame: FrameType) -> dict[str, Words]:
             return _sides(left, right, frame)
         case (
             ast.Subscript(value=items, slice=index)
+            | ast.Delete(targets=[ast.Subscript(value=items, slice=index)])
             | ast.Call(func=ast.Attribute(value=items, attr="pop"), args=[index])
         ):
             return _place(items, index, frame)
@@ -100,6 +103,10 @@ def _sides(left: ast.expr, right: ast.expr, frame: FrameType) -> dict[str, Words
 def _place(items: ast.expr, index: ast.expr, frame: FrameType) -> dict[str, Words]:
     """Which item of what was asked for; counted from 1, as blocks do."""
     held, asked = _value(items, frame), _value(index, frame)
+    if isinstance(held, dict):
+        return {"name": _in_words(items), "value": shown(asked)}
+    if isinstance(asked, str):
+        return {"value": shown(asked)}
     if not isinstance(held, list | tuple | str) or type(asked) is not int:
         raise _Unknown
     number = {"number": str(asked + 1)} if asked >= 0 else {"number_from_end": str(-asked)}
@@ -118,6 +125,8 @@ def _value(node: ast.expr, frame: FrameType) -> object:
             return value
         case ast.Name(id=name):
             return _named(name, frame)
+        case ast.Subscript(value=items, slice=index):
+            return _kept(_value(items, frame), _value(index, frame))
         case ast.UnaryOp(op=ast.USub(), operand=operand):
             return -_number(operand, frame)
         case ast.BinOp(left=left, op=ast.Add(), right=right):
@@ -126,6 +135,15 @@ def _value(node: ast.expr, frame: FrameType) -> object:
             return _number(left, frame) - _number(right, frame)
         case ast.Call(func=ast.Name(id="int"), args=[inner], keywords=[]):
             return int(_number(inner, frame))
+    raise _Unknown
+
+
+def _kept(items: Any, key: object) -> object:
+    """What a list or a table has at a place; LookupError where there is nothing."""
+    if type(items) not in (list, tuple, dict) or type(key) not in (str, int, float, bool):
+        raise _Unknown
+    if type(found := items[key]) in _PLAIN:
+        return found
     raise _Unknown
 
 
@@ -162,6 +180,9 @@ ASK_EMPTY = "Ask first whether the list is empty."
 CHECK_LIST = "Check what the list holds at that moment."
 CHECK_NUMBER = "Check the number: the first item is number 1."
 GIVE_FIRST = "Give the variable a value where the program starts."
+ASK_FIRST = "Ask first whether the table has it."
+TAKE_OTHERWISE = "Or take the block that says what to give if it is not there."
+USE_NAME = "Use a text or a number as the name of what is kept."
 CHECK_NAME = "Check the spelling of the name."
 TEST_ZERO = "Ask with an “if” whether it is zero before you divide."
 CHECK_RANGE = "Check that the first number is not larger than the second."
@@ -240,6 +261,12 @@ SENTENCES = (
     ),
     Explanation(
         KeyError,
+        "",
+        "The table “{name}” has nothing at {value}.",
+        (ASK_FIRST, TAKE_OTHERWISE),
+    ),
+    Explanation(
+        KeyError,
         "(?P<text>.+)",
         "Nothing is kept under the name {text}.",
         (CHECK_NAME, "Keep something under this name first."),
@@ -291,8 +318,27 @@ SENTENCES = (
     ),
     Explanation(
         TypeError,
+        r"unhashable type: '(?P<noun>\w+)'",
+        "Nothing can be kept under {noun}.",
+        (LOOK, USE_NAME),
+    ),
+    Explanation(
+        TypeError,
+        "not subscriptable|support item|indices must be integers",
+        "There is no table here that could have {value}.",
+        (LOOK, "Put a table into this place."),
+    ),
+    Explanation(
+        TypeError,
+        r"(list|string|tuple) indices must be integers.* not '?str",
+        "A table belongs here, and this is something else.",
+        (LOOK, "Put a table into this place."),
+    ),
+    Explanation(
+        TypeError,
         r"'(?P<noun>\w+)' object is not (iterable|subscriptable|reversible)|"
-        r"object of type '(?P<result>\w+)' has no len",
+        r"object of type '(?P<result>\w+)' has no len|"
+        r"object (does not|doesn't) support item",
         "A list belongs here, and this is something else.",
         (LOOK, "Put a list into this place."),
     ),

@@ -21,7 +21,7 @@ PARTS_OF_PROGRAMS = {
     *("pi", "e", "tau", "sqrt", "log", "log10", "exp", "radians", "degrees", "ceil", "floor"),
     *("sin", "cos", "tan", "asin", "acos", "atan"),
     *("append", "index", "insert", "join", "pop", "reverse", "split"),
-    *("find", "lower", "replace", "title", "upper"),
+    *("find", "get", "lower", "replace", "title", "upper", "values"),
 }
 HATS_AND_ROBOTS = {
     *("at", "days", "every", "when_told", "wait"),

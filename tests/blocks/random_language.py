@@ -18,7 +18,8 @@ from nep_studio.blocks.places import InStack
 from nep_studio.blocks.program import LANGUAGE, LANGUAGES, Parameter, Project
 
 NAMES = ["count", "number", "list", "item", "total", "score", "i", "name", "größe", "text", "max"]
-KINDS = ["number", "number", "number", "text", "text", "list", "list", "boolean", "any"]
+KINDS = ["number", "number", "number", "text", "text", "list", "list", "boolean", "any", "table"]
+KEYS = ["Anna", "Ben", "a", 1, 2, "12"]
 TEXTS = [
     "",
     "a",
@@ -64,6 +65,7 @@ class Maker:
         self.editor = Editor(Project(f"Program {seed}"), language)
         names = self.dice.sample(NAMES, self.dice.randint(4, 6))
         kinds = ["number", "text", "list", "any", *self.dice.choices(KINDS, k=2)]
+        kinds[4] = "table" if self._chance(0.4) else kinds[4]
         self.kinds = {
             self.editor.add_variable(name): kind for name, kind in zip(names, kinds, strict=False)
         }
@@ -111,7 +113,7 @@ class Maker:
     # Own blocks
 
     def _procedure(self, number: int) -> Procedure:
-        kinds = self.dice.choices(["number", "text", "any", "list", "boolean"], k=2)
+        kinds = self.dice.choices(["number", "text", "any", "list", "boolean", "table"], k=2)
         given = [
             self.editor.new_parameter(name, kind)
             for name, kind in zip(self.dice.sample(["n", "who", "count"], 2), kinds, strict=True)
@@ -211,6 +213,8 @@ class Maker:
     def _statement(self) -> B:
         choices = [self._say, self._say, self._set, self._set, self._change, self._append]
         choices += [self._list_statement, self._list_statement]
+        if "table" in self.kinds.values():
+            choices += [self._table_statement, self._table_statement]
         if self.where.depth < DEEPEST:
             choices += [self._if, self._repeat, self._count, self._for_each, self._parts]
             choices += [self._while, self._two_names, self._try]
@@ -235,6 +239,7 @@ class Maker:
     def _begin(self, variable: str) -> B:
         """A variable gets what it mostly holds, and nothing that could fail."""
         makers = {"number": self._typed_number, "text": self._typed_text, "list": self._typed_list}
+        makers["table"] = self._typed_table
         value = makers.get(self.kinds[variable], self._typed)()
         return B("variable.set", {"variable": variable}, {"value": value})
 
@@ -264,6 +269,15 @@ class Maker:
                 inputs = {"list": self._list_variable(), "value": self._any(), "number": place}
                 return B("list.insert", {"end": end}, inputs)
         return B("list.remove", {"end": end}, {"list": self._list_variable(), "number": place})
+
+    def _table_statement(self) -> B:
+        inputs = {"table": self._table_variable(), "key": self._key()}
+        match self.dice.randint(0, 4):
+            case 0 | 1:
+                return B("table.set", inputs={**inputs, "value": self._any()})
+            case 2 | 3:
+                return B("table.change", inputs={**inputs, "amount": self._number()})
+        return B("table.take", inputs=inputs)
 
     def _if(self) -> B:
         groups = {"also": self.dice.randint(0, 1), "otherwise": self.dice.randint(0, 1)}
@@ -354,6 +368,7 @@ class Maker:
 
     def _of(self, kind: str) -> B:
         makers = {"number": self._number, "text": self._text, "list": self._list}
+        makers["table"] = self._table
         return {**makers, "boolean": self._boolean}.get(kind, self._any)()
 
     def _get(self, kind: str) -> B:
@@ -379,6 +394,8 @@ class Maker:
         giving = [p for p in self._known() if p.gives_value]
         if giving and self._chance(0.5):
             return self._call(self.dice.choice(giving))
+        if "table" in self.kinds.values() and self._chance(0.4):
+            return self._at()
         if self._chance(0.5):
             return self._item()
         inputs = {"a": self._leaf(), "b": self._leaf(), "condition": self._boolean()}
@@ -392,6 +409,46 @@ class Maker:
         kind = "list.get" if self._chance(0.8) else "list.take"
         inputs = {"number": self._place(), "list": self._list_variable()}
         return B(kind, {"end": self.dice.choice(["start", "end"])}, inputs)
+
+    def _table_variable(self) -> B:
+        return self._get("table") if self._chance(0.98) else self._get("any")
+
+    def _table(self) -> B:
+        if self._chance(0.6):
+            return self._table_variable()
+        if self._chance(0.3):
+            return B("table.copy", inputs={"table": self._table_variable()})
+        return self._typed_table()
+
+    def _typed_table(self) -> B:
+        """A table of up to three keys, mostly texts, with values that are mostly typed."""
+        count = self.dice.randint(0, 3)
+        make = self._typed if self._chance(0.8) or not self._deeper() else self._any
+        entries = [(self._typed_key(), make()) for _ in range(count)]
+        inputs = {f"key.{n}": key for n, (key, _) in enumerate(entries, 1)}
+        inputs |= {f"value.{n}": value for n, (_, value) in enumerate(entries, 1)}
+        return B("table.create", inputs=inputs, groups={"entry": count})
+
+    def _typed_key(self) -> B:
+        if self._chance(0.05):
+            return B("logic.truth", {"truth": self.dice.choice(["true", "false"])})
+        key = self.dice.choice(KEYS)
+        kind = "text" if isinstance(key, str) else "number"
+        return B("text.text", {kind: key}) if kind == "text" else B("math.number", {kind: key})
+
+    def _key(self) -> B:
+        if self._chance(0.03):
+            return self._any()
+        return (
+            self._get(self.dice.choice(["text", "any"])) if self._chance(0.2) else self._typed_key()
+        )
+
+    def _at(self) -> B:
+        """What a table has at a key, mostly so that it need not be there."""
+        inputs = {"table": self._table_variable(), "key": self._key()}
+        if self._chance(0.3):
+            return B("table.get", inputs=inputs)
+        return B("table.get_or", inputs={**inputs, "otherwise": self._leaf()})
 
     def _typed_number(self) -> B:
         return B("math.number", {"number": self.dice.choice(NUMBERS)})
@@ -469,9 +526,9 @@ class Maker:
                 fields = {"function": self.dice.choice(functions)}
                 return B("math.of_list", fields, {"list": self._numbers()})
             case 8:
-                kind = self.dice.choice(["text.length", "list.length"])
+                kind = self.dice.choice(["text.length", "list.length", "table.length"])
                 key = kind.partition(".")[0]
-                return B(kind, inputs={key: self._text() if key == "text" else self._list()})
+                return B(kind, inputs={key: self._of(key)})
             case 9:
                 return B("list.find", inputs={"item": self._any(), "list": self._list()})
             case 10:
@@ -518,7 +575,7 @@ class Maker:
         if not self._deeper():
             return self._list_variable()
         self.where.depth += 1
-        made = self._list_block(self.dice.randint(0, 7))
+        made = self._list_block(self.dice.randint(0, 9))
         self.where.depth -= 1
         return made
 
@@ -539,6 +596,11 @@ class Maker:
                 return B("list.sorted", {"order": order}, {"list": self._numbers()})
             case 6:
                 return B("list.split", inputs={"text": self._text(), "mark": self._leaf()})
+            case 7:
+                return B("list.copy", inputs={"list": self._list()})
+            case 8 if "table" in self.kinds.values():
+                kind = self.dice.choice(["table.names", "table.values"])
+                return B(kind, inputs={"table": self._table()})
         return B("list.reversed", inputs={"list": self._list()})
 
     def _boolean(self) -> B:
@@ -549,7 +611,7 @@ class Maker:
                 return B("logic.truth", {"truth": self.dice.choice(["true", "false"])})
             return self._get("boolean" if self._chance(0.8) else "any")
         self.where.depth += 1
-        made = self._boolean_block(self.dice.randint(0, 11))
+        made = self._boolean_block(self.dice.randint(0, 12))
         self.where.depth -= 1
         return made
 
@@ -585,6 +647,10 @@ class Maker:
                 return B("text.is_empty", inputs={"text": self._text()})
             case 10:
                 return B("list.is_empty", inputs={"list": self._list()})
+            case 11 if "table" in self.kinds.values():
+                if self._chance(0.3):
+                    return B("table.is_empty", inputs={"table": self._table()})
+                return B("table.has", inputs={"table": self._table(), "key": self._key()})
         inputs = {"number": self._number(), "divisor": self._positive()}
         return B("logic.divisible", inputs=inputs)
 

@@ -21,6 +21,7 @@ from reference_values import (
     OF_LIST,
     PROPERTIES,
     GivenUp,
+    Table,
     Value,
     Wrong,
     divisor_of,
@@ -34,6 +35,7 @@ from reference_values import (
     place,
     rounded,
     spoken,
+    table,
     told,
     whole,
 )
@@ -109,8 +111,9 @@ class Interpreter:
     def _first(self, variable: str) -> Value:
         """What a variable holds before it is set."""
         blocks = self._blocks()
-        if any(variable in self._taken_for_lists(block) for block in blocks):
-            return []
+        for kind_of_place, empty in (("list", list), ("table", Table)):
+            if any(variable in self._taken_for(kind_of_place, block) for block in blocks):
+                return empty()
         appended = [b.fields.get("variable") for b in blocks if b.type == "text.append"]
         if variable in appended:
             return ""
@@ -126,10 +129,12 @@ class Interpreter:
         result = self.language.definitions[plugged.type].result
         return {"text": "text", "colour": "text", "boolean": "truth"}.get(result, "number")
 
-    def _taken_for_lists(self, block: Block) -> set[str]:
-        """The variables that stand in the places for lists of a block."""
+    def _taken_for(self, kind_of_place: str, block: Block) -> set[str]:
+        """The variables that stand in the places for lists, or for tables, of a block."""
         keys = self.language.definitions[block.type].keys(block.groups)
-        plugged = [self._plugged(block, key) for key, slot in keys if slot.kind.name == "list"]
+        plugged = [
+            self._plugged(block, key) for key, slot in keys if slot.kind.name == kind_of_place
+        ]
         return {str(b.fields.get("variable")) for b in plugged if b and b.type == "variable.get"}
 
     def _variables_of_calls(self) -> dict[str, set[str]]:
@@ -197,7 +202,7 @@ class Interpreter:
     def set(self, variable: str, value: Value) -> None:
         if isinstance(value, int) and abs(value) > 10**300:
             raise GivenUp
-        if isinstance(value, str | list) and len(value) > 2_000:
+        if isinstance(value, str | list | Table) and len(value) > 2_000:
             raise GivenUp
         self._place_of_variable(variable)[variable] = value
 
@@ -219,11 +224,13 @@ class Interpreter:
                 return value if block.type in _AS_IT_IS else told(value)
             if slot.kind.name == "list":
                 return items_of(value)
+            if slot.kind.name == "table":
+                return table(value)
             return number(value) if slot.kind.is_number else value
         if slot.kind.name == "boolean":
             return False
-        if slot.kind.name == "list":
-            return []
+        if slot.kind.name in ("list", "table"):
+            return [] if slot.kind.name == "list" else Table()
         field = definition.value(block, key)
         if slot.kind.is_number:
             return number_of(field)  # type: ignore[arg-type]
@@ -247,7 +254,7 @@ class Interpreter:
         if block.type.startswith("my.call."):
             return self._call(block)
         value = REPORTERS[block.type](self, block)
-        if isinstance(value, str | list) and len(value) > MOST_STEPS:
+        if isinstance(value, str | list | Table) and len(value) > MOST_STEPS:
             raise GivenUp
         if isinstance(value, float) and not (math.isfinite(value) and abs(value) < LARGEST):
             raise GivenUp
@@ -357,6 +364,7 @@ _AS_KIND: dict[str, Callable[[Value], Value]] = {
     "text": _text,
     "boolean": is_yes,
     "list": items_of,
+    "table": table,
     "any": lambda value: value,
 }
 _AS_IT_IS = ("text.length", "text.is_empty")
@@ -417,7 +425,7 @@ def _random_item(run: Interpreter, block: Block) -> Value:
 
 
 def _length(value: Value) -> int:
-    return len(value) if isinstance(value, list) else len(told(value))
+    return len(value) if isinstance(value, list | Table) else len(told(value))
 
 
 def _letter(run: Interpreter, block: Block) -> Value:
@@ -446,7 +454,9 @@ def _filled(run: Interpreter, block: Block) -> Value:
     item, times = run.slot(block, "item"), rounded(run.slot(block, "times"))
     if times > 500:
         raise GivenUp
-    return [list(item) if isinstance(item, list) else item for _ in range(times)]
+    if isinstance(item, list | Table):
+        return [item.copy() for _ in range(times)]
+    return [item] * times
 
 
 def _contains(run: Interpreter, block: Block) -> Value:
@@ -497,6 +507,51 @@ def _split(run: Interpreter, block: Block) -> Value:
 def _joined(run: Interpreter, block: Block) -> Value:
     items, mark = items_of(run.slot(block, "list")), str(run.slot(block, "mark"))
     return mark.join(map(told, items))
+
+
+def _table(run: Interpreter, block: Block) -> Value:
+    made = Table()
+    numbers = range(1, block.groups.get("entry", 0) + 1)
+    for key, value in [
+        (run.slot(block, f"key.{n}"), run.slot(block, f"value.{n}")) for n in numbers
+    ]:
+        made.put(key, value)
+    return made
+
+
+def _at_key(run: Interpreter, block: Block) -> Value:
+    held = table(run.slot(block, "table"))
+    return held.at(run.slot(block, "key"))
+
+
+def _at_key_or(run: Interpreter, block: Block) -> Value:
+    held, key = table(run.slot(block, "table")), run.slot(block, "key")
+    otherwise = run.slot(block, "otherwise")
+    return otherwise if held.place(key) is None else held.at(key)
+
+
+def _has_key(run: Interpreter, block: Block) -> Value:
+    held = table(run.slot(block, "table"))
+    return held.place(run.slot(block, "key")) is not None
+
+
+def _set_key(run: Interpreter, block: Block) -> None:
+    held, key = table(run.slot(block, "table")), run.slot(block, "key")
+    held.put(key, run.slot(block, "value"))
+
+
+def _take_key(run: Interpreter, block: Block) -> None:
+    key = run.slot(block, "key")
+    table(run.slot(block, "table")).remove(key)
+
+
+def _change_key(run: Interpreter, block: Block) -> None:
+    held, key = table(run.slot(block, "table")), run.slot(block, "key")
+    amount = number(run.slot(block, "amount"))
+    before = 0 if held.place(key) is None else number(held.at(key))
+    if abs(before) > LARGEST:
+        raise GivenUp
+    held.put(key, before + amount)
 
 
 REPORTERS: dict[str, Callable[[Interpreter, Block], Value]] = {
@@ -551,10 +606,20 @@ REPORTERS: dict[str, Callable[[Interpreter, Block], Value]] = {
     "list.part": _part,
     "list.sorted": _sorted,
     "list.reversed": lambda run, block: items_of(run.slot(block, "list"))[::-1],
+    "list.copy": lambda run, block: list(items_of(run.slot(block, "list"))),
     "list.split": _split,
     "list.joined": _joined,
     "event.told_value": lambda run, block: run.told_value(),
     "control.went_wrong": lambda run, block: run.wrong[-1] if run.wrong else "",
+    "table.create": _table,
+    "table.get": _at_key,
+    "table.get_or": _at_key_or,
+    "table.has": _has_key,
+    "table.names": lambda run, block: list(table(run.slot(block, "table")).keys),
+    "table.values": lambda run, block: list(table(run.slot(block, "table")).values),
+    "table.length": lambda run, block: len(table(run.slot(block, "table"))),
+    "table.is_empty": lambda run, block: len(table(run.slot(block, "table"))) == 0,
+    "table.copy": lambda run, block: table(run.slot(block, "table")).copy(),
 }
 
 
@@ -721,5 +786,8 @@ STATEMENTS: dict[str, Callable[[Interpreter, Block], None]] = {
     "list.set": _set_item,
     "list.insert": _insert,
     "list.remove": _remove,
+    "table.set": _set_key,
+    "table.change": _change_key,
+    "table.take": _take_key,
     "my.return": _give_back,
 }

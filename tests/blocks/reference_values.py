@@ -10,7 +10,50 @@ import re
 from collections.abc import Callable
 from fractions import Fraction
 
-Value = int | float | str | bool | list
+
+class Table:
+    """Keys with values, in the order of first setting."""
+
+    def __init__(self) -> None:
+        self.keys: list = []
+        self.values: list = []
+
+    def __len__(self) -> int:
+        return len(self.keys)
+
+    def place(self, key: Value) -> int | None:
+        """Where a key is, or None."""
+        if isinstance(key, list | Table):
+            raise Wrong("no key")
+        return next((n for n, one in enumerate(self.keys) if equal(one, key)), None)
+
+    def at(self, key: Value) -> Value:
+        found = self.place(key)
+        if found is None:
+            raise Wrong("nothing there")
+        return self.values[found]
+
+    def put(self, key: Value, value: Value) -> None:
+        found = self.place(key)
+        if found is None:
+            self.keys.append(key)
+            self.values.append(value)
+        else:
+            self.values[found] = value
+
+    def remove(self, key: Value) -> None:
+        found = self.place(key)
+        if found is None:
+            raise Wrong("nothing there")
+        del self.keys[found], self.values[found]
+
+    def copy(self) -> Table:
+        other = Table()
+        other.keys, other.values = list(self.keys), list(self.values)
+        return other
+
+
+Value = int | float | str | bool | list | Table
 
 MOST_STEPS = 4_000
 MOST_CALLS = 40
@@ -44,7 +87,7 @@ spoken = ["en"]
 
 def told(value: Value) -> str:
     """A value as a text."""
-    if isinstance(value, list):
+    if isinstance(value, list | Table):
         _require_small(value)
     true, false, last, between, mark = WORDS[spoken[0]]
     if isinstance(value, bool):
@@ -54,6 +97,9 @@ def told(value: Value) -> str:
     if isinstance(value, list):
         items = [told(item) for item in value]
         return last.join([between.join(items[:-1]), items[-1]]) if items[1:] else "".join(items)
+    if isinstance(value, Table):
+        entries = zip(value.keys, value.values, strict=True)
+        return ", ".join(f"{told(key)}: {told(held)}" for key, held in entries)
     return _digits(value).replace(".", mark)
 
 
@@ -74,33 +120,40 @@ def is_yes(value: Value) -> bool:
     """Whether a value counts as yes in a condition."""
     if isinstance(value, bool):
         return value
-    return len(value) > 0 if isinstance(value, str | list) else value != 0
+    return len(value) > 0 if isinstance(value, str | list | Table) else value != 0
 
 
 def kind(value: Value) -> str:
     if isinstance(value, bool):
         return "truth"
-    return {str: "text", list: "list"}.get(type(value), "number")
+    return {str: "text", list: "list", Table: "table"}.get(type(value), "number")
 
 
-def _require_small(value: list) -> None:
-    """Give up on lists that are in each other so often that nobody can go through them."""
+def _require_small(value: list | Table) -> None:
+    """Give up on what is in each other so often that nobody can go through it."""
     left, seen = [value], 0
     while left:
-        items = left.pop()
+        found = left.pop()
+        items = found.values if isinstance(found, Table) else found
         seen += len(items)
         if seen > MOST_STEPS:
             raise GivenUp
-        left += [item for item in items if isinstance(item, list)]
+        left += [item for item in items if isinstance(item, list | Table)]
 
 
 def equal(one: Value, other: Value) -> bool:
-    if isinstance(one, list) and isinstance(other, list):
+    if isinstance(one, list | Table) and kind(one) == kind(other):
         _require_small(one)
     if kind(one) != kind(other):
         return False
     if isinstance(one, list) and isinstance(other, list):
         return len(one) == len(other) and all(map(equal, one, other))
+    if isinstance(one, Table) and isinstance(other, Table):
+        places = [other.place(key) for key in one.keys]
+        return len(one) == len(other) and all(
+            place is not None and equal(held, other.values[place])
+            for held, place in zip(one.values, places, strict=True)
+        )
     return one == other
 
 
@@ -130,6 +183,12 @@ def rounded(value: Value) -> int:
 def items_of(value: Value) -> list:
     if not isinstance(value, list):
         raise Wrong("a list is needed")
+    return value
+
+
+def table(value: Value) -> Table:
+    if not isinstance(value, Table):
+        raise Wrong("a table is needed")
     return value
 
 

@@ -48,7 +48,7 @@ def when_gesture_karate():
     def part_2():
         global times
         times += 1
-        nao.say("Karate number " + str(times))
+        nao.say(f"Karate number {times}")
 
     together(part_1, part_2)
 
@@ -240,7 +240,7 @@ def test_the_deepest_values_that_are_allowed_compile_and_deeper_ones_are_refused
     def nested(depth):
         if kind == "join":
             value = B("sensing.human_state")
-            for _ in range(depth // 3 - 1):
+            for _ in range(depth - 1):
                 value = B("text.join", inputs={"item.2": value})
             return B("robot.say", inputs={"text": value})
         value = number(-1) if kind == "arithmetic" else B("logic.truth")

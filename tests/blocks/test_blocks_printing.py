@@ -9,7 +9,7 @@ from hostile import texts
 from hypothesis import given
 from hypothesis import strategies as st
 
-from nep_studio.blocks.generate.expressions import literal, show
+from nep_studio.blocks.generate.expressions import f_string, literal, show
 from nep_studio.blocks.generate.names import RESERVED, NameTable, python_name
 
 NAMES = st.sampled_from(["a", "nao", "größe", "x_2"])
@@ -25,6 +25,15 @@ COMPARISON = st.sampled_from(SIGNS).map(lambda k: k())
 NO_ARGUMENTS = ast.arguments([], [], None, [], [], None, [])
 
 
+def table(entries: list[tuple[ast.expr, ast.expr]]) -> ast.expr:
+    return ast.Dict([key for key, _ in entries], [value for _, value in entries])
+
+
+def joined(parts: list[ast.expr]) -> ast.expr:
+    """An f-string, where Python 3.11 can write it."""
+    return f_string(parts) or parts[0]
+
+
 def larger(inner: st.SearchStrategy[ast.expr]) -> st.SearchStrategy[ast.expr]:
     two_or_three = st.lists(inner, min_size=2, max_size=3)
     keywords = st.lists(st.builds(ast.keyword, NAMES, inner), max_size=2)
@@ -38,6 +47,8 @@ def larger(inner: st.SearchStrategy[ast.expr]) -> st.SearchStrategy[ast.expr]:
         st.builds(ast.Call, inner, st.lists(inner, max_size=3), keywords),
         st.builds(ast.Attribute, inner, NAMES),
         st.builds(ast.List, st.lists(inner, max_size=3)),
+        st.lists(st.tuples(inner, inner), max_size=3).map(table),
+        st.lists(inner, min_size=1, max_size=4).map(joined),
         st.builds(lambda body: ast.Lambda(NO_ARGUMENTS, body), inner),
         st.builds(ast.IfExp, inner, inner, inner),
         st.builds(ast.Subscript, inner, inner | st.builds(ast.Slice, inner | st.none(), inner)),
@@ -68,6 +79,14 @@ def test_texts_are_printed_in_double_quotes_unless_that_takes_more_escapes():
     assert literal("it's") == '"it\'s"'
     assert literal('say "hi"') == "'say \"hi\"'"
     assert literal("plain") == '"plain"'
+
+
+@given(st.lists(texts.map(ast.Constant) | st.builds(ast.Name, NAMES), min_size=1, max_size=6))
+def test_an_f_string_holds_any_text_and_reads_back(parts: list[ast.expr]):
+    made = f_string([*parts, ast.Name("x")])
+
+    assert made is not None and show(made).isprintable()
+    assert dumped(ast.parse(show(made), mode="eval").body) == dumped(made)
 
 
 @pytest.mark.parametrize("value", [-1, -0.0, float("inf"), float("nan")])

@@ -29,7 +29,7 @@ behavior = Behavior("Untitled")
 
 def greet_times(who, times):
     for _ in range(times):
-        nao.say("Hello " + who)
+        nao.say(f"Hello {who}")
 
 
 @behavior.when_started

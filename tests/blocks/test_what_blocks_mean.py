@@ -368,8 +368,8 @@ def test_what_is_known_stays_plain_python(language):
     )  # fmt: skip
 
     assert lines == [
-        'l = ["a", "b"]', 'w = "Ada"', "n = 1", "n = n + 1", 'out = "Hi " + w',
-        'out = "n: " + str(n)', "for _ in range(n):", "    pass", "for i in l:", "    w = i",
+        'l = ["a", "b"]', 'w = "Ada"', "n = 1", "n = n + 1", 'out = f"Hi {w}"',
+        'out = f"n: {n}"', "for _ in range(n):", "    pass", "for i in l:", "    w = i",
         "out = l[0]", "n = len(l)", "n += 1", 'if w == "x":', "    pass",
     ]  # fmt: skip
 

@@ -16,6 +16,7 @@ from nep_studio.blocks.generate.names import API
 from nep_studio.blocks.generate.program import ProgramGenerator, generate_program
 from nep_studio.blocks.generate.source_map import Code
 
+from .joined import as_joined, told_in_braces
 from .learning import CodeUnread
 from .naming import functions_of, locals_of, names_made, stopped_in
 from .outside import HEADERS, Part, is_frame
@@ -394,7 +395,9 @@ def _same(one: object, other: object) -> bool:
         ours, theirs = map(_as_compared, left.pop())
         if type(ours) is not type(theirs):
             return False
-        if isinstance(ours, ast.AST):
+        if isinstance(ours, ast.FormattedValue) and isinstance(theirs, ast.FormattedValue):
+            left += told_in_braces(ours, theirs)
+        elif isinstance(ours, ast.AST):
             left += [(getattr(ours, n, None), getattr(theirs, n, None)) for n in ours._fields]
         elif isinstance(ours, list) and isinstance(theirs, list):
             lines = _without_global(ours), _without_global(theirs)
@@ -420,7 +423,7 @@ def _as_compared(node: object) -> object:
     """Other ways to write a block count as the block."""
     if isinstance(node, ast.With) or (isinstance(node, ast.For) and not _names_its_list(node)):
         return as_block(node)
-    return node
+    return as_joined(node)
 
 
 def _names_its_list(loop: ast.For) -> bool:

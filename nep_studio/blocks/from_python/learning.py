@@ -19,7 +19,17 @@ from nep_studio.blocks.definitions import Definition, Slot
 from nep_studio.blocks.errors import BlocksError, CodeRefused, EditRefused
 from nep_studio.blocks.generate.expressions import Body, Expressions, Function, Piece, show
 from nep_studio.blocks.generate.generators import REPORTERS, STATEMENTS
-from nep_studio.blocks.generate.kinds import ANY, LIST, NUMBER, TEXT, WHOLE, Kinds, note
+from nep_studio.blocks.generate.kinds import (
+    ANY,
+    LIST,
+    NUMBER,
+    RESULT_KINDS,
+    TABLE,
+    TEXT,
+    WHOLE,
+    Kinds,
+    note,
+)
 from nep_studio.blocks.generate.names import VALUES, ProgramNames
 from nep_studio.blocks.generate.rules import HATS
 from nep_studio.blocks.language import Language
@@ -134,8 +144,8 @@ class Learner(Expressions):
         slot, node = self._slot(block, key), self._marker(block, key)
         if slot.kind.is_number and not isinstance(node, ast.Constant):
             return note(node, self._known.number)
-        if slot.kind.name == "list":
-            return note(node, LIST)
+        if slot.kind.name in ("list", "table"):
+            return note(node, RESULT_KINDS[slot.kind.name])
         return note(node, TEXT) if slot.kind.becomes_text else node
 
     def value_in(self, block: Block, key: str) -> ast.expr:
@@ -150,7 +160,11 @@ class Learner(Expressions):
             return constant(self.definition(block).defaults[slot.name])
         if key in self._typed:
             return ast.Constant(_FIRST_NUMBER + _STEP * self._positions[key])
-        by_kind = {"any": self._known.value, "list": self._known.items}
+        by_kind = {
+            "any": self._known.value,
+            "list": self._known.items,
+            "table": TABLE if self._known.items == LIST else ANY,
+        }
         known = self._known.number if slot.kind.is_number else by_kind.get(slot.kind.name, ANY)
         return note(ast.Name(mark(SLOT, key)), known)
 
@@ -159,6 +173,13 @@ class Learner(Expressions):
         if self._known.shows_text:
             self.must_show.add(key)
         return self._known.shows_text
+
+    def f_string(self, parts: Sequence[ast.expr]) -> None:
+        """None: a join is learned as a sum, and f-strings are read by their form."""
+
+    def has_two_names(self, variable: str) -> bool:
+        """As this variant has it."""
+        return not self._known.may_swap
 
     def may_swap(self, first: ast.expr, second: ast.expr) -> bool:
         """As this variant has it."""

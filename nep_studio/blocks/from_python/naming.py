@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import ast
+import functools
 import itertools
+import operator
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 
@@ -15,7 +17,7 @@ from nep_studio.blocks.procedures import DEFINE, parameters, words
 from ..deployment import can_be_stopped, names_used, robot_entries
 from ..editor import Editor
 from ..errors import CodeRefused
-from ..generate.kinds import ANY, LIST, RESULT_KINDS, TEXT, TRUTH, Seen, kinds_of, note
+from ..generate.kinds import ANY, LIST, RESULT_KINDS, TABLE, TEXT, TRUTH, Seen, kinds_of, note
 from ..generate.names import RESERVED, python_name
 from ..generate.program import generate_program
 from ..operations.fixes import append_entry
@@ -216,9 +218,10 @@ def _begun(tree: ast.Module) -> Iterator[str]:
     own = {name for function in functions_of(tree) for name in locals_of(function)}
     for node in tree.body:
         match node:
-            case ast.Assign(targets=[ast.Name(id=name)], value=ast.Constant() | ast.List()):
-                if name not in own:
-                    yield name
+            case ast.Assign(
+                targets=[ast.Name(id=name)], value=ast.Constant() | ast.List() | ast.Dict()
+            ) if name not in own:
+                yield name
 
 
 def functions_of(tree: ast.AST) -> Iterator[ast.FunctionDef | ast.AsyncFunctionDef]:
@@ -289,15 +292,29 @@ def _kept(function: ast.FunctionDef, tree: ast.Module) -> list[str]:
 def _kinds_given(tree: ast.Module, names: SourceNames) -> dict[str, int]:
     """The kinds of what a text puts into the variables that it makes itself."""
     found: dict[str, int] = {}
+    same: dict[str, set[str]] = {}
     for node in ast.walk(tree):
         match node:
+            case ast.Assign(targets=[ast.Name(id=name)], value=ast.Name(id=other)):
+                same.setdefault(name, set()).add(other)
             case ast.Assign(targets=[ast.Name(id=name)], value=value):
                 found[name] = found.get(name, 0) | kinds_of(value)
             case ast.Name(id=name, ctx=ast.Store()):
                 found.setdefault(name, 0)
             case ast.AugAssign(target=ast.Name(id=name)) | ast.For(target=ast.Name(id=name)):
                 found[name] = ANY
+    for _ in range(MOST_NAMES_OF_ONE):
+        for name, others in same.items():
+            found[name] = found.get(name, 0) | _all_kinds(found.get(one, 0) for one in others)
     return {name: kinds for name, kinds in found.items() if kinds and name not in names.variables}
+
+
+MOST_NAMES_OF_ONE = 4
+"""So often what is known of one name is said of another that is set to it."""
+
+
+def _all_kinds(kinds: Iterator[int]) -> int:
+    return functools.reduce(operator.or_, kinds, 0)
 
 
 def _note_kinds(tree: ast.Module, kinds: Mapping[str, int]) -> None:
@@ -487,7 +504,7 @@ def _is_value(name: str, tree: ast.Module) -> bool:
 
 
 _MAKES = {
-    **{"as_list": "list", "as_number": "number", "bool": "boolean"},
+    **{"as_list": "list", "as_number": "number", "as_table": "table", "bool": "boolean"},
     **{"as_text": "text", "str": "text"},
 }
 
@@ -535,8 +552,9 @@ def _kinds_begun(
     function: ast.FunctionDef, parameter: str, given: Sequence[ast.expr], begun: Mapping[str, str]
 ) -> Iterator[str]:
     """The kinds that variables have by being given to an own block, or by being set in it."""
-    if any(isinstance(node, ast.Name) and begun.get(node.id) == "list" for node in given):
-        yield "list"
+    for kind in ("list", "table"):
+        if any(isinstance(node, ast.Name) and begun.get(node.id) == kind for node in given):
+            yield kind
     for node in ast.walk(function):
         match node:
             case ast.Assign(targets=[ast.Name(id=name)], value=ast.Name(id=value)):
@@ -555,7 +573,7 @@ def _begun_otherwise(tree: ast.Module, hints: Hints | None) -> dict[str, str]:
         match node:
             case ast.Assign(targets=[ast.Name(id=name)], value=value):
                 if hints is not None and node.lineno in hints.differed:
-                    kinds = {LIST: "list", TEXT: "text", TRUTH: "boolean"}
+                    kinds = {LIST: "list", TABLE: "table", TEXT: "text", TRUTH: "boolean"}
                     found[name] = kinds.get(kinds_of(value), "")
     return found
 

@@ -52,7 +52,7 @@ def is_frame(node: ast.stmt) -> bool:
             return made in HEADERS
         case ast.Assign(targets=[ast.Name()], value=ast.Constant(value=first)):
             return first is False or (type(first) in (int, str) and first in (0, ""))
-        case ast.Assign(targets=[ast.Name()], value=ast.List(elts=[])):
+        case ast.Assign(targets=[ast.Name()], value=ast.List(elts=[]) | ast.Dict(keys=[])):
             return True
     return is_run(node)
 
@@ -294,7 +294,9 @@ def is_made_docstring(node: ast.stmt) -> bool:
 
 def _is_beginning(node: ast.stmt) -> bool:
     """Whether this says what a name stands for first."""
-    return isinstance(node, ast.Assign) and isinstance(node.value, ast.Constant | ast.List)
+    return isinstance(node, ast.Assign) and isinstance(
+        node.value, ast.Constant | ast.List | ast.Dict
+    )
 
 
 def _is_of_behavior(decorator: ast.expr) -> bool:

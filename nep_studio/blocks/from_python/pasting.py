@@ -155,7 +155,7 @@ def _is_program(source: Source) -> bool:
 
 def _is_around(node: ast.stmt, source: Source) -> bool:
     """Whether a statement is written by the program itself: no value of a variable is."""
-    if isinstance(node, ast.Assign) and isinstance(node.value, ast.Constant | ast.List):
+    if isinstance(node, ast.Assign) and isinstance(node.value, ast.Constant | ast.List | ast.Dict):
         return False
     return (
         is_frame(node) or _is_api(node) or (node is source.tree.body[0] and is_made_docstring(node))

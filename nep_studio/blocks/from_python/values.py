@@ -15,7 +15,8 @@ from nep_studio.blocks.program import split_slot
 from nep_studio.blocks.slots import TEXT_RESULTS, FieldValue, constant
 
 from ..generate.expressions import known_whole
-from ..generate.kinds import ANY, NUMBER, RESULT_KINDS, TEXT, WHOLE, Seen, are, kinds_of
+from ..generate.kinds import ANY, NUMBER, RESULT_KINDS, TABLE, TEXT, WHOLE, Seen, are, kinds_of
+from .joined import TOLD
 from .learning import (
     BODY,
     PART,
@@ -157,8 +158,7 @@ def _whole_slot(node: ast.Call) -> str:
     return ""
 
 
-_TOLD = ("as_text", "str")
-_MADE = {"list": ("as_list",), "boolean": ("bool",)}
+_MADE = {"list": ("as_list",), "table": ("as_table",), "boolean": ("bool",)}
 
 
 def _without_int(node: ast.expr) -> ast.expr:
@@ -218,8 +218,11 @@ class ValueReader:
         if value is not None:
             made.fields[key] = value
             return True
-        if slot.kind.name == "list" and isinstance(node, ast.List) and not node.elts:
-            return True
+        match node:
+            case ast.List(elts=[]) if slot.kind.name == "list":
+                return True
+            case ast.Dict(keys=[]) if slot.kind.name == "table":
+                return True
         plugged = None
         if slot.kind.pluggable and is_free:
             found = self.blocks(within(node, self._made(slot)))
@@ -254,7 +257,7 @@ class ValueReader:
             if inner is node and kind.name != "boolean" and not may_be(node, needed, self._seen):
                 return None
             return next((made for made, result in self.blocks(inner) if result in kind.fits), None)
-        inner, others = within(node, _TOLD), kind.fits - TEXT_RESULTS
+        inner, others = within(node, TOLD), kind.fits - TEXT_RESULTS
         if inner is node:
             others = (
                 frozenset({"any"})
@@ -335,6 +338,8 @@ class ValueReader:
         made = Made(pattern.definition.id, dict(pattern.fields), groups=dict(pattern.groups))
         if pattern.fractions and not pattern.free and _are_whole(found, pattern.fractions):
             return None
+        if not _may_be_table(pattern, found):
+            return None
         is_join = pattern.definition.generator == "join"
         clear = frozenset() if is_join else pattern.clear
         for key, node in found.slots.items():
@@ -362,7 +367,7 @@ class ValueReader:
         """
         told, clear = set[str](), set[str]()
         for key, node in found.slots.items():
-            inner = within(node, _TOLD)
+            inner = within(node, TOLD)
             is_text = key not in made.inputs or (
                 self.language.definitions[made.inputs[key].type].result in TEXT_RESULTS
             )
@@ -413,6 +418,8 @@ class ValueReader:
             made_from = self.made_from(pattern, found) if found is not None else None
             if made_from is not None:
                 yield made_from, pattern.definition.result
+        if isinstance(node, ast.JoinedStr) and (joined := self._f_string(node)) is not None:
+            yield joined
         if (converted := self._converted(node)) is not None:
             yield converted
 
@@ -428,9 +435,40 @@ class ValueReader:
             return None
         return Made(block_type, {generator: value}), definition.result
 
+    def _f_string(self, node: ast.JoinedStr) -> tuple[Made, str] | None:
+        """The join of the parts of an f-string, and its result; None where it says a format."""
+        block_type, parts = self.type_of("join"), list(node.values)
+        definition = self.language.definitions.get(block_type)
+        if definition is None or len(parts) > definition.groups["item"].maximum:
+            return None
+        made = Made(block_type, groups={"item": max(len(parts), definition.minimum["item"])})
+        for number, part in enumerate(parts, 1):
+            is_plain = isinstance(part, ast.Constant) or (
+                isinstance(part, ast.FormattedValue)
+                and part.conversion == -1
+                and part.format_spec is None
+            )
+            if not is_plain or not self._fill_told(made, f"item.{number}", part):
+                return None
+        return made, definition.result
+
+    def _fill_told(self, made: Made, key: str, part: ast.expr) -> bool:
+        """Put a part of an f-string into a slot for a text, where any value is told."""
+        if not isinstance(part, ast.FormattedValue):
+            return self.fill(made, key, part)
+        slot, value = self.language.definitions[made.type].slots[split_slot(key)[0]], part.value
+        told = ast.Call(ast.Name(TOLD[0]), [value], [])
+        found = [self.plugged(slot, value), self.plugged(slot, told)]
+        best = min((one for one in found if one), key=lambda one: one.written, default=None)
+        if best is None:
+            return False
+        made.inputs[key] = best
+        made.written += best.written
+        return True
+
     def _converted(self, node: ast.expr) -> tuple[Made, str] | None:
         """The block of a text or a number that is made of the value in it, and its result."""
-        for generator, names in (("text", _TOLD), ("number", ("as_number",))):
+        for generator, names in (("text", TOLD), ("number", ("as_number",))):
             inner, block_type = within(node, names), self.type_of(generator)
             if inner is node or not block_type:
                 continue
@@ -466,6 +504,17 @@ def _are_whole(found: Found, keys: Collection[str]) -> bool:
     return all(are(kinds_of(found.slots[key]), WHOLE) for key in keys if key in found.slots)
 
 
+_PLACES_IN_TABLES = frozenset({"table_get", "table_set", "table_take"})
+
+
+def _may_be_table(pattern: Pattern, found: Found) -> bool:
+    """Whether ``x[key]`` is surely about a table, not about the item of a list."""
+    if pattern.definition.generator not in _PLACES_IN_TABLES or pattern.free:
+        return True
+    table, key = found.slots["table"], found.slots["key"]
+    return kinds_of(key) == TEXT or are(kinds_of(within(table, _MADE["table"])), TABLE)
+
+
 def _is_no_text(made: tuple[Made, str]) -> tuple[int, bool]:
     """Sorts blocks with their results: those of texts first, unless more of it stays Python."""
     return made[0].written, made[1] not in TEXT_RESULTS
@@ -478,6 +527,9 @@ def _constant(node: ast.AST) -> str | int | float | bool | None:
             return -number if is_said else None  # a block says -0
     if isinstance(node, ast.Constant) and isinstance(node.value, str | int | float):
         return node.value
+    if isinstance(node, ast.JoinedStr):  # an f-string that says nothing but letters
+        texts = [part.value for part in node.values if isinstance(part, ast.Constant)]
+        return "".join(map(str, texts)) if len(texts) == len(node.values) else None
     return None
 
 

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 from nep_studio.blocks.arithmetic import ArithmeticRefused, calculate
 from nep_studio.blocks.code_text import CodeTextRefused
-from nep_studio.blocks.definitions import Call, Definition
+from nep_studio.blocks.definitions import MOST_REPEATS, Call, Definition
 from nep_studio.blocks.errors import CodeRefused
 from nep_studio.blocks.language import Language
 from nep_studio.blocks.program import Block, Project, split_slot
@@ -21,6 +21,7 @@ from .kinds import (
     LIST,
     NUMBER,
     RESULT_KINDS,
+    TABLE,
     TEXT,
     TRUTH,
     WHOLE,
@@ -67,6 +68,7 @@ _HARMLESS = frozenset(
     {
         *("len", "str", "abs", "min", "max", "round", "sorted", "list", "reversed", "bool"),
         *("floor", "ceil", "find", "upper", "lower", "replace", "split", "sqrt", "log", "log10"),
+        *("dict", "values", "get"),
         *("exp", "radians", "degrees", "sin", "cos", "tan", "asin", "acos", "atan"),
         *VALUES - {"random_whole", "take_item"},
     }
@@ -109,7 +111,7 @@ def compare(left: ast.expr, sign: ast.cmpop, right: ast.expr) -> ast.Compare:
     return ast.Compare(left, [sign], [right])
 
 
-VARIABLE_BLOCK = "variable.get"
+VARIABLE_BLOCK, JOIN_BLOCK = "variable.get", "text.join"
 
 DEEPEST_VALUE = 60
 """How deep values may be nested: CPython takes 200 parentheses, a block makes up to three."""
@@ -206,6 +208,8 @@ class Expressions:
             return node if are(kinds, NUMBER) else self.api_call("as_number", node)
         if kind.name == "list":
             return node if are(kinds, LIST) else self.api_call("as_list", node)
+        if kind.name == "table":
+            return node if are(kinds, TABLE) else self.api_call("as_table", node)
         if kind.becomes_text:
             return node if are(kinds, TEXT) else self.told(node)
         return node
@@ -305,12 +309,7 @@ class Expressions:
         cost = value_cost(block)
         self._depth += cost
         if self._depth > DEEPEST_VALUE:
-            raise CodeRefused(
-                "Blocks are plugged into blocks too deep: {deepest_value} levels at most.",
-                block=block.id,
-                checklist=("Set a variable to a part of this, and use the variable here.",),
-                deepest_value=DEEPEST_VALUE,
-            )
+            raise _too_deep(block)
         if definition.call is not None:
             node: ast.expr = self.call(block, definition.call)
         else:
@@ -321,6 +320,14 @@ class Expressions:
             if not are(kinds_of(node), result):
                 note(node, result)
         return node
+
+    def require_flat(self, block: Block, node: ast.expr) -> None:
+        """Refuse a value that is too long where its parts are in each other in Python."""
+        level: list[ast.AST] = [node]
+        for _ in range(2 * DEEPEST_VALUE):
+            level = [child for one in level for child in ast.iter_child_nodes(one)]
+        if level:
+            raise _too_deep(block)
 
     def call(self, block: Block, made: Call) -> ast.Call:
         """The call that a block stands for."""
@@ -363,6 +370,14 @@ class Expressions:
         self.rules_named[hat] = self.rules[hat]
         return self.rules[hat]
 
+    def f_string(self, parts: Sequence[ast.expr]) -> ast.JoinedStr | None:
+        """Texts behind each other as an f-string; None where Python 3.11 cannot write that."""
+        return f_string(parts)
+
+    def has_two_names(self, variable: str) -> bool:
+        """Whether a list or table may be changed under another name than this, at once too."""
+        return not variable or self._kinds.has_lists_twice
+
     def list_changes(self, variable: str) -> bool:
         """Whether a list may change meanwhile; ``variable`` is "" for one without a name."""
         if self._kinds.has_lists_twice:  # what is done to one name is done to the other
@@ -382,8 +397,17 @@ class Expressions:
 
 
 def value_cost(block: Block) -> int:
-    """How many levels a value block adds: the items of a join are in each other in Python."""
-    return 1 + sum(block.groups.values())
+    """How many levels a value block adds; the parts of a junction may be in each other."""
+    return 1 if block.type == JOIN_BLOCK else 1 + sum(block.groups.values())
+
+
+def _too_deep(block: Block) -> CodeRefused:
+    return CodeRefused(
+        "Blocks are plugged into blocks too deep: {deepest_value} levels at most.",
+        block=block.id,
+        checklist=("Set a variable to a part of this, and use the variable here.",),
+        deepest_value=DEEPEST_VALUE,
+    )
 
 
 _MAYBE_OTHERS = frozenset({"own_parameter", "code_value"})
@@ -476,7 +500,78 @@ def _binary(node: ast.BinOp) -> tuple[str, int]:
     sign, strength = _BINARY[type(node.op)]
     if strength == _POWER:  # binds to the right, and a sign may stand right of it
         return f"{show(node.left, _ATOM)}{sign}{show(node.right, _SIGN)}", _POWER
-    return f"{show(node.left, strength)}{sign}{show(node.right, strength + 1)}", strength
+    right: list[str] = []
+    first: ast.expr = node
+    while isinstance(first, ast.BinOp) and _BINARY[type(first.op)][1] == strength:
+        right.append(f"{_BINARY[type(first.op)][0]}{show(first.right, strength + 1)}")
+        first = first.left  # a long sum is nested to the left: no recursion
+    return f"{show(first, strength)}{''.join(reversed(right))}", strength
+
+
+def f_string(parts: Sequence[ast.expr]) -> ast.JoinedStr | None:
+    """Texts behind each other as an f-string; None where Python 3.11 cannot write that.
+
+    None also where all of them are typed: those are no f-string. F-strings in it become one.
+    """
+    flat = [inner for part in parts for inner in _inner_parts(part)]
+    values: list[ast.expr] = []
+    for part in flat if len(flat) <= MOST_REPEATS else map(_braced, parts):
+        last = values[-1] if values else None
+        if isinstance(part, ast.Constant) and isinstance(last, ast.Constant):
+            values[-1] = ast.Constant(str(last.value) + str(part.value))
+        elif not isinstance(part, ast.Constant) or part.value:
+            values.append(part)
+    is_typed = all(isinstance(value, ast.Constant) for value in values)
+    if is_typed or any(_part_of_f_string(value) is None for value in values):
+        return None
+    return ast.JoinedStr(values)
+
+
+def _inner_parts(part: ast.expr) -> list[ast.expr]:
+    return part.values if isinstance(part, ast.JoinedStr) else [_braced(part)]
+
+
+def _braced(part: ast.expr) -> ast.expr:
+    """A text as a part of an f-string; braces tell a whole number as str() does."""
+    match part:
+        case ast.Constant(value=str()) | ast.FormattedValue():
+            return part
+        case ast.Call(func=ast.Name(id="str"), args=[inner]) if are(kinds_of(inner), WHOLE):
+            part = inner
+    return ast.FormattedValue(part, -1)
+
+
+def _joined(node: ast.JoinedStr) -> tuple[str, int]:
+    shown = [_part_of_f_string(part) for part in node.values]
+    parts = [part for part in shown if part is not None]
+    if len(parts) < len(shown):
+        raise ValueError("Python 3.11 cannot write this as an f-string")
+    return f'f"{"".join(parts)}"', _TARGET
+
+
+def _part_of_f_string(part: ast.expr) -> str | None:
+    """A part of an f-string in double quotes; None where it cannot be written there.
+
+    Until Python 3.12 no quote of the same sort, backslash or comment sign is inside the braces.
+    """
+    if isinstance(part, ast.Constant):  # with a single quote in it, repr takes double ones
+        pieces = [repr(f"'{piece}")[2:-1] for piece in str(part.value).split('"')]
+        return '\\"'.join(pieces).replace("{", "{{").replace("}", "}}")
+    assert isinstance(part, ast.FormattedValue)
+    if any(map(_is_open, ast.walk(part.value))):
+        return None
+    text = show(part.value)
+    has_both = '"' in text and "'" in text
+    if has_both or text.startswith("{") or "\\" in text or "#" in text:
+        return None
+    return "{" + text.replace('"', "'") + "}"
+
+
+def _is_open(node: ast.AST) -> bool:
+    """Whether a sign in it may end the value inside the braces: “:”, “!” or “=”."""
+    if isinstance(node, Verbatim) and not node.is_closed:
+        return any(sign in node.text for sign in ":!=")
+    return isinstance(node, ast.Lambda)
 
 
 def _unary(node: ast.UnaryOp) -> tuple[str, int]:
@@ -502,6 +597,12 @@ def _choose(node: ast.IfExp) -> tuple[str, int]:
     return f"{body} if {test} else {show(node.orelse)}", _LAMBDA
 
 
+def _dict(node: ast.Dict) -> tuple[str, int]:
+    entries = zip(node.keys, node.values, strict=True)
+    shown = [f"{show(key)}: {show(value)}" for key, value in entries if key is not None]
+    return f"{{{', '.join(shown)}}}", _TARGET
+
+
 def _slice(node: ast.Slice) -> tuple[str, int]:
     low = show(node.lower) if node.lower is not None else ""
     high = show(node.upper) if node.upper is not None else ""
@@ -521,6 +622,8 @@ _PRINTERS: dict[type[ast.expr], Callable[..., tuple[str, int]]] = {
     ast.Compare: _compare,
     ast.Lambda: lambda node: (f"lambda: {show(node.body)}", _LAMBDA),
     ast.IfExp: _choose,
+    ast.Dict: _dict,
+    ast.JoinedStr: _joined,
     ast.Slice: _slice,
     Verbatim: lambda node: (node.text, _TARGET if node.is_closed else _LAMBDA),
 }

@@ -10,6 +10,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from functools import reduce
 from operator import itemgetter
 from typing import Any
 
@@ -48,6 +49,7 @@ from .kinds import (
     LIST,
     NUMBER,
     OTHER,
+    TABLE,
     TEXT,
     TRUTH,
     WHOLE,
@@ -60,6 +62,7 @@ from .kinds import (
     result_key,
 )
 from .names import API, MODULES
+from .tables import TABLE_STATEMENTS, TABLE_VALUES
 
 # Values that are one line of Python.
 
@@ -132,6 +135,11 @@ _LINES = {
     "list_is_empty": "len(list) == 0",
     "list_find": "place_of(item, list)",
     "list_reversed": "list(reversed(list))",
+    "list_copy": "list(list)",
+    "table_length": "len(table)",
+    "table_is_empty": "len(table) == 0",
+    "table_values": "list(table.values())",
+    "table_copy": "dict(table)",
     "sees_face_of": 'robot.sees("face", name)',
     "sees_mark": 'robot.sees("mark", number)',
     "seen_face": 'robot.seen_name("face")',
@@ -209,12 +217,13 @@ _CHOSEN = {
 def _join(code: Expressions, block: Block) -> ast.expr:
     keys = [f"item.{number}" for number in range(1, block.groups.get("item", 0) + 1)]
     items = [code.slot(block, key) for key in keys]
+    if (joined := code.f_string(items)) is not None:
+        return joined
     if not any(map(_is_clear, items)) and not any(code.shows_text(block, key) for key in keys):
         items[0] = code.api_call("as_text", items[0])  # else it would be a sum of numbers
-    joined, *more = items
-    for item in more:
-        joined = ast.BinOp(joined, ast.Add(), item)
-    return joined
+    total = reduce(lambda left, right: ast.BinOp(left, ast.Add(), right), items)
+    code.require_flat(block, total)
+    return total
 
 
 def _is_clear(node: ast.expr) -> bool:
@@ -326,13 +335,17 @@ class _Place:
     options: dict[str, ast.expr]
 
 
+_INDEXED = LIST | NUMBER | TRUTH
+"""What has items, or refuses to be asked for one, as what is kept in lists of lists."""
+
+
 def _place(code: Expressions, block: Block, then: ast.expr | None = None) -> _Place:
     """Item 1 from the start is item 0 of Python, item 1 from the end is item -1."""
     number, items = code.values_in(block, "number", "list", then=then)
     is_from_end = code.choice(block, "end") == "end"
     options: dict[str, ast.expr] = {"from_end": ast.Constant(True)} if is_from_end else {}
     place, index = known_whole(number), None
-    if place is not None and place > 0 and are(kinds_of(items), LIST):
+    if place is not None and place > 0 and are(kinds_of(items), _INDEXED):
         index = constant(-place if is_from_end else place - 1)
     return _Place(number, items, index, options)
 
@@ -369,7 +382,7 @@ def _part(code: Expressions, block: Block) -> ast.expr:
 
 def _filled(code: Expressions, block: Block) -> ast.expr:
     item, times = code.slot(block, "item"), code.value_in(block, "times")
-    if are(kinds_of(times), WHOLE) and not kinds_of(item) & (LIST | OTHER):
+    if are(kinds_of(times), WHOLE) and not kinds_of(item) & (LIST | TABLE | OTHER):
         return note(ast.BinOp(ast.List([item]), ast.Mult(), times), LIST)
     return code.api_call("list_with", item, times)
 
@@ -528,6 +541,7 @@ REPORTERS: dict[str, ValueGenerator] = {
     "list_joined": _joined,
     "of_list": _of_list,
     "within": _within,
+    **TABLE_VALUES,
     "own_call": _own_call,
     "own_parameter": _own_parameter,
     "code_value": _code_value,
@@ -768,6 +782,7 @@ STATEMENTS: dict[str, StatementGenerator] = {
     "list_set": _set_item,
     "list_insert": _insert,
     "list_remove": _remove,
+    **TABLE_STATEMENTS,
     "ask": _ask,
     "wait_for_word": _wait_for_word,
     "note": lambda code, block: [*comment_lines(code.text(block, "text"))],

@@ -14,7 +14,6 @@ from functools import lru_cache
 from typing import NamedTuple
 
 from nep_studio.blocks.arithmetic import ArithmeticRefused, calculate
-from nep_studio.blocks.code_text import made_by, outside_functions
 from nep_studio.blocks.definitions import Definition
 from nep_studio.blocks.language import Language
 from nep_studio.blocks.procedures import DEFINE, parameter_of, parameters, procedure_of
@@ -22,13 +21,16 @@ from nep_studio.blocks.program import Block, Project, split_slot
 from nep_studio.blocks.slots import TEXT_RESULTS
 
 from .names import ProgramNames
+from .written_code import always_ends, gives_back, names_bound_in, names_in_code, tree_of
 
-WHOLE, FRACTION, TEXT, TRUTH, LIST, OTHER = 1, 2, 4, 8, 16, 32
+WHOLE, FRACTION, TEXT, TRUTH, LIST, OTHER, TABLE = 1, 2, 4, 8, 16, 32, 64
 NUMBER = WHOLE | FRACTION
-ANY = NUMBER | TEXT | TRUTH | LIST | OTHER
+ANY = NUMBER | TEXT | TRUTH | LIST | OTHER | TABLE
 
 ITEMS = "items"
 """What the items of all lists can be: lists have many names, so that none is told apart."""
+KEYS, KEPT = "keys", "kept"
+"""What the keys of all tables can be, also those that are looked for, and what is kept at them."""
 
 RESULT_KINDS = {
     "number": NUMBER,
@@ -36,10 +38,11 @@ RESULT_KINDS = {
     "colour": TEXT,
     "boolean": TRUTH,
     "list": LIST,
+    "table": TABLE,
     "any": ANY,
 }
 
-_FIRST = {LIST: "[]", TEXT: '""', TRUTH: "False", WHOLE: "0"}
+_FIRST = {LIST: "[]", TABLE: "{}", TEXT: '""', TRUTH: "False", WHOLE: "0"}
 
 _DEEPEST = 100
 """Deeper blocks are refused when they are written."""
@@ -76,10 +79,11 @@ _CALLS = {
     **dict.fromkeys(("str", "as_text", "title_case", "letter_of", "replace_part"), TEXT),
     **dict.fromkeys(("join_items", "append_text"), TEXT),
     **dict.fromkeys(("bool", "has_item", "has_part", "is_same", "is_less", "is_more"), TRUTH),
-    **dict.fromkeys(("is_at_most", "is_at_least", "wait_until"), TRUTH),
+    **dict.fromkeys(("is_at_most", "is_at_least", "wait_until", "has_key"), TRUTH),
     **dict.fromkeys(("date_today", "time_now", "weekday_today", "what_went_wrong"), TEXT),
     **dict.fromkeys(("list", "sorted", "as_list", "items_between", "list_with"), LIST),
-    **dict.fromkeys(("parts_of", "sorted_items"), LIST),
+    **dict.fromkeys(("parts_of", "sorted_items", "names_in"), LIST),
+    **dict.fromkeys(("dict", "as_table", "table_of"), TABLE),
     **dict.fromkeys(("as_number", "to_power", "number_in", "sum_of", "mean_of"), NUMBER),
     **dict.fromkeys(("median_of", "deviation_of", "smallest_of", "largest_of"), NUMBER),
 }
@@ -137,6 +141,8 @@ def _kinds_of(node: ast.expr, seen: Seen | None) -> int:
             return FRACTION
         case ast.List():
             return LIST
+        case ast.Dict():
+            return TABLE
         case ast.Subscript(value=value, slice=index) if are(kinds_of(value, seen), TEXT | LIST):
             is_same = isinstance(index, ast.Slice) or are(kinds_of(value, seen), TEXT)
             return kinds_of(value, seen) if is_same else ANY
@@ -180,10 +186,10 @@ def _of_operation(op: ast.operator, left: int, right: int) -> int:
 
 
 def are_mixed(first: int, second: int) -> bool:
-    """Whether Python may take two values for equal that are not: True == 1, and in lists."""
+    """Whether Python may take two values for equal that are not: True == 1, also inside others."""
     truth, number = TRUTH | OTHER, NUMBER | OTHER
     takes_truth = (first & truth and second & number) or (first & number and second & truth)
-    return bool(takes_truth or first & second & LIST)
+    return bool(takes_truth or first & second & (LIST | TABLE))
 
 
 def _counted(kinds: int) -> int:
@@ -232,9 +238,10 @@ class Facts:
     """What a stack does with values, wherever it stands.
 
     ``put`` are values with the keys of where they are put, ``taken`` the variables that are taken
-    for a list (LIST) or to which a text is appended (TEXT), ``set_to`` the kinds to which blocks
-    set variables, by how these look. ``used`` are the variables that it uses: ``early`` those that
-    may be read there before they are set there, ``apart`` those in functions of their own.
+    for a list (LIST) or a table (TABLE), or to which a text is appended (TEXT), ``set_to`` the
+    kinds to which blocks set variables, by how these look. ``used`` are the variables that it
+    uses: ``early`` those that may be read there before they are set there, ``apart`` those in
+    functions of their own.
     ``written`` is what Python in it names; ``begun`` are the names that it does no more with than
     to give them a plain value, each with the kinds of it, and of what is in it if it is a list.
     """
@@ -257,6 +264,7 @@ class Facts:
 
 _WHOLE_RESULTS = frozenset(
     {"round", "random_integer", "text_length", "list_length", "text_find", "list_find"}
+    | {"table_length"}
 )
 _COUNTED = {
     "arithmetic": ("a", "b"),
@@ -273,15 +281,18 @@ _PUT_IN_LISTS = {
     "list_insert": "value",
     "list_filled": "item",
 }
+_PUT_IN_TABLES = {"table_set": "value", "table_change": "amount"}
+_LOOK_IN_TABLES = ("table_get", "table_get_or", "table_has", "table_take")
+_OUT_OF_TABLES = {"table_names": KEYS, "table_values": KEPT}
 _SETS = {"set_variable": "value", "change_variable": "amount", "append_text": "text"}
 _CODE = frozenset({"code_lines", "code_value", "program_lines"})
-NO_NAMES: frozenset[str] = frozenset()
 _HARMLESS = ("as_number(", "as_text(", "as_list(", "str(", "bool(")
 
 
 _LOOKED_AT = frozenset(
     {
-        *(*_SETS, *_PUT_IN_LISTS, *_CODE),
+        *(*_SETS, *_PUT_IN_LISTS, *_PUT_IN_TABLES, *_LOOK_IN_TABLES, *_OUT_OF_TABLES, *_CODE),
+        "table_create",
         *("variable", "count", "for_each", "list_create", "list_split", "own_return", "own_call"),
     }
 )
@@ -344,6 +355,8 @@ class FactReader:
         elif generator == "list_create":
             for number in range(1, block.groups.get("item", 0) + 1):
                 self._put.add((ITEMS, self._slot(block, f"item.{number}")))
+        elif "table" in generator:
+            self._table_block(block, generator)
         elif generator == "list_split":
             self._put.add((ITEMS, Given(TEXT)))
         elif generator == "own_return" and self._procedure:
@@ -363,6 +376,21 @@ class FactReader:
             if generator == "code_lines" and self._procedure and gives_back(text):
                 self._put.add((result_key(self._procedure), Given(ANY)))
 
+    def _table_block(self, block: Block, generator: str) -> None:
+        """Note what a block looks for in a table, puts there, or gives as the items of a list."""
+        if generator in _OUT_OF_TABLES:
+            self._put.add((ITEMS, Given(same=frozenset({_OUT_OF_TABLES[generator]}))))
+            return
+        count = block.groups.get("entry", 0)
+        parts = [f".{n}" for n in range(1, count + 1)] if generator == "table_create" else [""]
+        value = _PUT_IN_TABLES.get(generator, "value" if generator == "table_create" else "")
+        for part in parts:
+            self._put.add((KEYS, self._slot(block, f"key{part}")))
+            if value:
+                self._put.add((KEPT, self._slot(block, f"{value}{part}")))
+        if generator == "table_change":
+            self._put.add((KEPT, Given(WHOLE, counted=frozenset({KEPT}))))
+
     def _inputs(self, block: Block, definition: Definition) -> None:
         for key in block.inputs:
             plugged = self._plugged(block, key)
@@ -370,8 +398,8 @@ class FactReader:
             if plugged is None or inner is None or inner.generator != "variable":
                 continue
             slot = definition.slots.get(split_slot(key)[0])
-            if slot is not None and slot.kind.name == "list":
-                self._taken.add((_variable(plugged), LIST))
+            if slot is not None and slot.kind.name in ("list", "table"):
+                self._taken.add((_variable(plugged), RESULT_KINDS[slot.kind.name]))
 
     def _variable_block(self, block: Block, definition: Definition) -> None:
         variable, generator = _variable(block), definition.generator
@@ -434,7 +462,7 @@ class FactReader:
             given = Given(RESULT_KINDS.get(kind.name, TEXT))
         if kind.is_number:
             return given.calculated()
-        if kind.name in ("text", "lines", "boolean", "list"):
+        if kind.name in ("text", "lines", "boolean", "list", "table"):
             return Given(RESULT_KINDS.get(kind.name, TEXT))
         return given
 
@@ -451,6 +479,10 @@ class FactReader:
             return Given(WHOLE)
         if generator in _ITEMS_OF:
             return Given(same=frozenset({ITEMS}))
+        if generator in ("table_get", "table_get_or"):
+            kept = Given(same=frozenset({KEPT}))
+            is_sure = generator == "table_get"
+            return kept if is_sure else kept.or_else(self._slot(block, "otherwise", depth))
         if generator == "choose":
             return self._slot(block, "a", depth).or_else(self._slot(block, "b", depth))
         if generator == "own_call":
@@ -571,28 +603,13 @@ def _typed(value: object, *, is_number: bool) -> Given:
 
 
 @lru_cache(maxsize=1024)
-def names_in_code(text: str) -> frozenset[str]:
-    """The names in Python that a person wrote; none where it is refused when it is written."""
-    tree = _tree(text)
-    used = (n.id for n in ast.walk(tree) if isinstance(n, ast.Name)) if tree else ()
-    return names_bound_in(text).union(used)
-
-
-@lru_cache(maxsize=1024)
-def names_bound_in(text: str) -> frozenset[str]:
-    """The names to which Python that a person wrote may give another value."""
-    tree = _tree(text)
-    return frozenset(name for n in ast.walk(tree) for name in made_by(n)) if tree else NO_NAMES
-
-
-@lru_cache(maxsize=1024)
 def begun_in(text: str) -> frozenset[tuple[str, int, int]] | None:
     """The names to which Python gives plain values, with their kinds and those of their items.
 
     None where it does anything else, besides importing and telling what it is for.
     """
     found = set[tuple[str, int, int]]()
-    tree = _tree(text)
+    tree = tree_of(text)
     for node in tree.body if tree is not None else [ast.Pass()]:
         match node:
             case ast.Import() | ast.ImportFrom() | ast.Expr(value=ast.Constant()):
@@ -602,6 +619,8 @@ def begun_in(text: str) -> frozenset[tuple[str, int, int]] | None:
                 | ast.AnnAssign(target=ast.Name(id=name), value=ast.expr() as value)
             ) if _is_plain(value):
                 found.add((name, kinds_of(value), 0))
+            case ast.Assign(targets=[ast.Name(id=name)], value=ast.Dict(keys=[])):
+                found.add((name, TABLE, 0))
             case ast.Assign(targets=[ast.Name(id=name)], value=ast.List(elts=items)) if all(
                 map(_is_plain, items)
             ):
@@ -617,56 +636,12 @@ def _is_plain(value: ast.expr) -> bool:
 
 
 @lru_cache(maxsize=1024)
-def gives_back(text: str) -> bool:
-    """Whether Python that a person wrote may give something back for the function it is in."""
-    tree = _tree(text)
-    return tree is not None and any(isinstance(n, ast.Return) for n in outside_functions(tree))
-
-
-@lru_cache(maxsize=1024)
-def always_ends(text: str) -> bool:
-    """Whether what stands below Python that a person wrote is never reached."""
-    tree = _tree(text)
-    return tree is not None and _ends(tree.body)
-
-
-def _ends(body: Sequence[ast.stmt]) -> bool:
-    """Whether statements never come to their end, as far as their form tells."""
-    for node in body:
-        match node:
-            case ast.Return() | ast.Raise():
-                return True
-            case ast.If(body=then, orelse=other) if _ends(then) and _ends(other):
-                return True
-            case ast.Try(finalbody=last) if _ends(last):
-                return True
-            case ast.Try(body=first, orelse=more, handlers=handlers) if _ends(
-                [*first, *more]
-            ) and all(_ends(one.body) for one in handlers):
-                return True
-            case ast.While(test=ast.Constant(value=test)) if test and not _is_left(node):
-                return True
-    return False
-
-
-def _is_left(loop: ast.While) -> bool:
-    return any(isinstance(node, ast.Break) for node in outside_functions(loop))
-
-
-@lru_cache(maxsize=1024)
 def kinds_of_code(text: str) -> int:
     """The kinds of a value that a person wrote as Python, as far as its form tells."""
-    match _tree(text):
+    match tree_of(text):
         case ast.Module(body=[ast.Expr(value=value)]):
             return kinds_of(value)
     return ANY
-
-
-def _tree(text: str) -> ast.Module | None:
-    try:
-        return ast.parse(text.strip())
-    except (SyntaxError, ValueError, RecursionError, MemoryError):
-        return None
 
 
 # All stacks together.
@@ -715,7 +690,7 @@ def together(facts: Mapping[str, Facts], project: Project, names: ProgramNames) 
         if (procedure, name, True) in inside:
             known[parameter_key(procedure, parameter)] = ANY
         if not {(procedure, name, True), (procedure, name, False)}.isdisjoint(inside):
-            known[ITEMS] = ANY
+            known.update(dict.fromkeys((ITEMS, KEYS, KEPT), ANY))
     for name, of_value, of_items in frozenset[tuple[str, int, int]]().union(
         *(one.begun for one in facts.values())
     ):
@@ -732,7 +707,7 @@ def together(facts: Mapping[str, Facts], project: Project, names: ProgramNames) 
             if after != before:
                 known[key], has_changed = after, True
     kinds.has_lists_twice = any(
-        LIST & known.get(source, 0)
+        (LIST | TABLE) & known.get(source, 0)
         for key, given in put
         if key.startswith(_VARIABLE)
         for source in given.same
@@ -744,6 +719,8 @@ def _first(variable: str, taken: frozenset[tuple[str, int]], set_to: set[int]) -
     """The kind of what a variable holds before it is set."""
     if (variable, LIST) in taken:
         return LIST
+    if (variable, TABLE) in taken:
+        return TABLE
     if (variable, TEXT) in taken or set_to == {TEXT}:
         return TEXT
     return TRUTH if set_to == {TRUTH} else WHOLE
@@ -760,7 +737,7 @@ def _written(
         for parameter in parameters(project.procedures[procedure]):
             yield parameter_key(procedure, parameter.id), ANY
     if named or called:
-        yield ITEMS, ANY
+        yield from ((inside, ANY) for inside in (ITEMS, KEYS, KEPT))
 
 
 def _own(facts: Mapping[str, Facts], names: ProgramNames) -> dict[str, frozenset[str]]:

@@ -17,16 +17,18 @@ VALUES = frozenset(
             "append_text",
             "as_list",
             "as_number",
+            "as_table",
             "as_text",
+            "change_at",
             "count_from",
             "deviation_of",
         ),
-        *("has_item", "has_part", "insert_item", "is_at_least", "is_at_most", "is_less"),
+        *("has_item", "has_key", "has_part", "insert_item", "is_at_least", "is_at_most", "is_less"),
         *("is_more", "is_same", "item_of", "items_between", "join_items", "largest_of"),
-        *("length_of", "letter_of", "list_with", "mean_of", "median_of", "number_in"),
-        *("parts_of", "place_in_text", "place_of", "random_whole", "remove_item"),
-        *("replace_part", "set_item", "smallest_of", "sorted_items", "sum_of"),
-        *("take_item", "title_case", "to_nearest", "to_power"),
+        *("length_of", "letter_of", "list_with", "mean_of", "median_of", "names_in", "number_in"),
+        *("parts_of", "place_in_text", "place_of", "random_whole", "remove_item", "remove_key"),
+        *("replace_part", "set_at", "set_item", "smallest_of", "sorted_items", "sum_of"),
+        *("table_of", "take_item", "title_case", "to_nearest", "to_power", "value_at"),
     }
 )
 """What nep_core does with values where plain Python does something else."""

@@ -24,6 +24,7 @@ CATEGORY_ICONS = {
     "text": "type",
     "variables": "variable",
     "lists": "list",
+    "tables": "table",
     "my_blocks": "puzzle",
     "colours": "palette",
     "code": "code",

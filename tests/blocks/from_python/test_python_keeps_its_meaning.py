@@ -177,11 +177,12 @@ def test_a_text_with_values_in_braces_is_a_value_among_blocks(language):
         [B("event.started"), B("robot.say", {"text": "That is "})],
     )
     text = generate_program(editor.project, language).text
-    said = 'nao.say(f\'{1 + 1} of \' + str(len("abc")) + "!")'
+    said = "nao.say(f'{1 + 1:>4} of 3')"
 
     update_from_python(editor, text.replace('nao.say("That is ")', said))
 
     assert said in generate_program(editor.project, language).text
+    assert any(block.type == "code.value" for block in editor.project.blocks.values())
     assert not any(block.type == "code.lines" for block in editor.project.blocks.values())
 
 

@@ -56,6 +56,7 @@ def kinds() -> dict[str, str]:
         "text": tr("a text"),
         "boolean": tr("yes or no"),
         "list": tr("a list"),
+        "table": tr("a table"),
     }
 
 

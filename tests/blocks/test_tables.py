@@ -1,0 +1,240 @@
+"""Tables: the Python that their blocks make, what it does, and blocks again."""
+
+from __future__ import annotations
+
+import pytest
+from block_building import B, build, read_program
+
+from nep_core.errors import ValueRefused
+from nep_core.program.tables import change_at, has_key, names_in, set_at, table_of, value_at
+from nep_core.program.values import as_text, is_same, length_of, list_with
+from nep_studio.blocks.editor import Editor
+from nep_studio.blocks.generate.program import generate_program
+from nep_studio.blocks.program import Project
+from nodes.cognitive.failures import failure_of
+
+NAMES = ("out", "ages", "who", "n")
+OUT, AGES, WHO, NUMBER = (f"v{number}" for number in range(1, 5))
+
+
+def get(variable):
+    return B("variable.get", {"variable": variable})
+
+
+def slots(block_type, /, **values):
+    """A block whose slots hold values or blocks."""
+    block = B(block_type)
+    for key, value in values.items():
+        (block.inputs if isinstance(value, B) else block.fields)[key] = value
+    return block
+
+
+def put(variable, value):
+    block = slots("variable.set", value=value)
+    block.fields["variable"] = variable
+    return block
+
+
+def table(*entries):
+    """A block of a table with keys and values."""
+    block = B("table.create", groups={"entry": len(entries)})
+    for number, entry in enumerate(entries, 1):
+        for name, value in zip(("key", "value"), entry, strict=True):
+            (block.inputs if isinstance(value, B) else block.fields)[f"{name}.{number}"] = value
+    return block
+
+
+def listed(*items):
+    block = B("list.create", groups={"item": len(items)})
+    for number, item in enumerate(items, 1):
+        (block.inputs if isinstance(item, B) else block.fields)[f"item.{number}"] = item
+    return block
+
+
+def at(key, held=None):
+    return slots("table.get", table=held or get(AGES), key=key)
+
+
+def change(key, amount=1):
+    return slots("table.change", table=get(AGES), key=key, amount=amount)
+
+
+TRUE = B("logic.truth", {"truth": "true"})
+ANNA_AND_BEN = put(AGES, table(("Anna", 3), ("Ben", 5)))
+
+
+def written(language, *chain, editor=None):
+    """The lines of a rule; its Python becomes blocks, and the same Python again."""
+    editor = build(language, [B("event.started"), *chain], variables=NAMES, editor=editor)
+    text = generate_program(editor.project, language).text
+    read = read_program(text, language, Project())
+    assert generate_program(read, language).text == text
+    assert not [block for block in read.blocks.values() if block.type.startswith("code.")]
+    return text
+
+
+def lines(language, *chain):
+    body = written(language, *chain).split("def when_started():\n")[1].split("\n\n\n")[0]
+    return [line[4:] for line in body.splitlines() if "global " not in line]
+
+
+def run(language, *chain):
+    """What the variables hold after a rule."""
+    held = {}
+    text = written(language, *chain).replace("\nbehavior.run()\n", "\n")
+    exec(compile(text, "program.py", "exec"), held)
+    held["when_started"]()
+    return held
+
+
+@pytest.mark.parametrize(
+    ("block", "line"),
+    [
+        (put(OUT, at("Anna")), 'out = ages["Anna"]'),
+        (
+            put(OUT, slots("table.get_or", table=get(AGES), key="Emma", otherwise=0)),
+            'out = ages.get("Emma", 0)',
+        ),
+        (put(OUT, slots("table.has", table=get(AGES), key="Anna")), 'out = "Anna" in ages'),
+        (put(OUT, slots("table.names", table=get(AGES))), "out = list(ages)"),
+        (put(OUT, slots("table.values", table=get(AGES))), "out = list(ages.values())"),
+        (put(OUT, slots("table.length", table=get(AGES))), "out = len(ages)"),
+        (put(OUT, slots("table.is_empty", table=get(AGES))), "out = len(ages) == 0"),
+        (put(OUT, slots("table.copy", table=get(AGES))), "out = dict(ages)"),
+        (slots("table.set", table=get(AGES), key="Anna", value=4), 'ages["Anna"] = 4'),
+        (slots("table.take", table=get(AGES), key="Anna"), 'del ages["Anna"]'),
+        (change("Anna"), 'ages["Anna"] = ages.get("Anna", 0) + 1'),
+    ],
+)
+def test_a_block_of_tables_is_one_plain_line(language, block, line):
+    assert lines(language, ANNA_AND_BEN, block) == ['ages = {"Anna": 3, "Ben": 5}', line]
+
+
+def test_votes_are_counted_and_told(language):
+    votes = [put(AGES, table()), change("red"), change("blue"), change("red")]
+
+    held = run(language, *votes, put(OUT, slots("text.join", **{"item.1": get(AGES)})))
+
+    assert held["out"] == "red: 2, blue: 1"
+
+
+def test_a_table_is_gone_through_by_its_names(language):
+    loop = B("control.for_each", {"variable": WHO}, {"list": slots("table.names", table=get(AGES))})
+    loop.bodies = {"do": [slots("variable.change", amount=at(get(WHO)))]}
+    loop.bodies["do"][0].fields["variable"] = NUMBER
+
+    assert run(language, ANNA_AND_BEN, put(NUMBER, 0), loop)["n"] == 8
+    assert "for who in list(ages):" in lines(language, ANNA_AND_BEN, put(NUMBER, 0), loop)
+
+
+def test_a_variable_that_a_block_takes_for_a_table_begins_as_an_empty_one(language):
+    assert "\nages = {}\n" in written(language, change("Anna"))
+    assert run(language, change("Anna"))["ages"] == {"Anna": 1}
+
+
+def test_lists_and_tables_in_each_other_are_plain_places(language):
+    people = put(AGES, listed(table(("name", "Anna"), ("points", listed(1, 2)))))
+    first = slots("list.get", number=1, list=get(AGES))
+    points = slots("list.get", number=2, list=at("points", first))
+    numbers = put(WHO, listed(listed(1, 2), listed(3, 4)))
+    inner = slots("list.get", number=1, list=slots("list.get", number=2, list=get(WHO)))
+    rows = slots("list.set", number=1, list=slots("list.get", number=2, list=get(WHO)), value=9)
+
+    assert lines(language, people, put(OUT, at("name", first)))[1] == 'out = ages[0]["name"]'
+    assert run(language, people, put(OUT, points))["out"] == 2
+    assert lines(language, numbers, put(OUT, inner), rows)[1:] == [
+        "out = who[1][0]",
+        "who[1][0] = 9",
+    ]
+
+
+def test_one_is_another_key_than_true_and_two_is_the_same_as_a_fraction(language):
+    half = B("math.arithmetic", {"operation": "divide", "a": 4, "b": 2})
+    held = run(
+        language,
+        put(AGES, table((1, "one"), (TRUE, "yes"), (2, "two"))),
+        put(OUT, listed(at(1), at(TRUE), at(half), slots("table.names", table=get(AGES)))),
+        put(WHO, slots("text.join", **{"item.1": get(AGES)})),
+    )
+
+    assert held["out"] == ["one", "yes", "two", [1, True, 2]] and held["out"][3][1] is True
+    assert held["who"] == "1: one, true: yes, 2: two"
+
+
+def test_own_blocks_take_tables(language):
+    editor = Editor(Project(), language)
+    given = editor.new_parameter("ages", "table")
+    own = editor.add_procedure(["count", given], gives_value=False)
+    ages = editor.add_variable("ages")
+    inner = slots("table.change", table=B(f"my.parameter.{own}.{given.id}"), key="Anna", amount=1)
+    call = slots(f"my.call.{own}", **{given.id: get(ages)})
+    build(language, [B(f"my.define.{own}"), inner], editor=editor)
+    build(language, [B("event.started"), put(ages, table(("Anna", 3))), call], editor=editor)
+    text = generate_program(editor.project, language).text
+    held = {}
+    exec(compile(text.replace("\nbehavior.run()\n", "\n"), "program.py", "exec"), held)
+    held["when_started"]()
+
+    assert held["ages"] == {"Anna": 4}
+    assert generate_program(read_program(text, language, Project()), language).text == text
+
+
+def test_what_two_rules_add_at_the_same_time_is_whole(language):
+    rules = [[B("event.started"), change("red")], [B("event.gesture"), change("red")]]
+    editor = build(language, *rules, variables=NAMES)
+
+    text = generate_program(editor.project, language).text
+
+    assert text.count('with at_once: ages["red"] = ages.get("red", 0) + 1') == 2
+
+
+@pytest.mark.parametrize(
+    ("chain", "sentence"),
+    [
+        ([ANNA_AND_BEN, put(OUT, at("Emma"))], "has nothing at"),
+        ([ANNA_AND_BEN, slots("table.take", table=get(AGES), key="Emma")], "has nothing at"),
+        ([put(AGES, table()), put(OUT, at(listed(1)))], "Nothing can be kept under"),
+        ([put(WHO, 5), put(OUT, at("x", get(WHO)))], "no table here"),
+        ([put(WHO, listed(1)), put(OUT, slots("table.length", table=get(WHO)))], "A table belongs"),
+        ([ANNA_AND_BEN, slots("table.set", table=get(AGES), key="Anna", value="x"), change("Anna")],
+         "cannot be worked out"),
+        ([put(AGES, table()), slots("table.set", table=get(AGES), key="me", value=get(AGES)),
+          put(OUT, slots("text.join", **{"item.1": get(AGES)}))], "goes too deep"),
+    ],
+)  # fmt: skip
+def test_what_goes_wrong_is_a_sentence_with_what_to_do(language, tmp_path, chain, sentence):
+    editor = build(language, [B("event.started"), *chain], variables=NAMES)
+    text = generate_program(editor.project, language).text.replace("\nbehavior.run()\n", "\n")
+    file, held = tmp_path / "program.py", {}
+    file.write_text(text, encoding="utf-8")
+    exec(compile(text, str(file), "exec"), held)
+
+    with pytest.raises((ValueRefused, LookupError, TypeError)) as error:
+        held["when_started"]()
+
+    failure = failure_of(error.value)
+    assert sentence in str(failure) and failure.checklist
+
+
+def test_functions_keep_one_and_true_apart_and_refuse_what_is_no_key():
+    held = table_of(1, "one", True, "yes", 1.0, "again")
+
+    assert names_in(held) == [1, True] and value_at(held, 1) == "again"
+    assert has_key(held, True) and not has_key(held, False)
+    assert as_text(held) == "1: again, true: yes" and length_of(held) == 2
+    change_at(held, "n", 2)
+    assert value_at(held, "n") == 2 and value_at(held, "m", 7) == 7
+    with pytest.raises(ValueRefused):
+        set_at(held, [1], 2)
+
+
+def test_tables_are_equal_whatever_their_order_but_not_one_and_true():
+    assert is_same({"a": 1, "b": [2]}, {"b": [2.0], "a": 1})
+    assert not is_same({"a": 1}, {"a": True}) and not is_same({"a": 1}, {"b": 1})
+    assert not is_same({}, []) and not is_same(table_of(1, 2), table_of(True, 2))
+
+
+def test_a_table_that_is_repeated_is_copied_for_each_place():
+    first, second = list_with({"a": 1}, 2)
+
+    assert first == second and first is not second
