@@ -109,6 +109,11 @@ SORTS = {
         "There is no goal with the name “{name}”.",
         ("Write the name as the goal's own block has it.",),
     ),
+    "outside_goal": Sort(
+        "warning",
+        "“{block}” is in no goal: when it is reached, the rule ends with an error.",
+        ("Put it below the block of a goal, or below “when the goal …”.",),
+    ),
     "torn_apart": Sort(
         "warning",
         "“{block}” waits: what other rules do to “{variable}” meanwhile is lost.",

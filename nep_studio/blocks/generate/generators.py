@@ -136,6 +136,7 @@ _LINES = {
     "sees_mark": 'robot.sees("mark", number)',
     "seen_face": 'robot.seen_name("face")',
     "seen_mark": 'robot.seen_name("mark")',
+    "goal_is_pursued": "behavior.pursues(name)",
 }
 _CHOSEN = {
     "arithmetic": (
@@ -708,6 +709,23 @@ def _wait_for_word(code: Expressions, block: Block) -> list[Piece]:
     return [show(method_call(code.slot(block, "robot"), "wait_for_word", arguments, seconds))]
 
 
+def _pursue(code: Expressions, block: Block) -> list[Piece]:
+    given = [code.value_in(block, "value.1")] if block.groups.get("value") else []
+    arguments = [code.slot(block, "name"), *given]
+    return [show(method_call(ast.Name("behavior"), "pursue", arguments))]
+
+
+def _give_up_goal(code: Expressions, block: Block) -> list[Piece]:
+    return [show(method_call(ast.Name("behavior"), "give_up", [code.slot(block, "name")]))]
+
+
+def _set_priority(code: Expressions, block: Block) -> list[Piece]:
+    priority = ast.Constant(code.choice(block, "priority"))
+    displaced = code.choice(block, "displaced")
+    options = {} if displaced == "resume" else {"displaced": ast.Constant(displaced)}
+    return [show(code.api_call("set_priority", priority, **options))]
+
+
 STATEMENTS: dict[str, StatementGenerator] = {
     "repeat": _repeat,
     "forever": _loop("while", "True"),
@@ -732,6 +750,9 @@ STATEMENTS: dict[str, StatementGenerator] = {
     "list_set": _set_item,
     "list_insert": _insert,
     "list_remove": _remove,
+    "pursue": _pursue,
+    "give_up_goal": _give_up_goal,
+    "set_priority": _set_priority,
     "ask": _ask,
     "wait_for_word": _wait_for_word,
     "note": lambda code, block: [*comment_lines(code.text(block, "text"))],

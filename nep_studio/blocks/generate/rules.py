@@ -128,15 +128,24 @@ def _sensor(code: Expressions, block: Block) -> Hat:
     return _hat(f"when_{name}_is_{side}", "when_true", test, **_again(code, block))
 
 
-def _goal(code: Expressions, block: Block) -> Hat:
-    options: dict[str, ast.expr] = {"when": code.slot(block, "state")}
+def _goal(code: Expressions, block: Block, **when: ast.expr) -> Hat:
+    options = when
     if (priority := code.choice(block, "priority")) != "normal":
         options["priority"] = ast.Constant(priority)
     if block.groups.get("stop"):
         options["stop"] = code.slot(block, "stop_state.1")
     if (interrupted := code.choice(block, "interrupted")) != "again":
         options["interrupted"] = ast.Constant(interrupted)
+    if block.groups.get("robot"):
+        options["robot"] = code.slot(block, "robot.1")
+    if block.groups.get("limit"):
+        options["at_most_s"] = code.slot(block, "seconds.1")
     return _hat(f"goal_{code.text(block, 'name')}", "goal", code.slot(block, "name"), **options)
+
+
+def _goal_when(code: Expressions, block: Block) -> Hat:
+    condition = ast.Lambda(_NO_ARGUMENTS, code.slot(block, "condition"))
+    return _goal(code, block, when=condition)
 
 
 def _when_goal(code: Expressions, block: Block) -> Hat:
@@ -160,7 +169,9 @@ HATS: dict[str, HatGenerator] = {
     "when_emotion": lambda code, block: _when_state(code, block, "emotion", "emotion"),
     "when_sensor": _sensor,
     "when_idle": lambda code, block: _hat("when_idle", "when_idle", code.slot(block, "seconds")),
-    "goal": _goal,
+    "goal": lambda code, block: _goal(code, block, when=code.slot(block, "state")),
+    "goal_when": _goal_when,
+    "goal_asked": _goal,
     "when_goal": _when_goal,
     "own_define": _own_define,
     "program_lines": _program_lines,
