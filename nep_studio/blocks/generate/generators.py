@@ -136,7 +136,6 @@ _LINES = {
     "sees_mark": 'robot.sees("mark", number)',
     "seen_face": 'robot.seen_name("face")',
     "seen_mark": 'robot.seen_name("mark")',
-    "goal_is_pursued": "behavior.pursues(name)",
 }
 _CHOSEN = {
     "arithmetic": (
@@ -495,6 +494,11 @@ def note_names(code: Expressions, read: CodeText) -> None:
     code.modules.update(MODULES & read.read - read.made)
 
 
+def _of_behavior(code: Expressions, block: Block, method: str, *more: ast.expr) -> ast.expr:
+    """What the behaviour is asked of a goal by its name."""
+    return method_call(ast.Name("behavior"), method, [code.slot(block, "name"), *more])
+
+
 REPORTERS: dict[str, ValueGenerator] = {
     **{name: _python(text) for name, text in _LINES.items()},
     **{name: _by_choice(slot, texts) for name, (slot, texts) in _CHOSEN.items()},
@@ -511,6 +515,7 @@ REPORTERS: dict[str, ValueGenerator] = {
     "text_replace": _text_replace,
     "letter": _letter,
     "emotion": _emotion,
+    "goal_is_pursued": lambda code, block: _of_behavior(code, block, "pursues"),
     "list_create": lambda code, block: ast.List(code.slots(block, "item", "item")),
     "list_get": _get,
     "list_take": _take,
@@ -711,12 +716,7 @@ def _wait_for_word(code: Expressions, block: Block) -> list[Piece]:
 
 def _pursue(code: Expressions, block: Block) -> list[Piece]:
     given = [code.value_in(block, "value.1")] if block.groups.get("value") else []
-    arguments = [code.slot(block, "name"), *given]
-    return [show(method_call(ast.Name("behavior"), "pursue", arguments))]
-
-
-def _give_up_goal(code: Expressions, block: Block) -> list[Piece]:
-    return [show(method_call(ast.Name("behavior"), "give_up", [code.slot(block, "name")]))]
+    return [show(_of_behavior(code, block, "pursue", *given))]
 
 
 def _set_priority(code: Expressions, block: Block) -> list[Piece]:
@@ -751,7 +751,7 @@ STATEMENTS: dict[str, StatementGenerator] = {
     "list_insert": _insert,
     "list_remove": _remove,
     "pursue": _pursue,
-    "give_up_goal": _give_up_goal,
+    "give_up_goal": lambda code, block: [show(_of_behavior(code, block, "give_up"))],
     "set_priority": _set_priority,
     "ask": _ask,
     "wait_for_word": _wait_for_word,
