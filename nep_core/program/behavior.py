@@ -31,6 +31,7 @@ from nep_core.wire.states import state_of_thing, state_of_word, word_of_state
 
 from .goals import Goal, GoalEvent, Goals, Interrupted
 from .human import human_listener
+from .robot import Robot
 from .tasks import (
     CLOCK,
     POLL_S,
@@ -175,13 +176,13 @@ class Behavior:
         priority: Priority = "normal",
         stop: str = "",
         interrupted: Interrupted = "again",
-        robot: str = "",
+        robot: Robot | None = None,
         at_most_s: float = math.inf,
     ) -> Decorator:
         """Pursue the decorated function as a goal each time the person's state is ``when``.
 
         Or each time that ``when()`` becomes true; without it, when ``pursue`` asks for it. A robot
-        pursues one goal at a time: ``robot`` is whose goal it is ("": that of all robots). One of a
+        pursues one goal at a time: ``robot`` is whose goal it is (None: that of all robots). One of a
         higher priority interrupts it; then it begins "again" afterwards, goes on where it was
         ("resume"), or is "drop"ped. The state ``stop`` ends it, and so does the end of
         ``at_most_s`` seconds, in which it is not interrupted: then it has failed.
@@ -190,7 +191,8 @@ class Behavior:
         """
 
         def add(action: Action) -> None:
-            goal = Goal(name, when, action, priority, stop, interrupted, robot, at_most_s)
+            robots = frozenset(robot.robots if robot is not None else ())
+            goal = Goal(name, when, action, priority, stop, interrupted, robots, at_most_s)
             self._goals.add(goal)
 
         return _decorator(add)

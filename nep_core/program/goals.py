@@ -50,8 +50,8 @@ class Goal:
     """What to do when the person does ``when``, until it is done or they do ``stop``.
 
     ``when`` may be a condition, too, or "": only when it is asked for. ``interrupted``: whether it
-    begins again after a more important goal, goes on where it was, or is dropped. ``robot`` is
-    whose goal it is, "" that of all. After ``at_most_s`` it has failed. ``hooks`` are what to do
+    begins again after a more important goal, goes on where it was, or is dropped. ``robots`` are
+    those whose goal it is; it is that of all when there are none. After ``at_most_s`` it has failed. ``hooks`` are what to do
     besides: when it has finished or failed, was stopped or interrupted, or returns.
     """
 
@@ -61,13 +61,14 @@ class Goal:
     priority: Priority = "normal"
     stop: str = ""
     interrupted: Interrupted = "again"
-    robot: str = ""
+    robots: frozenset[str] = frozenset()
     at_most_s: float = math.inf
     hooks: dict[GoalEvent, list[Action]] = field(default_factory=dict)
 
     def excludes(self, other: Goal) -> bool:
         """Whether the two may not run at once: they are for one robot."""
-        return "" in (self.robot, other.robot) or self.robot == other.robot
+        is_of_all = not self.robots or not other.robots
+        return is_of_all or bool(self.robots & other.robots)
 
     @property
     def importance(self) -> int:
@@ -376,9 +377,7 @@ class Goals:
             pursuit.part = None
             part.task.cancel()
 
-    def _play_hooks(
-        self, pursuit: Pursuit, event: GoalEvent, *, is_cuttable: bool = False
-    ) -> None:
+    def _play_hooks(self, pursuit: Pursuit, event: GoalEvent, *, is_cuttable: bool = False) -> None:
         """Do what follows an event; its errors are told, and end nothing else."""
         goal = pursuit.goal
         for action in goal.hooks.get(event, ()):
@@ -395,10 +394,9 @@ class Goals:
 
 
 def _unknown(name: str, goals: Iterable[str]) -> NepError:
-    steps: list[str] = ["Write the name as the goal's own block has it."]
     return NepError(
         "There is no goal with the name “{name}”.",
-        checklist=(*steps, "The goals are: {goals}."),
+        checklist=("Write the name as the goal's own block has it.", "The goals are: {goals}."),
         name=name,
         goals=", ".join(goals),
     )
