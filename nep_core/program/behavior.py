@@ -14,7 +14,6 @@ from types import CodeType, FunctionType
 from typing import Literal
 
 from faults import Fault, fault_in, fault_of
-from nep_core.errors import NepError
 from nep_core.networks.network import Network
 from nep_core.networks.transports import default_network
 from nep_core.wire.messages import (
@@ -182,10 +181,10 @@ class Behavior:
         """Pursue the decorated function as a goal each time the person's state is ``when``.
 
         Or each time that ``when()`` becomes true; without it, when ``pursue`` asks for it. A robot
-        pursues one goal at a time: ``robot`` is whose goal it is (None: that of all robots). One of a
-        higher priority interrupts it; then it begins "again" afterwards, goes on where it was
-        ("resume"), or is "drop"ped. The state ``stop`` ends it, and so does the end of
-        ``at_most_s`` seconds, in which it is not interrupted: then it has failed.
+        pursues one goal at a time: ``robot`` is whose goal it is (None: that of all robots). One
+        of a higher priority interrupts it; then it begins "again" afterwards, goes on where it was
+        ("resume"), or is "drop"ped. The state ``stop`` ends it. When it has run for ``at_most_s``
+        seconds, it has failed.
 
         ``name`` is told to people; ``interrupted`` is "again", "resume" or "drop". Raises NepError.
         """

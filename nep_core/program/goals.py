@@ -51,8 +51,9 @@ class Goal:
 
     ``when`` may be a condition, too, or "": only when it is asked for. ``interrupted``: whether it
     begins again after a more important goal, goes on where it was, or is dropped. ``robots`` are
-    those whose goal it is; it is that of all when there are none. After ``at_most_s`` it has failed. ``hooks`` are what to do
-    besides: when it has finished or failed, was stopped or interrupted, or returns.
+    those whose goal it is; it is that of all when there are none. When it has run for
+    ``at_most_s`` it has failed. ``hooks`` are what to do besides: when it has finished or failed,
+    was stopped or interrupted, or returns.
     """
 
     name: str
