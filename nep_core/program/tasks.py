@@ -184,7 +184,7 @@ class Task:
         self.cancelled = threading.Event()
         self.undo: dict[tuple[str, ...], Begun] = {}
         """What is still to be ended, by what it is, when this part is cancelled."""
-        self.standing = parent.standing if parent is not None else Standing()
+        self.standing: Standing = parent.standing if parent is not None else Standing()
         self._parent = parent
         self._held_since_s = math.inf
         self._held_s = 0.0

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections import OrderedDict
 from collections.abc import Collection
+from typing import Any
 
 import numpy as np
 
@@ -213,7 +214,7 @@ class Actor:
             results.append(self._result(command_id, "cancelled", fault))
         return results
 
-    def _rest(self, command_id: str) -> dict[str, float]:
+    def _rest(self, command_id: str) -> dict[str, Any]:
         """The arguments for the rest of a walk or a turn, each with rest_ before its name."""
         here, start = self._place(), self._set_out.get(command_id)
         command = next((one for one in self.schedule.running if one.id == command_id), None)
