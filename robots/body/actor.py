@@ -175,9 +175,9 @@ class Actor:
         return self.driver.noticed()
 
     def _end_free_walk(self, priority: int) -> list[ActionResult]:
-        """A walk without an end makes way for what else the legs are asked, if that may be."""
+        """A walk without an end is over when the legs are asked for what is as important."""
         walks = [one for one in self._commands() if isinstance(one.action, WalkFreely)]
-        free = [one.id for one in walks if one.priority <= priority]
+        free = [one.id for one in walks if one.priority == priority]
         return self._end(free, "done", "")
 
     def _end_forsaken(self) -> list[ActionResult]:

@@ -219,3 +219,28 @@ def test_a_walk_goes_the_rest_of_its_way(theatre: LimbTheatre) -> None:
     assert arrived.wait(WAIT_S)
     walks = [one.args["forward_m"] for one in theatre.requests.values() if one.action == "walk"]
     assert len(walks) == 2 and 0.05 < walks[1] < 0.55
+
+
+def test_a_walk_without_an_end_goes_on_after_it_had_to_make_way(theatre: LimbTheatre) -> None:
+    robot = theatre.begin("virtual")
+
+    @theatre.behavior.when("stroll")
+    def stroll() -> None:
+        robot.start_walking(50)
+        wait(60)
+
+    @theatre.behavior.when("turn")
+    def turn() -> None:
+        set_priority("high")
+        robot.turn(20)
+
+    theatre.play()
+    theatre.person_is("stroll")
+    theatre.when("started", "walk_freely")
+    theatre.person_is("turn")
+
+    cut_s = theatre.when("cancelled", "walk_freely", code=DISPLACED)
+    turned_s = theatre.when("done", "turn")
+    again_s = theatre.when("started", "walk_freely", number=2)
+
+    assert cut_s < turned_s < again_s
