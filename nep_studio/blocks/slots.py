@@ -470,6 +470,7 @@ KINDS: dict[str, Kind] = {
         ),
         _name("state", "a human state", read=_state),
         _name("gesture", "a gesture", prefix=GESTURE_STATE, table="gestures"),
+        Kind("goal", "a goal", new="", takes_any_words=True, hint="goal", opens=True),
         _name("robot", "a robot", is_said=False),
         _name("variable", "a variable", missing=False, is_said=False),
         Kind("choice", "one of a list", hint="choose", opens=True),

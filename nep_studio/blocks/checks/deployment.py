@@ -222,6 +222,12 @@ def check_goals(
                 yield found("outside_goal", project, language, block.id)
 
 
+def goal_names(project: Project, language: Language) -> list[str]:
+    """What the goals of a project are called, each once."""
+    goals = (block for block in project.blocks.values() if block.type in GOALS)
+    return sorted({name for goal in goals if (name := _goal_name(language, goal))})
+
+
 def _goal_name(language: Language, block: Block) -> str:
     return str(language.definitions[block.type].value(block, "name"))
 
