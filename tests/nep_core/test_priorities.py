@@ -1,4 +1,4 @@
-"""How important what a program asks of robots is: who says so, and what becomes of who makes way."""
+"""How important what a program asks robots is: who says so, and what becomes of who makes way."""
 
 from __future__ import annotations
 
