@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from .processes.launcher import Launcher
     from .processes.node import Node
     from .program.behavior import Behavior, in_turn, one_of, what_went_wrong
+    from .program.goals import fail_goal, goal_value
     from .program.human import (
         heard_word,
         human_state,
@@ -43,6 +44,7 @@ if TYPE_CHECKING:
     from .program.tasks import (
         at_once,
         end_actions,
+        set_priority,
         stop_program,
         stop_rule,
         together,
@@ -109,40 +111,41 @@ _HOMES = {
         "processes.launcher": "Launcher",
         "processes.node": "Node",
         "program.behavior": "Behavior in_turn one_of what_went_wrong",
+        "program.goals": "fail_goal goal_value",
         "program.human": "heard_word human_state is_remembered remember times_seen until_state "
         "was_seen",
         "program.messages": "tell told_value",
         "program.robot": "Robot colour_from mix_colours",
-        "program.tasks": "at_once end_actions stop_program stop_rule together wait wait_until",
-        "program.timing": "date_today start_timer time_now time_part timer_seconds weekday_today",
         "program.tables": "as_table change_at has_key names_in remove_key set_at table_of value_at",
+        "program.tasks": "at_once end_actions set_priority stop_program stop_rule together wait "
+        "wait_until",
+        "program.timing": "date_today start_timer time_now time_part timer_seconds weekday_today",
         "program.values": "add_item append_text as_list as_number as_text count_from deviation_of "
-        "has_item has_part insert_item is_at_least is_at_most is_less is_more is_same item_of "
-        "items_between join_items largest_of length_of letter_of list_with mean_of median_of "
-        "number_in parts_of place_in_text place_of random_whole remove_item replace_part set_item "
-        "smallest_of sorted_items sum_of take_item title_case to_nearest to_power",
+        "has_item has_part insert_item is_at_least is_at_most is_less is_more "
+        "is_same item_of items_between join_items largest_of length_of letter_of "
+        "list_with mean_of median_of number_in parts_of place_in_text place_of "
+        "random_whole remove_item replace_part set_item smallest_of sorted_items "
+        "sum_of take_item title_case to_nearest to_power",
         "wire.pubsub": "Publisher Subscriber",
     }.items()
     for name in names.split()
 }
 
 __all__ = ["Behavior", "Broker", "BrokerNetwork", "DirectNetwork", "Launcher", "Master"]
-__all__ += ["NepError", "Node", "PeerNetwork", "Publisher", "Robot", "Subscriber", "at_once"]
-__all__ += ["colour_from", "heard_word", "human_state", "in_turn", "is_remembered", "mix_colours"]
-__all__ += ["one_of", "remember", "stop_program", "stop_rule", "times_seen", "together"]
-__all__ += ["until_state", "wait", "wait_until", "was_seen"]
-__all__ += ["date_today", "end_actions", "start_timer", "tell", "time_now", "time_part"]
-__all__ += ["timer_seconds", "told_value", "weekday_today", "what_went_wrong"]
-__all__ += ["add_item", "append_text", "as_list", "as_number", "as_text", "count_from"]
-__all__ += ["deviation_of"]
-__all__ += ["has_item", "has_part", "insert_item", "is_at_least", "is_at_most", "is_less"]
-__all__ += ["is_more", "is_same", "item_of", "items_between", "join_items", "largest_of"]
-__all__ += ["length_of", "letter_of", "list_with", "mean_of", "median_of", "number_in"]
-__all__ += ["parts_of", "place_in_text", "place_of", "random_whole", "remove_item"]
-__all__ += ["replace_part", "set_item", "smallest_of", "sorted_items", "sum_of", "take_item"]
-__all__ += ["title_case", "to_nearest", "to_power"]
-__all__ += ["as_table", "change_at", "has_key", "names_in", "remove_key", "set_at", "table_of"]
-__all__ += ["value_at"]
+__all__ += ["NepError", "Node", "PeerNetwork", "Publisher", "Robot", "Subscriber", "add_item"]
+__all__ += ["append_text", "as_list", "as_number", "as_table", "as_text", "at_once", "change_at"]
+__all__ += ["colour_from", "count_from", "date_today", "deviation_of", "end_actions", "fail_goal"]
+__all__ += ["goal_value", "has_item", "has_key", "has_part", "heard_word", "human_state"]
+__all__ += ["in_turn", "insert_item", "is_at_least", "is_at_most", "is_less", "is_more"]
+__all__ += ["is_remembered", "is_same", "item_of", "items_between", "join_items", "largest_of"]
+__all__ += ["length_of", "letter_of", "list_with", "mean_of", "median_of", "mix_colours"]
+__all__ += ["names_in", "number_in", "one_of", "parts_of", "place_in_text", "place_of"]
+__all__ += ["random_whole", "remember", "remove_item", "remove_key", "replace_part", "set_at"]
+__all__ += ["set_item", "set_priority", "smallest_of", "sorted_items", "start_timer"]
+__all__ += ["stop_program", "stop_rule", "sum_of", "table_of", "take_item", "tell", "time_now"]
+__all__ += ["time_part", "timer_seconds", "times_seen", "title_case", "to_nearest", "to_power"]
+__all__ += ["together", "told_value", "until_state", "value_at", "wait", "wait_until", "was_seen"]
+__all__ += ["weekday_today", "what_went_wrong"]
 
 
 def __getattr__(name: str) -> Any:

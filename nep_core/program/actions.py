@@ -12,7 +12,6 @@ import threading
 import time
 import uuid
 from dataclasses import dataclass, field
-from functools import partial
 from typing import Any
 
 import msgspec
@@ -20,10 +19,26 @@ import msgspec
 from nep_core.errors import ActionFailed, NepError, RobotNotAnswering
 from nep_core.networks.network import Network
 from nep_core.networks.transports import default_network
-from nep_core.wire.messages import ACTION_REQUEST, ACTION_RESULT, ActionRequest, ActionResult
+from nep_core.wire.messages import (
+    ACTION_REQUEST,
+    ACTION_RESULT,
+    DISPLACED,
+    REST,
+    ActionRequest,
+    ActionResult,
+)
 from nep_core.wire.pubsub import Publisher, Subscriber
 
-from .tasks import POLL_S, Cancelled, Stamp, current_task
+from .tasks import (
+    POLL_S,
+    PRIORITIES,
+    Begun,
+    Cancelled,
+    RuleDisplaced,
+    Stamp,
+    Task,
+    current_task,
+)
 
 ASK_AGAIN_S = 1.0
 SILENCE_S = 5.0
@@ -35,10 +50,29 @@ UNLESS_ASKED_S = 1.0
 UNANSWERED_S = 2.0
 """What a robot has said nothing about for so long is renewed no more: it has ended by itself, and
 a robot whose action node was started anew meanwhile must not begin it again."""
+HALTING_S = 0.5
+"""A robot says within this time how far it came with what it has to stop."""
 STOPPING_S = 0.1
 """Who stops robots stops the program next: so long it begins nothing after a cancelled action."""
 
 _ENDS = ("done", "failed", "cancelled")
+
+
+def _made_way(result: ActionResult) -> bool:
+    """Whether an action has ended because the robot does something more important."""
+    return result.state == "cancelled" and result.code == DISPLACED
+
+
+def _request(robots: list[str], action: str, args: dict[str, Any], task: Task) -> ActionRequest:
+    """A new request, as important as what asks for it."""
+    return ActionRequest(
+        id=uuid.uuid4().hex,
+        robots=robots,
+        action=action,
+        args=args,
+        priority=PRIORITIES[task.standing.priority],
+        by=task.standing.name,
+    )
 
 
 @dataclass
@@ -49,6 +83,13 @@ class Call:
     results: dict[str, ActionResult] = field(default_factory=dict)
     heard_s: dict[str, float] = field(default_factory=dict)
     ended: threading.Event = field(default_factory=threading.Event)
+    begun_s: float = field(default_factory=time.monotonic)
+    ask_s: float = 0.0
+    """When it is asked for again."""
+    redone: set[str] = field(default_factory=set)
+    """The robots that are asked for it anew, by another request."""
+    gives_up: bool = False
+    """Whether it is not done again after it has made way for something more important."""
 
     def note(self, result: ActionResult) -> None:
         """Take in what a robot says; an end is not taken back."""
@@ -66,6 +107,19 @@ class Call:
         if len(self.results) < len(set(self.request.robots)):
             return self.request
         return msgspec.structs.replace(self.request, args={**self.request.args, "was_known": True})
+
+    def displaced(self) -> list[str]:
+        """The robots that have made way for something more important, and do not do it again."""
+        results = self.results.copy().values()
+        return [one.robot for one in results if _made_way(one) and one.robot not in self.redone]
+
+    def rest(self, robot: str) -> dict[str, Any]:
+        """The arguments for what a robot has not done of it."""
+        result = self.results.get(robot)
+        values = result.values if result is not None and isinstance(result.values, dict) else {}
+        rest = {name: values.get(f"{REST}{name}") for name in self.request.args}
+        known = {name: value for name, value in rest.items() if isinstance(value, int | float)}
+        return {**self.request.args, **known}
 
     def silent(self, since_s: float) -> str:
         """A robot that has said nothing since then, or has never; "" when all talk."""
@@ -94,20 +148,32 @@ class ActionClient:
     def perform(self, robots: list[str], action: str, args: dict[str, Any]) -> None:
         """Ask, and wait until all robots are done.
 
-        Raises RobotNotAnswering, ActionFailed, or Cancelled after cancelling the action.
+        What makes way for something more important is done again afterwards, a walk for the rest
+        of its way; so it is when this part is held meanwhile. Raises RobotNotAnswering,
+        ActionFailed, RuleDisplaced, or Cancelled after cancelling the action.
         """
-        request = ActionRequest(id=uuid.uuid4().hex, robots=robots, action=action, args=args)
-        call = self._calls[request.id] = Call(request)
+        task = current_task()
+        task.stand_still()
+        calls = [self._call(robots, action, args, task)]
         try:
-            self._await(call)
-        except Cancelled:
-            self.send(robots, "stop", {"request": request.id})
+            self._await(calls, task)
+        except (Cancelled, RuleDisplaced):
+            for call in calls:
+                if not call.ended.is_set():
+                    self.send(call.request.robots, "stop", {"request": call.request.id})
             raise
         finally:
-            del self._calls[request.id]
-        if any(result.state == "cancelled" for result in call.results.values()):
-            current_task().sleep(STOPPING_S)
-        for result in call.results.values():
+            for call in calls:
+                del self._calls[call.request.id]
+        results = [
+            result
+            for call in calls
+            for result in call.results.values()
+            if result.robot not in call.redone
+        ]
+        if any(result.state == "cancelled" for result in results):
+            task.sleep(STOPPING_S)
+        for result in results:
             if result.state == "failed":
                 raise ActionFailed(
                     "{robot} could not do that: {description}",
@@ -122,36 +188,66 @@ class ActionClient:
                     description=result.fault.sentence,
                 )
 
+    def _call(self, robots: list[str], action: str, args: dict[str, Any], task: Task) -> Call:
+        gives_up = task.standing.displaced == "give_up"
+        call = Call(_request(robots, action, args, task), gives_up=gives_up)
+        self._calls[call.request.id] = call
+        return call
+
     def send(self, robots: list[str], action: str, args: dict[str, Any]) -> str:
         """Ask without waiting; the id of the request."""
-        request = ActionRequest(id=uuid.uuid4().hex, robots=robots, action=action, args=args)
+        request = _request(robots, action, args, current_task())
         self._requests.send(request)
         return request.id
 
-    def begin(self, robots: list[str], action: str, args: dict[str, Any]) -> str:
-        """The same; the action is ended when the part that asks is cancelled."""
-        request = self.send(robots, action, args)
-        stop = partial(self.send, robots, "stop", {"request": request})
-        current_task().undo[action, *robots] = stop
-        return request
+    def begin(self, robots: list[str], action: str, args: dict[str, Any]) -> None:
+        """The same; the action is ended when the part that asks is cancelled or held."""
+        request: list[str] = []
 
-    def begin_renewed(self, robots: list[str], action: str, args: dict[str, Any]) -> str:
+        def again() -> None:
+            request[:] = [self.send(robots, action, args)]
+
+        self._note_begun(
+            (action, *robots),
+            Begun(lambda: self.send(robots, "stop", {"request": request[0]}), again),
+        )
+
+    def begin_renewed(self, robots: list[str], action: str, args: dict[str, Any]) -> None:
         """The same, of an action that ends by itself soon after this program is gone.
 
         It is asked for again and again, until it has ended or this part is cancelled.
         """
+        task, request = current_task(), list[str]()
         args = {**args, "unless_asked_s": UNLESS_ASKED_S}
-        request = ActionRequest(id=uuid.uuid4().hex, robots=robots, action=action, args=args)
-        call = self._calls[request.id] = Call(request)
+
+        def again() -> None:
+            request[:] = [self._begin_renewed(robots, action, args, task)]
+
+        self._note_begun(
+            (action, *robots), Begun(lambda: self._end_renewed(robots, request[0]), again)
+        )
+
+    def _note_begun(self, key: tuple[str, ...], begun: Begun) -> None:
+        """Begin what this part does not wait for."""
+        task = current_task()
+        task.stand_still()
+        begun.again()
+        task.undo[key] = begun
+        if task.is_held:  # since just now
+            begun.end()
+
+    def _begin_renewed(
+        self, robots: list[str], action: str, args: dict[str, Any], task: Task
+    ) -> str:
+        call = self._call(robots, action, args, task)
         call.heard_s = dict.fromkeys(robots, time.monotonic())
-        self._requests.send(request)
+        self._requests.send(call.request)
         with self._renewing:
             is_first = not self._renewed
-            self._renewed[request.id] = call
+            self._renewed[call.request.id] = call
         if is_first:
             threading.Thread(target=self._renew, name="nep-renewing", daemon=True).start()
-        current_task().undo[action, *robots] = partial(self._end_renewed, robots, request.id)
-        return request.id
+        return call.request.id
 
     def _end_renewed(self, robots: list[str], request_id: str) -> None:
         with self._renewing:  # nothing asks for it again behind this
@@ -170,7 +266,8 @@ class ActionClient:
             was_late, asked_s = now_s - asked_s > UNLESS_ASKED_S / 2.0, now_s
             with self._renewing:
                 for request_id, call in [*self._renewed.items()]:
-                    if was_late:  # this program stood still: the robot may have ended it meanwhile
+                    has_made_way = call.ended.is_set() and call.displaced() and not call.gives_up
+                    if was_late or has_made_way:  # the robot may have ended it meanwhile
                         self._begin_anew(call)
                     if call.ended.is_set() or call.silent(now_s - UNANSWERED_S):
                         del self._renewed[request_id], self._calls[call.request.id]
@@ -189,24 +286,60 @@ class ActionClient:
         call.results.clear()
         call.ended.clear()
 
-    def end(self, robots: list[str], action: str, request_id: str) -> None:
+    def end(self, robots: list[str], action: str) -> None:
         """End an action that was begun in this part of the program."""
-        current_task().undo.pop((action, *robots), None)
-        self.send(robots, "stop", {"request": request_id})
+        if (begun := current_task().undo.pop((action, *robots), None)) is not None:
+            begun.end()
 
-    def _await(self, call: Call) -> None:
-        task = current_task()
-        asked_first_s = time.monotonic()
-        ask_s = 0.0
-        while not call.ended.is_set():
+    def _await(self, calls: list[Call], task: Task) -> None:
+        """Wait until all calls have ended; what is to be done again becomes a further one."""
+        while True:
+            if task.is_held:
+                self._stand_still(calls, task)
+            under_way = [call for call in calls if not call.ended.is_set()]
+            for call in [*calls]:
+                for robot in call.displaced():
+                    if call.gives_up:
+                        raise RuleDisplaced
+                    under_way.append(self._do_again(call, robot, calls, task))
+            if not under_way:
+                return
             task.check()
-            now_s = time.monotonic()
-            if now_s >= ask_s:
-                self._requests.send(call.request)
-                ask_s = now_s + ASK_AGAIN_S
-            if now_s - asked_first_s > SILENCE_S and (robot := call.silent(now_s - SILENCE_S)):
-                raise not_answering(robot)
-            call.ended.wait(POLL_S)
+            for call in under_way:
+                self._ask(call)
+            under_way[0].ended.wait(POLL_S)
+
+    def _ask(self, call: Call) -> None:
+        """Ask for a call when it is time. Raises RobotNotAnswering."""
+        now_s = time.monotonic()
+        if now_s >= call.ask_s:
+            self._requests.send(call.request)
+            call.ask_s = now_s + ASK_AGAIN_S
+        if now_s - call.begun_s > SILENCE_S and (robot := call.silent(now_s - SILENCE_S)):
+            raise not_answering(robot)
+
+    def _do_again(self, call: Call, robot: str, calls: list[Call], task: Task) -> Call:
+        """Ask one robot once more, for what it has not done."""
+        call.redone.add(robot)
+        again = self._call([robot], call.request.action, call.rest(robot), task)
+        calls.append(again)
+        return again
+
+    def _stand_still(self, calls: list[Call], task: Task) -> None:
+        """End what was asked for while this part is held; afterwards it is to be done again."""
+        halted = [call for call in calls if not call.ended.is_set()]
+        for call in halted:
+            self.send(call.request.robots, "stop", {"request": call.request.id})
+        for call in halted:
+            call.ended.wait(HALTING_S)
+        task.stand_still()
+        for call in halted:
+            for robot in dict.fromkeys(call.request.robots):
+                result = call.results.get(robot)
+                has_ended = result is not None and result.state in ("done", "failed")
+                if not has_ended and robot not in call.redone:
+                    self._do_again(call, robot, calls, task)
+            call.ended.set()
 
     def _on_result(self, result: ActionResult) -> None:
         if (call := self._calls.get(result.id)) is not None:

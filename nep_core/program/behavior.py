@@ -1,9 +1,9 @@
-"""Behavior: rules that fire on what the person does, what runs at the start, and goals."""
+"""Behavior: rules that fire on what the person does, and what runs at the start."""
 
 from __future__ import annotations
 
-import contextlib
 import logging
+import math
 import random
 import threading
 import time
@@ -31,16 +31,18 @@ from nep_core.wire.messages import (
 from nep_core.wire.pubsub import Publisher
 from nep_core.wire.states import state_of_thing, state_of_word, word_of_state
 
+from .goals import Goal, GoalEvent, Goals, Interrupted
 from .human import human_listener
 from .messages import Run, heard_by, own_run
+from .robot import Robot
 from .tasks import (
     CLOCK,
-    POLL_S,
     PROGRAM,
     Cancelled,
     Part,
+    Priority,
     RuleStopped,
-    Task,
+    Standing,
     current_task,
     handled_error,
 )
@@ -223,30 +225,57 @@ class Behavior:
         self,
         name: str,
         *,
-        when: str,
+        when: str | Condition = "",
         priority: Priority = "normal",
         stop: str = "",
         interrupted: Interrupted = "again",
+        robot: Robot | None = None,
+        at_most_s: float = math.inf,
     ) -> Decorator:
         """Pursue the decorated function as a goal each time the person's state is ``when``.
 
-        One goal runs at a time. One of a higher priority interrupts it; then it begins "again"
-        afterwards, or is "drop"ped. The state ``stop`` ends it.
+        Or each time that ``when()`` becomes true; without it, when ``pursue`` asks for it. A robot
+        pursues one goal at a time: ``robot`` is whose goal it is (None: that of all robots). One
+        of a higher priority interrupts it; then it begins "again" afterwards, goes on where it was
+        ("resume"), or is "drop"ped. The state ``stop`` ends it. When it has run for ``at_most_s``
+        seconds, it has failed.
 
-        ``name`` is told to people; ``interrupted`` is "again" or "drop".
+        ``name`` is told to people; ``interrupted`` is "again", "resume" or "drop". Raises NepError.
         """
 
-        return _decorator(
-            lambda action: self._goals.add(Goal(name, when, action, priority, stop, interrupted))
-        )
+        def add(action: Action) -> None:
+            robots = frozenset(robot.robots if robot is not None else ())
+            goal = Goal(name, when, action, priority, stop, interrupted, robots, at_most_s)
+            self._goals.add(goal)
+
+        return _decorator(add)
 
     def when_goal(self, name: str, event: GoalEvent) -> Decorator:
-        """Run the decorated function when a goal has "finished", or was "stopped" or "interrupted".
+        """Run the decorated function when a goal has "finished", "failed", or was "stopped".
 
-        Or, before it begins again, when it "returns".
+        Or "interrupted", or, before it begins again or goes on, when it "returns".
         """
 
         return _decorator(lambda action: self._goals.hook(name, event, action))
+
+    def pursue(self, name: str, value: object = "") -> None:
+        """Let a goal begin when its turn comes; ``value`` is what it is given.
+
+        Nothing happens if it is pursued already, or waits for its turn. Raises NepError.
+        """
+        self._goals.pursue(name, value)
+
+    def pursues(self, name: str) -> bool:
+        """Whether a goal runs, or waits: for its turn, or to return. Raises NepError."""
+        return self._goals.is_pursued(name)
+
+    def give_up(self, name: str) -> None:
+        """Give a goal up that runs or waits; a goal that gives itself up ends here.
+
+        Raises NepError.
+        """
+        self._goals.give_up(name)
+        current_task().check()
 
     def when_started(self, action: Action) -> Action:
         """Run the decorated function when the program starts."""
@@ -355,6 +384,7 @@ class Behavior:
 
     def _play(self, action: Action, rule: str) -> None:
         """Do something; an error in it is told, and ends nothing else than the program says."""
+        current_task().standing = Standing(rule)
         try:
             action()
         except RuleStopped:
@@ -520,203 +550,3 @@ def in_turn(*functions: FunctionType) -> None:
         turn = _turns.get(place, 0)
         _turns[place] = turn + 1
     functions[turn % len(functions)]()
-
-
-# Goals: longer tasks that run one at a time, of which the more important interrupt the others.
-
-Priority = Literal["low", "normal", "high"]
-Interrupted = Literal["again", "drop"]
-GoalEvent = Literal["finished", "stopped", "interrupted", "returns"]
-End = Literal["finished", "stopped", "interrupted"]
-
-ORDER: dict[str, int] = {"low": 0, "normal": 1, "high": 2}
-TOLD: dict[End, ProgramEvent] = {
-    "finished": "goal_finished",
-    "stopped": "goal_stopped",
-    "interrupted": "goal_interrupted",
-}
-
-
-@dataclass(eq=False)
-class Goal:
-    """What to do when the person does ``state``, until it is done or they do ``stop``.
-
-    ``interrupted``: whether it begins again after a more important goal, or is dropped.
-    ``hooks`` are what to do besides: when it has finished, was stopped or interrupted, or returns.
-    """
-
-    name: str
-    state: str
-    action: Action
-    priority: Priority = "normal"
-    stop: str = ""
-    interrupted: Interrupted = "again"
-    hooks: dict[GoalEvent, list[Action]] = field(default_factory=dict)
-    returns: bool = False
-
-
-class Goals:
-    """The goals of a behaviour: at most one runs, the others wait by priority, then by time."""
-
-    def __init__(
-        self,
-        tell: Callable[[ProgramEvent, str], None],
-        note_error: Callable[[BaseException, str], None],
-    ) -> None:
-        self._tell, self._note_error = tell, note_error
-        self._goals: list[Goal] = []
-        self._hooks: list[tuple[str, GoalEvent, Action]] = []
-        self._waiting: list[Goal] = []
-        self._given_up: list[Goal] = []
-        """Those that had begun, and were stopped while another one ran."""
-        self._running: Goal | None = None
-        self._task: Task | None = None
-        self._cut: End = "finished"
-        self._has_ended = False
-        """Whether the running goal came to its end by itself, whatever cut it after that."""
-        self._news = threading.Condition()
-
-    def __bool__(self) -> bool:
-        return bool(self._goals or self._hooks)
-
-    @property
-    def states(self) -> list[str]:
-        """The states that begin a goal or stop it."""
-        return [state for goal in self._goals for state in (goal.state, goal.stop)]
-
-    @property
-    def is_busy(self) -> bool:
-        """Whether a goal runs or waits."""
-        return self._running is not None or bool(self._waiting or self._given_up)
-
-    def add(self, goal: Goal) -> None:
-        """Add a goal; its name is its own."""
-        if any(known.name == goal.name for known in self._goals):
-            raise NepError(
-                "Two goals are called “{name}”.",
-                checklist=("Give each goal a name of its own.",),
-                name=goal.name,
-            )
-        if goal.priority not in ORDER:
-            raise NepError(
-                "A goal cannot have the priority “{priority}”.",
-                checklist=("Choose one of: {order}.",),
-                priority=goal.priority,
-                order=", ".join(ORDER),
-            )
-        self._goals.append(goal)
-
-    def hook(self, name: str, event: GoalEvent, action: Action) -> None:
-        """Do something besides when that happens to a goal, which may be added later."""
-        self._hooks.append((name, event, action))
-
-    def hear(self, state: str) -> None:
-        """Take in what the person does: goals begin, stop and interrupt each other."""
-        with self._news:
-            stopped = [goal for goal in self._waiting if goal.stop == state]
-            self._given_up += (goal for goal in stopped if goal.returns)
-            self._waiting = [goal for goal in self._waiting if goal not in stopped]
-            if self._running and self._running.stop == state:
-                self._cut_running("stopped")
-            for goal in self._goals:
-                if goal.state == state and goal not in (self._running, *self._waiting):
-                    goal.returns = False
-                    self._waiting.append(goal)
-            running = self._running
-            if running is not None and self._cut == "finished":
-                order = ORDER[running.priority]
-                if any(ORDER[goal.priority] > order for goal in self._waiting):
-                    self._cut_running("interrupted")
-            self._news.notify_all()
-
-    def run(self) -> None:
-        """Pursue goals one after the other until this part of the program is cancelled."""
-        goals = {goal.name: goal for goal in self._goals}
-        for name, event, action in self._hooks:
-            if name in goals:
-                goals[name].hooks.setdefault(event, []).append(action)
-                continue
-            unknown = NepError(
-                "There is no goal with the name “{name}”.",
-                checklist=("Write the name as the goal's own block has it.",),
-                name=name,
-            )
-            self._note_error(unknown, name)
-        task = current_task()
-        while True:
-            if (goal := self._next(task)) is not None:
-                self._pursue(goal, task)
-                continue
-            self._tell_end(self._given_up[0], "stopped", task)
-            with self._news:
-                del self._given_up[0]
-
-    def _next(self, task: Task) -> Goal | None:
-        """Wait for a goal, and make it the running one; None when some were given up instead."""
-        with self._news:
-            while not self._waiting and not self._given_up:
-                task.check()
-                self._news.wait(POLL_S)
-            if self._given_up:
-                return None
-            goal = max(self._waiting, key=lambda waiting: ORDER[waiting.priority])
-            self._waiting.remove(goal)
-            self._running, self._cut, self._task = goal, "finished", None
-            self._has_ended = False
-            return goal
-
-    def _pursue(self, goal: Goal, task: Task) -> None:
-        """Run a goal to its end, or until it is stopped or interrupted; then what follows that."""
-        self._tell("goal_started", goal.name)
-        if goal.returns:
-            for action in goal.hooks.get("returns", ()):
-                part = Part(action, f"nep-goal-{goal.name}-returns", task)
-                self._wait_for(self._cuttable(part).start(), task, goal)
-        part = self._cuttable(Part(lambda: self._play(goal), f"nep-goal-{goal.name}", task))
-        self._wait_for(part.start(), task, goal)
-        with self._news:
-            end: End = "finished" if self._has_ended else self._cut
-            if part.error is not None:
-                end = "stopped"
-            self._task = None
-        self._tell_end(goal, end, task)
-        # Let go of a goal that has ended; one that returns waits before those of its priority
-        with self._news:
-            self._running = None
-            was_stopped = self._cut == "stopped"  # while its hooks ran
-            if end == "interrupted" and goal.interrupted == "again" and not was_stopped:
-                goal.returns = True
-                self._waiting.insert(0, goal)
-
-    def _tell_end(self, goal: Goal, end: End, task: Task) -> None:
-        """Tell how a goal has ended, and do what follows that."""
-        self._tell(TOLD[end], goal.name)
-        for action in goal.hooks.get(end, ()):
-            self._wait_for(Part(action, f"nep-goal-{goal.name}-{end}", task).start(), task, goal)
-
-    def _cuttable(self, part: Part) -> Part:
-        """Let a part end when the running goal is cut, which may have been before it begins."""
-        with self._news:
-            self._task = part.task
-            if self._cut != "finished":
-                part.task.cancel()
-        return part
-
-    def _play(self, goal: Goal) -> None:
-        with contextlib.suppress(RuleStopped):
-            goal.action()
-        with self._news:
-            self._has_ended = True
-
-    def _cut_running(self, end: End) -> None:
-        """End the running goal; being stopped outdoes being interrupted."""
-        self._cut = end
-        if self._task is not None:
-            self._task.cancel()
-
-    def _wait_for(self, part: Part, task: Task, goal: Goal) -> None:
-        """Wait for the end of a part; its error is told, and it ends with ``task``."""
-        part.await_end()
-        task.check()
-        if part.error is not None and not isinstance(part.error, RuleStopped):
-            self._note_error(part.error, goal.name)

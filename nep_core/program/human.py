@@ -36,6 +36,7 @@ def next_word(heard: list[str], wanted: dict[str, str], seconds: float) -> str:
         if (left_s := countdown.left_s()) <= 0:
             return ""
         task.sleep(min(POLL_S, left_s))
+        task.stand_still()
 
 
 REMEMBER_S = 3.0
@@ -173,7 +174,7 @@ def until_state(state: str, most: float = float("inf")) -> Iterator[int]:
     task, number = current_task(), 0
     before = times_seen(state)
     while number < most and times_seen(state) == before:
-        task.check()
+        task.stand_still()
         number += 1
         yield number
 

@@ -228,11 +228,11 @@ class Robot:
     def _listen(self, words: list[str], seconds: float, heard: list[str]) -> str:
         wanted = {state_of_word(word): word for word in words}
         listening = {"words": words, "seconds": min(seconds, LONGEST_WAIT_S)}
-        request = self._client.begin(self.robots, "listen", listening)
+        self._client.begin(self.robots, "listen", listening)
         try:
             return next_word(heard, wanted, seconds)
         finally:
-            self._client.end(self.robots, "listen", request)
+            self._client.end(self.robots, "listen")
 
     # Its body: hands, joints, walking, gaze, sleep
 

@@ -16,8 +16,11 @@ import sys
 import threading
 import time
 from collections.abc import Callable
+from dataclasses import dataclass
 from types import FrameType
-from typing import NamedTuple
+from typing import Literal, NamedTuple
+
+from nep_core.errors import NepError
 
 POLL_S = 0.05
 """How often a condition is looked at."""
@@ -73,22 +76,31 @@ CLOCK = Clock()
 
 
 class Countdown:
-    """What is left of some seconds; of one thread, which may run while the others are paused."""
+    """What is left of some seconds; of one thread, which may run while the others are paused.
+
+    While the part that counts is held, nothing is counted.
+    """
 
     def __init__(self, seconds: float) -> None:
         self._left_s = seconds
-        self._looked_s = time.monotonic(), CLOCK.now_s()
+        self._task = current_task()
+        self._looked_s = self._now_s()
 
     def skip(self) -> None:
         """Do not count the time since it was looked at last."""
-        self._looked_s = time.monotonic(), CLOCK.now_s()
+        self._looked_s = self._now_s()
 
     def left_s(self) -> float:
         """How many seconds are left, 0 or less when they are over."""
-        before, self._looked_s = self._looked_s, (time.monotonic(), CLOCK.now_s())
+        before, self._looked_s = self._looked_s, self._now_s()
         own, programs = (now - then for now, then in zip(self._looked_s, before, strict=True))
         self._left_s -= own if CLOCK.is_stepped() else programs
         return self._left_s
+
+    def _now_s(self) -> tuple[float, float]:
+        """The time of this thread alone, and that of the whole program."""
+        held_s = self._task.held_s()
+        return time.monotonic() - held_s, CLOCK.now_s() - held_s
 
 
 LATER_S = 1.0
@@ -106,18 +118,128 @@ class Stamp(NamedTuple):
         return other.told_s >= self.told_s or other.came_s - self.came_s >= LATER_S
 
 
+# How important what a program asks of robots is: of each run of a rule or goal.
+
+Priority = Literal["low", "normal", "high"]
+WhenDisplaced = Literal["resume", "give_up"]
+PRIORITIES: dict[str, int] = {"low": -1, "normal": 0, "high": 1}
+"""As robots are told of it."""
+
+
+@dataclass
+class Standing:
+    """Who a rule or goal is to robots: its name, how important it is, and what if it must yield.
+
+    ``displaced``: when something more important takes a limb from it, the step that needs the limb
+    is done again afterwards ("resume"), or the rule or goal ends ("give_up").
+    """
+
+    name: str = ""
+    priority: Priority = "normal"
+    displaced: WhenDisplaced = "resume"
+    goal: object = None
+    """The goal that is pursued, if it is one."""
+
+
+class RuleDisplaced(RuleStopped):
+    """What the rule did has made way for something more important, and the rule gives up."""
+
+
+def set_priority(priority: Priority, *, displaced: WhenDisplaced = "resume") -> None:
+    """From here on, the rule that runs is so important: "low", "normal" or "high".
+
+    What it asks of a robot takes the limbs that it needs from what is less important, and makes
+    way for what is more important: then that step is done again afterwards, or the rule ends,
+    where ``displaced`` is "give_up". It holds for this run of the rule. Raises NepError.
+    """
+    check_priority(priority)
+    standing = current_task().standing
+    standing.priority, standing.displaced = priority, displaced
+
+
+def check_priority(priority: object) -> None:
+    """Raise NepError for what is no priority."""
+    if priority not in PRIORITIES:
+        raise NepError(
+            "There is no priority “{priority}”.",
+            checklist=("Choose one of: {order}.",),
+            priority=priority,
+            order=", ".join(PRIORITIES),
+        )
+
+
+class Begun(NamedTuple):
+    """What a part has begun and does not wait for: how it is ended, and begun again."""
+
+    end: Callable[[], object]
+    again: Callable[[], object] = lambda: None
+
+
 class Task:
-    """A part of a program; cancelling it cancels the parts that it started."""
+    """A part of a program; cancelling it cancels the parts that it started.
+
+    While it is held, it and those that it started stand still at their next wait or robot call.
+    """
 
     def __init__(self, parent: Task | None = None) -> None:
         self.cancelled = threading.Event()
-        self.undo: dict[tuple[str, ...], Callable[[], object]] = {}
+        self.undo: dict[tuple[str, ...], Begun] = {}
         """What is still to be ended, by what it is, when this part is cancelled."""
+        self.standing: Standing = parent.standing if parent is not None else Standing()
+        self._parent = parent
+        self._held_since_s = math.inf
+        self._held_s = 0.0
         self._children: list[Task] = []
         self._wakes: list[threading.Event] = []
         self._lock = threading.Lock()
         if parent is not None:
             parent._adopt(self)
+
+    @property
+    def is_held(self) -> bool:
+        """Whether this part is to stand still, or one that has started it."""
+        task: Task | None = self
+        while task is not None:
+            if task._held_since_s < math.inf:
+                return True
+            task = task._parent
+        return False
+
+    def held_s(self) -> float:
+        """For how long it has been held, by the program's clock."""
+        held_s, task = 0.0, self
+        while True:
+            with task._lock:
+                held_s += task._held_s + max(0.0, CLOCK.now_s() - task._held_since_s)
+            if task._parent is None:
+                return held_s
+            task = task._parent
+
+    def hold(self) -> None:
+        """Let this part stand still; what it had begun and not waited for is ended until then."""
+        with self._lock:
+            self._held_since_s = min(self._held_since_s, CLOCK.now_s())
+        for begun in self._all_begun():
+            begun.end()
+
+    def go_on(self) -> None:
+        """Let this part go on where it stands; what it had begun is begun again."""
+        with self._lock:
+            self._held_s += max(0.0, CLOCK.now_s() - self._held_since_s)
+            self._held_since_s = math.inf
+        for begun in self._all_begun():
+            begun.again()
+
+    def stand_still(self) -> None:
+        """Return when this part is not held; raises Cancelled if it is asked to end."""
+        while self.is_held:
+            self.sleep(POLL_S)
+        self.check()
+
+    def _all_begun(self) -> list[Begun]:
+        with self._lock:
+            begun, children = list(self.undo.values()), list(self._children)
+        return [*begun, *(one for child in children for one in child._all_begun())]
 
     def cancel(self) -> None:
         """Let this part and those that it started end at their next wait."""
@@ -135,8 +257,8 @@ class Task:
         """End what this part and those that it has outlived began and did not wait for."""
         with self._lock:
             undo, self.undo = self.undo, {}
-        for end in undo.values():
-            end()
+        for begun in undo.values():
+            begun.end()
 
     def check(self) -> None:
         """Raise Cancelled if this part has been asked to end."""
@@ -257,8 +379,8 @@ class Part:
         """Wait for its end."""
         self._thread.join(timeout_s)
 
-    def await_end(self, look: Callable[[], object] = lambda: None) -> None:
-        """Wait for its end; ``look`` is called all the while.
+    def await_end(self, look: Callable[[], object] = lambda: False) -> None:
+        """Wait for its end; ``look`` is called all the while, and ends the wait by being true.
 
         When it was asked to end, but only computes and so never notices, it is interrupted; it is
         not waited for any longer when that does not help either.
@@ -266,7 +388,8 @@ class Part:
         asked_s, interrupted_s = math.inf, -math.inf
         while self.is_running:
             self.join(POLL_S)
-            look()
+            if look():
+                return
             now_s = time.monotonic()
             if not self.task.cancelled.is_set():
                 continue
@@ -338,6 +461,7 @@ def wait(seconds: float) -> None:
     task, countdown, left_s = current_task(), Countdown(seconds), seconds
     while left_s > 0:
         task.sleep(min(left_s, POLL_S) if CLOCK.is_pausable else left_s)
+        task.stand_still()
         if (left_s := countdown.left_s()) > 0:
             CLOCK.hold()
             countdown.skip()
@@ -350,10 +474,12 @@ def wait_until(condition: Callable[[], object], at_most_s: float = math.inf) -> 
     Gives whether the condition came true.
     """
     task, countdown = current_task(), Countdown(at_most_s)
+    task.stand_still()
     while not condition():
         if (left_s := countdown.left_s()) <= 0:
             return False
         task.sleep(min(POLL_S, left_s))
+        task.stand_still()
     return True
 
 

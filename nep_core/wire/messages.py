@@ -36,7 +36,9 @@ Connection = Literal["connecting", "connected", "connection_failed", "disconnect
 NodeEvent = Literal[Working, Connection, "alive", "warning", "stopped", "crashed"]
 ActionState = Literal["accepted", "started", "done", "failed", "cancelled"]
 RuleStep = Literal["rule_started", "rule_finished", "rule_failed"]
-GoalStep = Literal["goal_started", "goal_finished", "goal_stopped", "goal_interrupted"]
+GoalStep = Literal[
+    "goal_started", "goal_finished", "goal_stopped", "goal_interrupted", "goal_failed"
+]
 Pause = Literal["paused", "resumed"]
 ProgramEvent = Literal[
     "started", "line", RuleStep, GoalStep, "value", Pause, "warning", "finished", "failed"
@@ -46,6 +48,11 @@ PROCESS_ENDED = "process_ended"
 PROCESS_RESTARTS = "process_restarts"
 PROCESS_STOPPED = "process_stopped"
 """Codes of what is told for a node that has ended, by who started it."""
+
+DISPLACED = "displaced"
+"""The code of an action that has made way for a more important one."""
+REST = "rest_"
+"""So begin the names of those values of a result that are arguments for the rest of the way."""
 
 LONGEST_SOURCE = 60
 """So much of a sensor's name is told."""
@@ -149,7 +156,9 @@ class HumanBehavior(msgspec.Struct, kw_only=True, omit_defaults=True):
 class ActionRequest(msgspec.Struct, kw_only=True, omit_defaults=True):
     """What robots are asked to do (``/action_request``).
 
-    The same ``id`` sent again asks how the action is doing: it is never played twice.
+    The same ``id`` sent again asks how the action is doing: it is never played twice. What has a
+    higher ``priority`` takes the limbs that it needs from what has a lower one; ``by`` is what the
+    rule or goal that asks is called.
     """
 
     id: str
@@ -157,10 +166,16 @@ class ActionRequest(msgspec.Struct, kw_only=True, omit_defaults=True):
     action: str
     args: dict[str, Any] = {}
     priority: int = 0
+    by: str = ""
 
 
 class ActionResult(Described, kw_only=True, omit_defaults=True):
-    """How a requested action is going on one robot (``/action_result``)."""
+    """How a requested action is going on one robot (``/action_result``).
+
+    One that is "cancelled" with the ``code`` DISPLACED has made way for something more important;
+    of a cancelled walk or turn, the values ``rest_forward_m``, ``rest_degrees`` and so on are the
+    arguments for the rest of its way.
+    """
 
     id: str
     robot: str

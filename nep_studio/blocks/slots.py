@@ -508,6 +508,7 @@ KINDS: dict[str, Kind] = {
         _name("message", "a message", read=_message),
         _name("state", "a human state", read=_state),
         _name("gesture", "a gesture", prefix=GESTURE_STATE, table="gestures"),
+        Kind("goal", "a goal", new="", takes_any_words=True, hint="goal", opens=True),
         _name("robot", "a robot", is_said=False),
         Kind(
             "rule",

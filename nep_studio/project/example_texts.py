@@ -18,7 +18,7 @@ from nep_studio import paths
 from nep_studio.blocks.language import Language
 from nep_studio.blocks.program import LANGUAGE, Block, Parameter, Project, split_slot
 
-_TEXT_KINDS = ("text", "lines", "line", "any")
+_TEXT_KINDS = ("text", "lines", "line", "goal", "any")
 """The kinds of fields in which people write words."""
 _OF_PROGRAMS = ("robots.robot", "nodes.launch", "code.lines", "code.value", "code.program")
 """Blocks whose texts are names and code: they are the same in every language."""

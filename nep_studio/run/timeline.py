@@ -308,6 +308,8 @@ def _program_words(state: m.ProgramState, tr: Tr) -> str:
             return tr("has reached the goal “{goal}”", goal=state.rule)
         case "goal_stopped":
             return tr("gives the goal “{goal}” up", goal=state.rule)
+        case "goal_failed":
+            return tr("cannot reach the goal “{goal}”", goal=state.rule)
         case "goal_interrupted":
             return tr("interrupts the goal “{goal}”", goal=state.rule)
         case "rule_failed":

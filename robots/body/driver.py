@@ -29,7 +29,9 @@ ThingKind = Literal["person", "ball", "wall", "mark"]
 class ActionRequest(msgspec.Struct, kw_only=True, omit_defaults=True):
     """What robots are asked to do.
 
-    The same ``id`` sent again asks how the action is doing: it is never played twice.
+    The same ``id`` sent again asks how the action is doing: it is never played twice. What has a
+    higher ``priority`` takes the limbs that it needs from what has a lower one; ``by`` is what the
+    rule or goal that asks is called.
     """
 
     id: str
@@ -37,6 +39,7 @@ class ActionRequest(msgspec.Struct, kw_only=True, omit_defaults=True):
     action: str
     args: dict[str, Any] = {}
     priority: int = 0
+    by: str = ""
 
 
 class ActionResult(msgspec.Struct, kw_only=True):

@@ -185,7 +185,8 @@ PLAYS: dict[str, list[Step]] = {
         "Are you looking for the exit?",
         2,
         "It is over there.",
-        "Where were we? I begin again.",
+        "Where were we? I go on.",
+        "On this side you see the oldest picture.",
         "And before you stands the most modern guide.",
         "That was my tour. Thank you.",
     ],
@@ -237,7 +238,7 @@ def test_an_example_plays(name: str, tmp_path: Path, network: LocalNetwork) -> N
             take(step, stage)
 
 
-def test_a_touch_interrupts_the_guide_who_then_begins_again(
+def test_a_touch_interrupts_the_guide_who_then_goes_on_where_it_was(
     tmp_path: Path, network: LocalNetwork
 ) -> None:
     with staged("interrupted_guide", tmp_path, network, SLOWER) as stage:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from difflib import get_close_matches
 from itertools import count
 
@@ -221,38 +221,65 @@ def check_talk(
 
 _TALK = ("message", "heard", "rule")
 
-GOAL, OF_GOAL = "goal.goal", "goal.when_goal"
+GOALS = frozenset({"goal.goal", "goal.goal_when", "goal.goal_asked"})
+OF_GOAL = "goal.when_goal"
+NAMING = frozenset({OF_GOAL, "goal.pursue", "goal.is_pursued", "goal.give_up"})
+"""The blocks that name a goal."""
+INSIDE = frozenset({"goal.value", "goal.fail"})
+"""The blocks that speak of the goal that is pursued."""
 
 
 def check_goals(
-    project: Project, language: Language, running: Iterable[list[str]]
+    project: Project, language: Language, running: Sequence[list[str]]
 ) -> Iterator[Diagnostic]:
-    """Goals of one name, and rules for a goal that is not there."""
-    hats = [project.blocks[chain[0]] for chain in running]
-    names = [
-        (hat, str(language.definitions[hat.type].value(hat, "name")))
-        for hat in hats
-        if hat.type in (GOAL, OF_GOAL)
-    ]
-    goals = dict[str, str]()
-    for hat, name in names:
-        if hat.type == GOAL and goals.setdefault(name, hat.id) != hat.id:
-            taken = {other for _, other in names}
+    """Goals of one name, blocks that name one that is not there, and what is in no goal."""
+    names: dict[str, str] = {}
+    hats = [hat for chain in running if (hat := project.blocks[chain[0]]).type in GOALS]
+    taken = {_goal_name(language, hat) for hat in hats}
+    for hat in hats:
+        name = _goal_name(language, hat)
+        if names.setdefault(name, hat.id) != hat.id:
             free = next(n for number in count(2) if (n := f"{name} {number}") not in taken)
             fix = _name_goal(hat, free)
             yield found("same_goal", project, language, hat.id, fix, name=name)
-    for hat, name in names:
-        if hat.type == OF_GOAL and name not in goals:
-            folded = {goal.casefold().strip(): goal for goal in goals}
-            near = get_close_matches(name.casefold().strip(), folded, 1)
-            chosen = folded[near[0]] if near else next(iter(goals)) if len(goals) == 1 else ""
-            offered = _name_goal(hat, chosen) if chosen else None
-            yield found("unknown_goal", project, language, hat.id, offered, name=name)
+    if not any(block.type in NAMING | INSIDE for block in project.blocks.values()):
+        return
+    for chain in running:
+        hat_type = project.blocks[chain[0]].type
+        is_goal = hat_type in GOALS or hat_type == OF_GOAL or hat_type.startswith(DEFINE)
+        for block in project.within(chain, enabled=True):
+            if block.type in NAMING and "name" not in block.inputs:
+                yield from _unknown_goal(project, language, block, names)
+            elif block.type in INSIDE and not is_goal:
+                yield found("outside_goal", project, language, block.id)
 
 
-def _name_goal(hat: Block, name: str) -> Fix:
+def goal_names(project: Project, language: Language) -> list[str]:
+    """What the goals of a project are called, each once."""
+    goals = (block for block in project.blocks.values() if block.type in GOALS)
+    return sorted({name for goal in goals if (name := _goal_name(language, goal))})
+
+
+def _goal_name(language: Language, block: Block) -> str:
+    return str(language.definitions[block.type].value(block, "name"))
+
+
+def _unknown_goal(
+    project: Project, language: Language, block: Block, goals: Mapping[str, str]
+) -> Iterator[Diagnostic]:
+    name = _goal_name(language, block)
+    if name in goals:
+        return
+    folded = {goal.casefold().strip(): goal for goal in goals}
+    near = get_close_matches(name.casefold().strip(), folded, 1)
+    chosen = folded[near[0]] if near else next(iter(goals)) if len(goals) == 1 else ""
+    offered = _name_goal(block, chosen) if chosen else None
+    yield found("unknown_goal", project, language, block.id, offered, name=name)
+
+
+def _name_goal(block: Block, name: str) -> Fix:
     label = text_of("Choose “{choice}”", choice=name)
-    return Fix("choose", label, {"block": hat.id, "slot": "name", "value": name})
+    return Fix("choose", label, {"block": block.id, "slot": "name", "value": name})
 
 
 def _trigger(language: Language, hat: Block) -> str:

@@ -124,6 +124,11 @@ SORTS = {
         "The rule that “{block}” stops is not there.",
         ("Choose a rule in this block.", "Or take this block out."),
     ),
+    "outside_goal": Sort(
+        "warning",
+        "“{block}” is in no goal: when it is reached, the rule ends with an error.",
+        ("Put it below the block of a goal, or below “when the goal …”.",),
+    ),
     "torn_apart": Sort(
         "warning",
         "“{block}” waits: what other rules do to “{variable}” meanwhile is lost.",

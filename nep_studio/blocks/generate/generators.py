@@ -514,6 +514,12 @@ def _within(code: Expressions, block: Block) -> ast.expr:
 
 _NO_ARGUMENTS = ast.arguments([], [], None, [], [], None, [])
 
+
+def _of_behavior(code: Expressions, block: Block, method: str, *more: ast.expr) -> ast.expr:
+    """What the behaviour is asked of a goal by its name."""
+    return method_call(ast.Name("behavior"), method, [code.slot(block, "name"), *more])
+
+
 REPORTERS: dict[str, ValueGenerator] = {
     **{name: _python(text) for name, text in _LINES.items()},
     **{name: _by_choice(slot, texts) for name, (slot, texts) in _CHOSEN.items()},
@@ -530,6 +536,7 @@ REPORTERS: dict[str, ValueGenerator] = {
     "text_replace": _text_replace,
     "letter": _letter,
     "emotion": _emotion,
+    "goal_is_pursued": lambda code, block: _of_behavior(code, block, "pursues"),
     "list_create": lambda code, block: ast.List(code.slots(block, "item", "item")),
     "list_get": _get,
     "list_take": _take,
@@ -755,6 +762,18 @@ def _wait_for_word(code: Expressions, block: Block) -> list[Piece]:
     return [show(method_call(code.slot(block, "robot"), "wait_for_word", arguments, seconds))]
 
 
+def _pursue(code: Expressions, block: Block) -> list[Piece]:
+    given = [code.value_in(block, "value.1")] if block.groups.get("value") else []
+    return [show(_of_behavior(code, block, "pursue", *given))]
+
+
+def _set_priority(code: Expressions, block: Block) -> list[Piece]:
+    priority = ast.Constant(code.choice(block, "priority"))
+    displaced = code.choice(block, "displaced")
+    options = {} if displaced == "resume" else {"displaced": ast.Constant(displaced)}
+    return [show(code.api_call("set_priority", priority, **options))]
+
+
 STATEMENTS: dict[str, StatementGenerator] = {
     "repeat": _repeat,
     "forever": _loop("while", "True"),
@@ -783,6 +802,9 @@ STATEMENTS: dict[str, StatementGenerator] = {
     "list_insert": _insert,
     "list_remove": _remove,
     **TABLE_STATEMENTS,
+    "pursue": _pursue,
+    "give_up_goal": lambda code, block: [show(_of_behavior(code, block, "give_up"))],
+    "set_priority": _set_priority,
     "ask": _ask,
     "wait_for_word": _wait_for_word,
     "note": lambda code, block: [*comment_lines(code.text(block, "text"))],

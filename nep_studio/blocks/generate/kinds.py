@@ -21,7 +21,7 @@ from nep_studio.blocks.program import Block, Project, split_slot
 from nep_studio.blocks.slots import TEXT_RESULTS
 
 from .names import ProgramNames
-from .written_code import always_ends, gives_back, names_bound_in, names_in_code, tree_of
+from .written_code import NO_NAMES, always_ends, gives_back, names_bound_in, names_in_code, tree_of
 
 WHOLE, FRACTION, TEXT, TRUTH, LIST, OTHER, TABLE = 1, 2, 4, 8, 16, 32, 64
 NUMBER = WHOLE | FRACTION

@@ -145,15 +145,24 @@ def _at(code: Expressions, block: Block) -> Hat:
     return _hat(name, "at", code.slot(block, "time"), **options)
 
 
-def _goal(code: Expressions, block: Block) -> Hat:
-    options: dict[str, ast.expr] = {"when": code.slot(block, "state")}
+def _goal(code: Expressions, block: Block, **when: ast.expr) -> Hat:
+    options = when
     if (priority := code.choice(block, "priority")) != "normal":
         options["priority"] = ast.Constant(priority)
     if block.groups.get("stop"):
         options["stop"] = code.slot(block, "stop_state.1")
     if (interrupted := code.choice(block, "interrupted")) != "again":
         options["interrupted"] = ast.Constant(interrupted)
+    if block.groups.get("robot"):
+        options["robot"] = code.slot(block, "robot.1")
+    if block.groups.get("limit"):
+        options["at_most_s"] = code.slot(block, "seconds.1")
     return _hat(f"goal_{code.text(block, 'name')}", "goal", code.slot(block, "name"), **options)
+
+
+def _goal_when(code: Expressions, block: Block) -> Hat:
+    condition = ast.Lambda(_NO_ARGUMENTS, code.slot(block, "condition"))
+    return _goal(code, block, when=condition)
 
 
 def _when_goal(code: Expressions, block: Block) -> Hat:
@@ -181,7 +190,9 @@ HATS: dict[str, HatGenerator] = {
     "when_told": _when_told,
     "every": lambda code, block: _hat("every", "every", code.slot(block, "seconds")),
     "at": _at,
-    "goal": _goal,
+    "goal": lambda code, block: _goal(code, block, when=code.slot(block, "state")),
+    "goal_when": _goal_when,
+    "goal_asked": _goal,
     "when_goal": _when_goal,
     "own_define": _own_define,
     "program_lines": _program_lines,

@@ -45,7 +45,8 @@ def states_of(call: ast.Call) -> set[str]:
             return {state_of_thing(*values)}
         case "goal":
             options = {one.arg: one.value for one in call.keywords}
-            return {ast.literal_eval(options[key]) for key in ("when", "stop") if key in options}
+            named = (options[key] for key in ("when", "stop") if key in options)
+            return {one.value for one in named if isinstance(one, ast.Constant)}  # no condition
     return set()
 
 

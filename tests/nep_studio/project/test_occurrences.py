@@ -81,8 +81,8 @@ def test_every_cue_of_an_example_has_a_happening(path: Path) -> None:
 
 
 def test_every_hat_and_question_of_the_language_has_a_happening() -> None:
-    # Run, the goal that it is about, and what is no rule
-    own = {"event.started", "goal.when_goal", "code.program"}
+    # Run, the goal that it is about, what is no rule, what asks, and who asks
+    own = {"event.started", "goal.when_goal", "code.program", "goal.goal_when", "goal.goal_asked"}
     without = []
     for definition in LANGUAGE.definitions.values():
         is_question = definition.is_value and definition.category.id in ("sensing", "robot_senses")

@@ -41,8 +41,10 @@ class Stage:
     def told(self) -> list[str]:
         return [f"{result.id} {result.state}" for result in self.results]
 
-    def ask(self, id: str, action: str, priority: int = 0, **args: Any) -> None:
-        request = ActionRequest(id=id, robots=["NAO"], action=action, args=args, priority=priority)
+    def ask(self, id: str, action: str, priority: int = 0, *, by: str = "", **args: Any) -> None:
+        request = ActionRequest(
+            id=id, robots=["NAO"], action=action, args=args, priority=priority, by=by
+        )
         self.results += self.actor.request(request)
 
     def pass_time(self, seconds: float) -> None:

@@ -12,6 +12,7 @@ from PySide6.QtCore import QEvent, QObject, QSize, Qt, QTimer
 from PySide6.QtGui import QIcon, QKeyEvent
 from PySide6.QtWidgets import QLineEdit, QListWidget, QListWidgetItem, QWidget
 
+from nep_studio.blocks.checks.deployment import goal_names
 from nep_studio.blocks.deployment import can_be_stopped, rules
 from nep_studio.blocks.language import Language
 from nep_studio.blocks.program import Project
@@ -400,11 +401,30 @@ class RulePopup(ChoicePopup):
         return _rules(editor.project, editor.language)
 
 
+class GoalPopup(ChoicePopup):
+    """One of the goals of the program, or a name that one will have."""
+
+    is_free = True
+
+    def __init__(self, editors: FieldEditors, edit: Editing, title: str) -> None:
+        super().__init__(editors, edit, title)
+        self.search.setText(str(edit.value or ""))
+        self.search.selectAll()
+        self.search.setPlaceholderText(tr("Type a name, or choose one"))
+
+    def options(self) -> list[Option]:
+        """The goals that there are, as the person has named them."""
+        editor = self._editors.canvas.editor
+        names = goal_names(editor.project, editor.language)
+        return [Option(name, name, "target") for name in names]
+
+
 CHOSEN: dict[str, type[FieldPopup]] = {
     "choice": ChoicePopup,
     "gesture": GesturePopup,
     "message": MessagePopup,
     "rule": RulePopup,
+    "goal": GoalPopup,
     "state": StatePopup,
 }
 """The editors of this file, by the kind of field."""

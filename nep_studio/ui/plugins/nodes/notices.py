@@ -328,7 +328,7 @@ class NodeFixes:
         """Let a robot go down and switch its motors off, as soon as what it does has ended."""
         plan = self.plan_of(name)
         robot = str(plan.parameters.get("robot", name)) if plan is not None else name
-        request = ActionRequest(id=uuid.uuid4().hex, robots=[robot], action="rest", priority=100)
+        request = ActionRequest(id=uuid.uuid4().hex, robots=[robot], action="rest")
         self._host.services.runner.send(ACTION_REQUEST, request)
 
     def _robot_block(self, name: str) -> str:

@@ -324,3 +324,25 @@ def test_a_colour_is_typed_as_a_number_and_a_wrong_one_is_told(controller_of) ->
     assert "A colour is written like" in reason
     assert desk.value("colour") == "#123456"
     assert desk.widget.reason.text == ""
+
+
+def test_a_goal_is_one_of_the_program_or_a_name_that_is_typed(controller_of) -> None:
+    desk = controller_of("goal.pursue")
+    for number, (kind, name) in enumerate(
+        (("goal.goal", "tour"), ("goal.goal_asked", "help"), ("goal.goal_when", "help"))
+    ):
+        place = desk.editor.new_stack("behaviour", 40, 900 + 300 * number)
+        goal = desk.editor.create(kind, place)
+        desk.editor.apply(SetField(goal, "name", name))
+
+    desk.click("name")
+    offered = labels(desk.widget)
+    choose(desk.widget, "tour")
+    chosen = desk.value("name")
+    desk.click("name")
+    QTest.keyClicks(desk.widget.first(), "rescue")
+    QTest.keyClick(desk.widget.first(), Qt.Key.Key_Return)
+
+    assert offered == ["help", "tour"]
+    assert chosen == "tour"
+    assert desk.value("name") == "rescue"
