@@ -40,7 +40,16 @@ GoalStep = Literal["goal_started", "goal_finished", "goal_stopped", "goal_interr
 StateStep = Literal["state_entered"]
 Pause = Literal["paused", "resumed"]
 ProgramEvent = Literal[
-    "started", "line", RuleStep, GoalStep, StateStep, "value", Pause, "warning", "finished", "failed"
+    "started",
+    "line",
+    RuleStep,
+    GoalStep,
+    StateStep,
+    "value",
+    Pause,
+    "warning",
+    "finished",
+    "failed",
 ]
 
 PROCESS_ENDED = "process_ended"
