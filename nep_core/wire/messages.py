@@ -214,11 +214,12 @@ class ProgramState(Described, kw_only=True, omit_defaults=True):
     """What the cognitive program is doing (``/program_state``).
 
     ``line`` is a line of the generated file, from 1; ``rule`` the state that a rule waits for,
-    or the name of a goal, or the state of the program that is entered. A "line" event tells of all threads at once: ``lines`` are, by thread,
-    the lines that it is in now, the outermost call first; one that is not there has ended. A
-    "value" event tells the ``values`` that changed, by the name of the variable, as Python; what
-    fills the places of ``text`` is in ``text_values`` here. "rule_failed" tells that a rule, a goal
-    or a start ended with an error, "warning" what a person should look at; the program goes on.
+    or the name of a goal, or the state of the program that is entered. A "line" event tells of
+    all threads at once: ``lines`` are, by thread, the lines that it is in now, the outermost
+    call first; one that is not there has ended. A "value" event tells the ``values`` that
+    changed, by the name of the variable, as Python; what fills the places of ``text`` is in
+    ``text_values`` here. "rule_failed" tells that a rule, a goal or a start ended with an
+    error, "warning" what a person should look at; the program goes on.
     """
 
     program: str

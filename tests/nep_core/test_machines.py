@@ -172,7 +172,7 @@ def test_a_state_that_is_not_there_is_an_error_that_names_those_that_are(scene: 
     scene.begin()
     scene.diary.next()
 
-    with pytest.raises(StateRefused, match="“wating”.*waiting"):
+    with pytest.raises(StateRefused, match=r"“wating”.*waiting"):
         scene.behavior.go_to("wating")
 
 
