@@ -33,6 +33,7 @@ from nep_core.wire.states import state_of_thing, state_of_word, word_of_state
 
 from .goals import Goal, GoalEvent, Goals, Interrupted
 from .human import human_listener
+from .machines import Machines, Transition
 from .messages import Run, heard_by, own_run
 from .robot import Robot
 from .tasks import (
@@ -150,6 +151,7 @@ class Behavior:
         self._rules: list[Rule] = []
         self._starts: dict[Action, Part | None] = {}
         self._goals = Goals(self._tell, self._note_error)
+        self._machines = Machines(self._entered, self._note_error)
         self._busy_s = CLOCK.now_s()
         self._parts: list[Part] = []
         self._parts_lock = threading.Lock()
@@ -277,6 +279,51 @@ class Behavior:
         self._goals.give_up(name)
         current_task().check()
 
+    def state(self, name: str, *, first: bool = False, machine: str = "") -> Decorator:
+        """Run the decorated function when the program's state ``name`` begins, until it ends.
+
+        ``first``: the program begins in it. ``machine`` names one of several state machines.
+        """
+        return _decorator(
+            lambda action: self._machines.add_state(name, action, machine, first=first)
+        )
+
+    def transition(
+        self,
+        source: str,
+        target: str,
+        *,
+        when: str | Condition = "",
+        told: str = "",
+        after: float | None = None,
+        done: bool = False,
+        machine: str = "",
+    ) -> Decorator:
+        """Go from the state ``source`` to ``target``, and run the decorated function in between.
+
+        ``when`` the person's state is so, or a condition true; when a message is ``told``;
+        ``after`` so many seconds in the state; or when what is done in it is ``done``.
+        ``machine`` names one of several state machines.
+        """
+        state, condition = (when, None) if isinstance(when, str) else ("", when)
+        return _decorator(
+            lambda action: self._machines.add_transition(
+                Transition(source, target, action, state, told, condition, done, after), machine
+            )
+        )
+
+    def go_to(self, state: str, machine: str = "") -> None:
+        """Leave the state in which the program is, and enter another one."""
+        self._machines.go_to(state, machine)
+
+    def is_in(self, state: str, machine: str = "") -> bool:
+        """Whether the program is in a state."""
+        return self._machines.now(machine) == state
+
+    def state_now(self, machine: str = "") -> str:
+        """The state in which the program is, an empty text before the first."""
+        return self._machines.now(machine)
+
     def when_started(self, action: Action) -> Action:
         """Run the decorated function when the program starts."""
         self._starts[action] = None
@@ -322,7 +369,7 @@ class Behavior:
         words = Publisher(EXPECTED_WORDS, network=network)
         # What rules and goals wait for: real robots must know it before
         of_rules = (rule.state for rule in self._rules if rule.sort == "state")
-        states = [*of_rules, *self._goals.states]
+        states = [*of_rules, *self._goals.states, *self._machines.person_states]
         expected = dict.fromkeys(filter(None, map(word_of_state, states)))
         words.send(ExpectedWords(words=list(expected)))
         listener = human_listener(network)
@@ -336,6 +383,7 @@ class Behavior:
                         self._start(partial(rule.watch, fire), f"watch-{rule.state}")
                 if self._goals:
                     self._start(self._goals.run, "goals")
+                self._machines.begin(self._start)
                 for action in self._starts:
                     self._starts[action] = self._start(partial(self._begin, action), "")
                 self._supervise()
@@ -360,7 +408,8 @@ class Behavior:
     def _idle_s(self) -> float:
         """For how long nothing has happened."""
         now_s = CLOCK.now_s()
-        if self._goals.is_busy or any(rule.running for rule in self._rules):
+        is_busy = self._goals.is_busy or self._machines.is_busy
+        if is_busy or any(rule.running for rule in self._rules):
             self._busy_s = now_s
         heard_s = human_listener(self._network).heard_s
         return now_s - max(self._busy_s, heard_s)
@@ -402,6 +451,9 @@ class Behavior:
         self._tell("rule_failed", rule, line, fault)
         self._first_error = self._first_error or error
 
+    def _entered(self, state: str) -> None:
+        self._tell("state_entered", state)
+
     def _tell_drops(self) -> None:
         """Tell of the starts that did not fit into a queue since that was last told."""
         for rule in self._rules:
@@ -428,6 +480,7 @@ class Behavior:
             if is_meant and rule.state == behavior.human_state:
                 self._fire(rule)
         self._goals.hear(behavior.human_state)
+        self._machines.hear(state=behavior.human_state)
 
     def last_run(self, message: str) -> Iterator[tuple[Again, Run | None]]:
         """For each rule for a message, what it does while it runs, and its run that ends last."""
@@ -437,6 +490,7 @@ class Behavior:
 
     def hear(self, message: str, value: object) -> Iterator[Run]:
         """Start the rules for a message, in their order; gives the runs that begin by it."""
+        self._machines.hear(message=message)
         for rule in self._rules_for(message):
             if (run := self._fire(rule, value)) is not None:
                 yield run

@@ -39,9 +39,19 @@ RuleStep = Literal["rule_started", "rule_finished", "rule_failed"]
 GoalStep = Literal[
     "goal_started", "goal_finished", "goal_stopped", "goal_interrupted", "goal_failed"
 ]
+StateStep = Literal["state_entered"]
 Pause = Literal["paused", "resumed"]
 ProgramEvent = Literal[
-    "started", "line", RuleStep, GoalStep, "value", Pause, "warning", "finished", "failed"
+    "started",
+    "line",
+    RuleStep,
+    GoalStep,
+    StateStep,
+    "value",
+    Pause,
+    "warning",
+    "finished",
+    "failed",
 ]
 
 PROCESS_ENDED = "process_ended"
@@ -219,11 +229,12 @@ class ProgramState(Described, kw_only=True, omit_defaults=True):
     """What the cognitive program is doing (``/program_state``).
 
     ``line`` is a line of the generated file, from 1; ``rule`` the state that a rule waits for,
-    or the name of a goal. A "line" event tells of all threads at once: ``lines`` are, by thread,
-    the lines that it is in now, the outermost call first; one that is not there has ended. A
-    "value" event tells the ``values`` that changed, by the name of the variable, as Python; what
-    fills the places of ``text`` is in ``text_values`` here. "rule_failed" tells that a rule, a goal
-    or a start ended with an error, "warning" what a person should look at; the program goes on.
+    or the name of a goal, or the state of the program that is entered. A "line" event tells of
+    all threads at once: ``lines`` are, by thread, the lines that it is in now, the outermost
+    call first; one that is not there has ended. A "value" event tells the ``values`` that
+    changed, by the name of the variable, as Python; what fills the places of ``text`` is in
+    ``text_values`` here. "rule_failed" tells that a rule, a goal or a start ended with an
+    error, "warning" what a person should look at; the program goes on.
     """
 
     program: str

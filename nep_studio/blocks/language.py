@@ -402,7 +402,7 @@ def usual_texts(definition: Definition) -> Iterator[tuple[str, str]]:
             yield slot, usual
 
 
-_TEXT_KINDS = ("text", "line", "message", "goal")
+_TEXT_KINDS = ("text", "line", "message", "goal", "mode")
 
 
 def _profile(profile: RobotProfile, table: Table) -> RobotProfile:

@@ -507,6 +507,7 @@ KINDS: dict[str, Kind] = {
         Kind("clock", "a time of the day", why_not=_why_not_clock, read=_clock_time, hint="time"),
         _name("message", "a message", read=_message),
         _name("state", "a human state", read=_state),
+        _name("mode", "a state of the program", read=_message),
         _name("gesture", "a gesture", prefix=GESTURE_STATE, table="gestures"),
         Kind("goal", "a goal", new="", takes_any_words=True, hint="goal", opens=True),
         _name("robot", "a robot", is_said=False),

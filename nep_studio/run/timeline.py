@@ -312,6 +312,8 @@ def _program_words(state: m.ProgramState, tr: Tr) -> str:
             return tr("cannot reach the goal “{goal}”", goal=state.rule)
         case "goal_interrupted":
             return tr("interrupts the goal “{goal}”", goal=state.rule)
+        case "state_entered":
+            return tr("is in the state “{state}”", state=state.rule)
         case "rule_failed":
             reason, rule = tr(state.fault.sentence), state.rule.replace("_", " ")
             if not rule:

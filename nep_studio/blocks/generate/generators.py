@@ -10,7 +10,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from functools import reduce
+from functools import partial, reduce
 from operator import itemgetter
 from typing import Any
 
@@ -512,6 +512,14 @@ def _within(code: Expressions, block: Block) -> ast.expr:
     return code.api_call("wait_until", condition, code.slot(block, "seconds"))
 
 
+def _of_machine(method: str, code: Expressions, block: Block) -> ast.expr:
+    """What is asked of the behaviour about its states, or of one state machine of several."""
+    state = [code.slot(block, "state")] if "state" in code.definition(block).slots else []
+    named = block.groups.get("machine")
+    options = {"machine": code.slot(block, "machine.1")} if named else {}
+    return method_call(ast.Name("behavior"), method, state, options)
+
+
 _NO_ARGUMENTS = ast.arguments([], [], None, [], [], None, [])
 
 
@@ -549,6 +557,8 @@ REPORTERS: dict[str, ValueGenerator] = {
     "of_list": _of_list,
     "within": _within,
     **TABLE_VALUES,
+    "is_in_state": partial(_of_machine, "is_in"),
+    "state_now": partial(_of_machine, "state_now"),
     "own_call": _own_call,
     "own_parameter": _own_parameter,
     "code_value": _code_value,
@@ -695,6 +705,10 @@ def _stop_other_rule(code: Expressions, block: Block) -> list[Piece]:
     return [show(method_call(ast.Name("behavior"), "stop", [code.slot(block, "rule")]))]
 
 
+def _go_to_state(code: Expressions, block: Block) -> list[Piece]:
+    return [show(_of_machine("go_to", code, block))]
+
+
 def _try(code: Expressions, block: Block) -> list[Piece]:
     """What was begun is ended before what is done instead, as at the end of a rule by an error."""
     end = show(code.api_call("end_actions"))
@@ -792,6 +806,7 @@ STATEMENTS: dict[str, StatementGenerator] = {
     "in_turn": _parts("in_turn"),
     "wait_until": _wait_until,
     "tell": _tell,
+    "go_to_state": _go_to_state,
     "stop_other_rule": _stop_other_rule,
     "try": _try,
     "set_variable": _assign("=", "value"),

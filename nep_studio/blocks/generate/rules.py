@@ -138,6 +138,35 @@ def _when_told(code: Expressions, block: Block) -> Hat:
     return _hat(name, "when_told", code.slot(block, "message"), **_again(code, block))
 
 
+def _machine(code: Expressions, block: Block) -> dict[str, ast.expr]:
+    """Which state machine is meant, where a block names one."""
+    return {"machine": code.slot(block, "machine.1")} if block.groups.get("machine") else {}
+
+
+def _state(code: Expressions, block: Block) -> Hat:
+    options = {"first": ast.Constant(True)} if block.groups.get("first") else {}
+    options |= _machine(code, block)
+    name = f"state_{code.text(block, 'state')}"
+    return _hat(name, "state", code.slot(block, "state"), **options)
+
+
+def _transition(code: Expressions, block: Block, option: str, value: ast.expr) -> Hat:
+    ends = code.text(block, "state"), code.text(block, "target")
+    states = code.slot(block, "state"), code.slot(block, "target")
+    options = {option: value, **_machine(code, block)}
+    return _hat("from_{}_to_{}".format(*ends), "transition", *states, **options)
+
+
+def _transition_when(code: Expressions, block: Block) -> Hat:
+    test = ast.Lambda(_NO_ARGUMENTS, code.slot(block, "condition"))
+    return _transition(code, block, "when", test)
+
+
+def _transition_by(option: str, key: str) -> HatGenerator:
+    """The generator of a transition that what is in a slot sets off."""
+    return lambda code, block: _transition(code, block, option, code.slot(block, key))
+
+
 def _at(code: Expressions, block: Block) -> Hat:
     name = f"at_{code.text(block, 'time')}"
     days = code.choice(block, "days")
@@ -193,6 +222,12 @@ HATS: dict[str, HatGenerator] = {
     "goal": lambda code, block: _goal(code, block, when=code.slot(block, "state")),
     "goal_when": _goal_when,
     "goal_asked": _goal,
+    "state": _state,
+    "transition_when": _transition_when,
+    "transition_state": _transition_by("when", "trigger"),
+    "transition_told": _transition_by("told", "message"),
+    "transition_after": _transition_by("after", "seconds"),
+    "transition_done": lambda code, block: _transition(code, block, "done", ast.Constant(True)),
     "when_goal": _when_goal,
     "own_define": _own_define,
     "program_lines": _program_lines,

@@ -38,6 +38,7 @@ CATEGORY_ICONS = {
     "senses": "ear",
     "camera": "camera",
     "time": "clock",
+    "states": "route",
 }
 """A category's icon, by the category's ``colour``: so that colour never speaks alone."""
 

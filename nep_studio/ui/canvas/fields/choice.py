@@ -89,6 +89,12 @@ def _messages(project: Project, language: Language) -> list[Option]:
     return [Option(message, message, "message-square-text") for message in sorted(used)]
 
 
+def _modes(project: Project, language: Language) -> list[Option]:
+    """The states of the program that its blocks name."""
+    used = dict.fromkeys(_used(project, language, "mode"))
+    return [Option(state, state, "route") for state in sorted(used)]
+
+
 def _rules(project: Project, language: Language) -> list[Option]:
     """The rules that can be stopped, as their first blocks say."""
     firsts = [chain[0] for chain in rules(project, language)]
@@ -392,6 +398,23 @@ class MessagePopup(ChoicePopup):
         return _messages(editor.project, editor.language)
 
 
+class ModePopup(ChoicePopup):
+    """A state of the program: one that it has already, or any words."""
+
+    is_free = True
+
+    def __init__(self, editors: FieldEditors, edit: Editing, title: str) -> None:
+        super().__init__(editors, edit, title)
+        self.search.setText(str(edit.value or ""))
+        self.search.selectAll()
+        self.search.setPlaceholderText(tr("Type a state, or choose one"))
+
+    def options(self) -> list[Option]:
+        """The states of the program."""
+        editor = self._editors.canvas.editor
+        return _modes(editor.project, editor.language)
+
+
 class RulePopup(ChoicePopup):
     """One of the rules of the project."""
 
@@ -423,6 +446,7 @@ CHOSEN: dict[str, type[FieldPopup]] = {
     "choice": ChoicePopup,
     "gesture": GesturePopup,
     "message": MessagePopup,
+    "mode": ModePopup,
     "rule": RulePopup,
     "goal": GoalPopup,
     "state": StatePopup,
