@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from .processes.launcher import Launcher
     from .processes.node import Node
     from .program.behavior import Behavior, in_turn, one_of
+    from .program.facts import fact, is_true, needs, no_longer_true, now_true, true_while
     from .program.human import (
         heard_word,
         human_state,
@@ -28,6 +29,7 @@ if TYPE_CHECKING:
         until_state,
         was_seen,
     )
+    from .program.plans import reach, the_plan
     from .program.robot import Robot, colour_from, mix_colours
     from .program.tasks import at_once, stop_program, stop_rule, together, wait, wait_until
     from .program.values import (
@@ -82,8 +84,10 @@ _HOMES = {
         "processes.launcher": "Launcher",
         "processes.node": "Node",
         "program.behavior": "Behavior in_turn one_of",
+        "program.facts": "fact is_true needs no_longer_true now_true true_while",
         "program.human": "heard_word human_state is_remembered remember times_seen until_state "
         "was_seen",
+        "program.plans": "reach the_plan",
         "program.robot": "Robot colour_from mix_colours",
         "program.tasks": "at_once stop_program stop_rule together wait wait_until",
         "program.values": "add_item append_text as_list as_number as_text count_from deviation_of "
@@ -101,6 +105,8 @@ __all__ += ["NepError", "Node", "PeerNetwork", "Publisher", "Robot", "Subscriber
 __all__ += ["colour_from", "heard_word", "human_state", "in_turn", "is_remembered", "mix_colours"]
 __all__ += ["one_of", "remember", "stop_program", "stop_rule", "times_seen", "together"]
 __all__ += ["until_state", "wait", "wait_until", "was_seen"]
+__all__ += ["fact", "is_true", "needs", "no_longer_true", "now_true", "reach", "the_plan"]
+__all__ += ["true_while"]
 __all__ += ["add_item", "append_text", "as_list", "as_number", "as_text", "count_from"]
 __all__ += ["deviation_of"]
 __all__ += ["has_item", "has_part", "insert_item", "is_at_least", "is_at_most", "is_less"]

@@ -7,7 +7,7 @@ import logging
 import random
 import threading
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from functools import partial
 from types import CodeType, FunctionType
@@ -22,6 +22,8 @@ from nep_core.wire.messages import (
     PROGRAM_STATE,
     ExpectedWords,
     HumanBehavior,
+    PlannedStep,
+    PlanTold,
     ProgramEvent,
     ProgramState,
     told,
@@ -30,6 +32,7 @@ from nep_core.wire.pubsub import Publisher
 from nep_core.wire.states import state_of_thing, state_of_word, word_of_state
 
 from .human import human_listener
+from .plans import tell_by
 from .tasks import CLOCK, POLL_S, PROGRAM, Cancelled, Part, RuleStopped, Task, current_task
 from .values import speak
 
@@ -201,6 +204,7 @@ class Behavior:
         words.send(ExpectedWords(words=list(expected)))
         listener = human_listener(network)
         self._busy_s = CLOCK.now_s()
+        tell_by(self._tell_plan)
         listener.listen(self._on_behavior)
         try:
             for rule in self._rules:
@@ -344,6 +348,27 @@ class Behavior:
         with self._parts_lock:  # a part that has not started yet must not count as ended
             self._parts.append(part)
             return part.start()
+
+    def _tell_plan(
+        self,
+        event: PlanTold,
+        goal: str,
+        plan: Sequence[PlannedStep],
+        step: int,
+        fault: Fault | None,
+    ) -> None:
+        name = threading.current_thread().name
+        self._states.send(
+            ProgramState(
+                program=self.name,
+                event=event,
+                rule=goal,
+                thread=name,
+                plan=list(plan),
+                step=step,
+                **told(fault),
+            )
+        )
 
     def _tell(
         self, event: ProgramEvent, rule: str, line: int = 0, fault: Fault | None = None

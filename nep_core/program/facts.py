@@ -7,7 +7,7 @@ What own blocks need of facts, and make of them, is what plans are made of.
 from __future__ import annotations
 
 import threading
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from enum import Enum
 
 from nep_core.errors import FactNotSo
@@ -172,7 +172,3 @@ def needs(name: str, *values: object) -> None:
             checklist=("Make it true before.", "Use “reach”, which finds out what to do before."),
             fact=told_fact(needed),
         )
-
-
-Changes = Mapping[Fact, bool]
-"""Facts with whether they are made true, or no longer true."""

@@ -139,9 +139,7 @@ def shortest(problem: Problem, look: Look, limit_s: float = BEST_S) -> Found:
         if state & goal == goal:
             return _way(trail, start, state), True
         looked += 1
-        if looked % LOOK_EVERY == 0 and (
-            look() - begun_s > limit_s or len(lengths) > MOST_STATES
-        ):
+        if looked % LOOK_EVERY == 0 and (look() - begun_s > limit_s or len(lengths) > MOST_STATES):
             return None, False
         for _, keeps, adds, number in problem.possible(state):
             then = state & keeps | adds

@@ -37,9 +37,11 @@ NodeEvent = Literal[Working, Connection, "alive", "warning", "stopped", "crashed
 ActionState = Literal["accepted", "started", "done", "failed", "cancelled"]
 RuleStep = Literal["rule_started", "rule_finished", "rule_failed"]
 GoalStep = Literal["goal_started", "goal_finished", "goal_stopped", "goal_interrupted"]
+PlanTold = Literal["plan_made", "plan_step", "plan_step_failed", "plan_done"]
 Pause = Literal["paused", "resumed"]
 ProgramEvent = Literal[
-    "started", "line", RuleStep, GoalStep, "value", Pause, "warning", "finished", "failed"
+    *("started", "line", RuleStep, GoalStep, PlanTold, "value", Pause),
+    *("warning", "finished", "failed"),
 ]
 
 PROCESS_ENDED = "process_ended"
@@ -200,6 +202,13 @@ class RobotState(msgspec.Struct, kw_only=True, omit_defaults=True):
     time: float = msgspec.field(default_factory=time.time)
 
 
+class PlannedStep(msgspec.Struct, frozen=True):
+    """A step of a plan: the function of the program that is its task, and its values in order."""
+
+    task: str
+    values: list[str | int | float | bool] = []
+
+
 class ProgramState(Described, kw_only=True, omit_defaults=True):
     """What the cognitive program is doing (``/program_state``).
 
@@ -209,6 +218,8 @@ class ProgramState(Described, kw_only=True, omit_defaults=True):
     "value" event tells the ``values`` that changed, by the name of the variable, as Python; what
     fills the places of ``text`` is in ``text_values`` here. "rule_failed" tells that a rule, a goal
     or a start ended with an error, "warning" what a person should look at; the program goes on.
+    The events of a plan bring the whole ``plan``, and in ``rule`` what it shall reach, in words;
+    "plan_step" and "plan_step_failed" tell which ``step`` of it runs or has failed, from 1.
     """
 
     program: str
@@ -219,6 +230,8 @@ class ProgramState(Described, kw_only=True, omit_defaults=True):
     text_values: Any = {}
     rule: str = ""
     thread: str = ""
+    plan: list[PlannedStep] = []
+    step: int = 0
     time: float = msgspec.field(default_factory=time.time)
 
 

@@ -109,6 +109,17 @@ SORTS = {
         "There is no goal with the name “{name}”.",
         ("Write the name as the goal's own block has it.",),
     ),
+    "no_fact": Sort(
+        "error", "“{block}”: the fact has no name.", ("Write what is true, in words.",)
+    ),
+    "never_true": Sort(
+        "warning",
+        "“{block}” needs a fact that nothing makes true.",
+        (
+            "Write the name as in the block that makes it true, with as many values.",
+            "Or say somewhere that it is now true.",
+        ),
+    ),
     "torn_apart": Sort(
         "warning",
         "“{block}” waits: what other rules do to “{variable}” meanwhile is lost.",

@@ -60,6 +60,7 @@ from .kinds import (
     result_key,
 )
 from .names import API, MODULES
+from .plans import FACT_LINES, FACT_VALUES
 
 # Values that are one line of Python.
 
@@ -523,6 +524,7 @@ REPORTERS: dict[str, ValueGenerator] = {
     "own_call": _own_call,
     "own_parameter": _own_parameter,
     "code_value": _code_value,
+    **FACT_VALUES,
 }
 
 
@@ -738,4 +740,5 @@ STATEMENTS: dict[str, StatementGenerator] = {
     "code_lines": _code_lines,
     "own_call": lambda code, block: [show(_own_call(code, block))],
     "own_return": lambda code, block: [GiveBack(f"return {show(code.slot(block, 'value'))}")],
+    **FACT_LINES,
 }

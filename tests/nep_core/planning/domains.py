@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import random
 from dataclasses import dataclass
-from itertools import combinations
+from itertools import combinations, pairwise
 
 from nep_core.program.facts import Fact
 from nep_core.program.planner import Parameter, Pattern, Task
@@ -40,8 +40,8 @@ def guide(rooms: int = 8, visitors: int = 4) -> Domain:
     """A robot guides visitors, one at a time, through rooms in a row to their own rooms."""
     row = [f"room{n}" for n in range(rooms)]
     present = [("at", row[0]), ("free",)]
-    present += [("door", a, b) for a, b in zip(row, row[1:], strict=False)]
-    present += [("door", b, a) for a, b in zip(row, row[1:], strict=False)]
+    present += [("door", a, b) for a, b in pairwise(row)]
+    present += [("door", b, a) for a, b in pairwise(row)]
     present += [("waits", f"v{n}", row[n % rooms]) for n in range(visitors)]
     goal = tuple(("waits", f"v{n}", row[-1 - n]) for n in range(visitors))
     tasks = (
@@ -56,9 +56,9 @@ def blocks_world(count: int = 6) -> Domain:
     """A tower is built anew in the other order."""
     names = [f"b{n}" for n in range(count)]
     present = [("free",), ("clear", names[-1]), ("table", names[0])]
-    present += [("on", b, a) for a, b in zip(names, names[1:], strict=False)]
+    present += [("on", b, a) for a, b in pairwise(names)]
     order = [*names[::2], *names[1::2]]
-    goal = tuple(("on", b, a) for a, b in zip(order, order[1:], strict=False))
+    goal = tuple(("on", b, a) for a, b in pairwise(order))
     tasks = (
         task("pick", "x", "clear x, table x, free", "holds x", "clear x, table x, free"),
         task("put", "x", "holds x", "clear x, table x, free", "holds x"),
@@ -77,18 +77,19 @@ def gripper(balls: int = 6) -> Domain:
         task("pick", "o r h", "lies o r, at r, empty h", "holds h o", "lies o r, empty h"),
         task("drop", "o r h", "holds h o, at r", "lies o r, empty h", "holds h o"),
     )
-    return Domain(
-        frozenset([*present, *here]), tuple(("lies", ball, "B") for ball in names), tasks
-    )
+    return Domain(frozenset([*present, *here]), tuple(("lies", ball, "B") for ball in names), tasks)
 
 
 def hanoi(count: int = 5) -> Domain:
     pegs, discs = ["p1", "p2", "p3"], [f"d{n}" for n in range(count)]  # d0 is the smallest
     present = [("clear", "d0"), ("clear", "p2"), ("clear", "p3"), ("on", discs[-1], "p1")]
-    present += [("on", a, b) for a, b in zip(discs, discs[1:], strict=False)]
+    present += [("on", a, b) for a, b in pairwise(discs)]
     present += [("smaller", a, b) for a, b in combinations(discs, 2)]
     present += [("smaller", a, peg) for a in discs for peg in pegs]
-    goal = [("on", discs[-1], "p3"), *(("on", a, b) for a, b in zip(discs, discs[1:], strict=False))]
+    goal = [
+        ("on", discs[-1], "p3"),
+        *(("on", a, b) for a, b in pairwise(discs)),
+    ]
     move = task(
         *("move", "d x y", "on d x, clear d, clear y, smaller d y"),
         *("on d y, clear x", "on d x, clear y"),
