@@ -19,7 +19,16 @@ if TYPE_CHECKING:
     from .processes.launcher import Launcher
     from .processes.node import Node
     from .program.behavior import Behavior, in_turn, one_of
-    from .program.facts import fact, is_true, needs, no_longer_true, now_true, true_while
+    from .program.facts import (
+        fact,
+        is_true,
+        makes_true,
+        makes_untrue,
+        needs,
+        no_longer_true,
+        now_true,
+        true_while,
+    )
     from .program.human import (
         heard_word,
         human_state,
@@ -84,7 +93,8 @@ _HOMES = {
         "processes.launcher": "Launcher",
         "processes.node": "Node",
         "program.behavior": "Behavior in_turn one_of",
-        "program.facts": "fact is_true needs no_longer_true now_true true_while",
+        "program.facts": "fact is_true makes_true makes_untrue needs no_longer_true "
+        "now_true true_while",
         "program.human": "heard_word human_state is_remembered remember times_seen until_state "
         "was_seen",
         "program.plans": "reach the_plan",
@@ -106,7 +116,7 @@ __all__ += ["colour_from", "heard_word", "human_state", "in_turn", "is_remembere
 __all__ += ["one_of", "remember", "stop_program", "stop_rule", "times_seen", "together"]
 __all__ += ["until_state", "wait", "wait_until", "was_seen"]
 __all__ += ["fact", "is_true", "needs", "no_longer_true", "now_true", "reach", "the_plan"]
-__all__ += ["true_while"]
+__all__ += ["makes_true", "makes_untrue", "true_while"]
 __all__ += ["add_item", "append_text", "as_list", "as_number", "as_text", "count_from"]
 __all__ += ["deviation_of"]
 __all__ += ["has_item", "has_part", "insert_item", "is_at_least", "is_at_most", "is_less"]

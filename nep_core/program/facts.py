@@ -153,6 +153,16 @@ def no_longer_true(name: str, *values: object) -> None:
     FACTS.put(fact_of([name, *values]), is_true=False)
 
 
+def makes_true(name: str, *values: object) -> None:
+    """Make a fact true, and say that this is what a plan may call this function for."""
+    now_true(name, *values)
+
+
+def makes_untrue(name: str, *values: object) -> None:
+    """Make a fact untrue, and say so to who plans with this function."""
+    no_longer_true(name, *values)
+
+
 def true_while(condition: Condition, name: str, *values: object) -> None:
     """Let a fact be true while ``condition()`` is: what a sensor tells is looked at each time."""
     FACTS.sense(fact_of([name, *values]), condition)
@@ -164,7 +174,7 @@ def is_true(name: str, *values: object) -> bool:
 
 
 def needs(name: str, *values: object) -> None:
-    """Say at the top of an own block which fact it needs; raises FactNotSo if it is not true."""
+    """Say at the top of a function which fact it needs; raises FactNotSo if it is not true."""
     needed = fact_of([name, *values])
     if not FACTS.is_true(needed):
         raise FactNotSo(

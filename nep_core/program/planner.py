@@ -206,7 +206,7 @@ def _take(
         if len(found.steps) >= MOST_ACTIONS:
             raise PlanError(
                 "There are more than {most} ways to do “{task}” and the other tasks.",
-                checklist=("Say with “needs” which values go together.", "Use fewer values."),
+                checklist=("Say with “needs” which values go together.", "Use fewer values in facts."),
                 most=MOST_ACTIONS,
                 task=task.name,
             )
@@ -236,7 +236,7 @@ def why_not(fact: Fact, tasks: Sequence[Task], reached: Mapping[Fact, None]) -> 
             "Nothing makes “{fact}” true.",
             checklist=(
                 "Say that it is now true, if it is.",
-                "Give an own block in which it becomes true what it needs.",
+                "Make an own block in which it becomes true.",
             ),
             fact=_shown(fact),
         )
@@ -250,7 +250,7 @@ def why_not(fact: Fact, tasks: Sequence[Task], reached: Mapping[Fact, None]) -> 
     return PlanError(
         "“{fact}” cannot become true: “{task}” needs “{need}”, which nothing makes true.",
         checklist=(
-            "Say that “{need}” is now true, if it is.",
+            "Say that it is now true, if it is.",
             "Make an own block in which it becomes true.",
         ),
         fact=_shown(fact),
@@ -299,10 +299,10 @@ def _unified(made: Pattern, wanted: Pattern, count: int) -> Binding | None:
 def _furthest(task: Task, bound: Binding, found: Grounded) -> tuple[int, Pattern | None]:
     """How many of the needs of a task can be met one after the other, and the first that cannot."""
     for count, need in enumerate(task.needs):
-        met = list(itertools.islice(found.joined(task.needs[: count + 1], bound), 1))
-        if not met:
-            before = next(found.joined(task.needs[:count], bound), bound)
-            return count, _partly(need, before if count else bound)
+        if next(found.joined(task.needs[: count + 1], bound), None) is None:
+            # What stands before it tells its values, where they can be no others
+            before = list(itertools.islice(found.joined(task.needs[:count], bound), 2))
+            return count, _partly(need, before[0] if len(before) == 1 else bound)
     return len(task.needs), None
 
 

@@ -1,9 +1,9 @@
 """Reach facts by a plan: the functions of a program that say what they need and make, in order.
 
 A task is a function without a line with “@” above it, in whose first level ``needs(...)`` says what
-it needs, and ``now_true(...)`` and ``no_longer_true(...)`` say what it changes. Its own lines say
-so: what it does when it is called and what is planned with cannot differ. A value there is one of
-the function's own, or is made without calling anything.
+it needs, and ``makes_true(...)`` and ``makes_untrue(...)`` say what it changes, and do so when it
+is called: what it does and what is planned with cannot differ. A value there is one of the
+function's own, or is made without calling anything.
 """
 
 from __future__ import annotations
@@ -29,8 +29,8 @@ MOST_PLANS = 5
 """So often a plan is made anew when a step does not do what it should."""
 _WORDS = {
     "needs": facts.needs,
-    "now_true": facts.now_true,
-    "no_longer_true": facts.no_longer_true,
+    "makes_true": facts.makes_true,
+    "makes_untrue": facts.makes_untrue,
 }
 
 # Who runs the program hears of its plans.
@@ -201,7 +201,7 @@ def _task(function: FunctionType) -> Task | None:
             if word == "needs":
                 needs.append(_stripped(pattern))
             else:
-                changes.append((_stripped(pattern), word == "now_true"))
+                changes.append((_stripped(pattern), word == "makes_true"))
     except _Unclear:
         return None
     return Task(node.name, tuple(names), tuple(needs), tuple(changes)) if changes else None

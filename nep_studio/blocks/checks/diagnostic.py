@@ -120,6 +120,14 @@ SORTS = {
             "Or say somewhere that it is now true.",
         ),
     ),
+    "not_planned": Sort(
+        "warning",
+        "“{block}” is for plans, which look only directly under the “define” of an own block.",
+        (
+            "Move it there, out of other blocks.",
+            "Or say with “it is now true” or “it is no longer true” what is so.",
+        ),
+    ),
     "torn_apart": Sort(
         "warning",
         "“{block}” waits: what other rules do to “{variable}” meanwhile is lost.",

@@ -1,4 +1,4 @@
-"""Checks of facts: one without a name, and one that is needed and that nothing makes true."""
+"""Checks of facts: without a name, needed and never made true, and of what own blocks say."""
 
 from __future__ import annotations
 
@@ -7,12 +7,14 @@ from difflib import get_close_matches
 
 from faults import text_of
 from nep_studio.blocks.definitions import Definition
+from nep_studio.blocks.generate.plans import TASK_LINES
 from nep_studio.blocks.language import Language
+from nep_studio.blocks.procedures import DEFINE
 from nep_studio.blocks.program import Block, Project
 
 from .diagnostic import Diagnostic, Fix, found
 
-MAKING, NEEDING = ("now_true", "true_while"), ("needs", "fact")
+MAKING, NEEDING = ("now_true", "makes_true", "true_while"), ("needs", "fact")
 """The generators of blocks that make a fact true, and of those that want it to be."""
 
 _Fact = tuple[str, int]
@@ -40,10 +42,21 @@ def check_facts(
                 made.setdefault(fact, fact[0])
             elif definition.generator in NEEDING:
                 needed.append((fact, block))
+        yield from _misplaced(project, language, chain)
     for fact, block in needed if not is_open else ():
         if fact not in made:
             fix = _nearest(block, fact, made)
             yield found("never_true", project, language, block.id, fix, fact=fact[0])
+
+
+def _misplaced(project: Project, language: Language, chain: list[str]) -> Iterator[Diagnostic]:
+    """What an own block would say of itself, but where nobody who plans looks."""
+    is_own = project.blocks[chain[0]].type.startswith(DEFINE)
+    first = frozenset(chain if is_own else ())
+    for block in project.within(chain, enabled=True):
+        definition = language.definitions.get(block.type)
+        if definition is not None and definition.generator in TASK_LINES and block.id not in first:
+            yield found("not_planned", project, language, block.id)
 
 
 def _makes_facts(block: Block, definition: Definition) -> bool:

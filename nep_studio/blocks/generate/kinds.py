@@ -282,7 +282,7 @@ _LOOKED_AT = frozenset(
     {
         *(*_SETS, *_PUT_IN_LISTS, *_CODE),
         *("variable", "count", "for_each", "list_create", "list_split", "own_return", "own_call"),
-        *("fact", "the_plan", "now_true", "no_longer_true"),
+        *("fact", "the_plan", "makes_true", "makes_untrue"),
     }
 )
 """The blocks that put something somewhere, or name a variable."""
@@ -349,7 +349,7 @@ class FactReader:
                 self._put.add((ITEMS, self._slot(block, f"value.{number}")))
         elif generator in ("list_split", "the_plan"):
             self._put.add((ITEMS, Given(TEXT)))
-        elif generator in ("now_true", "no_longer_true"):
+        elif generator in ("makes_true", "makes_untrue"):
             self._task()
         elif generator == "own_return" and self._procedure:
             self._put.add((result_key(self._procedure), self._slot(block, "value")))

@@ -44,6 +44,8 @@ API = VALUES | frozenset(
         "in_turn",
         "is_remembered",
         "is_true",
+        "makes_true",
+        "makes_untrue",
         "mix_colours",
         "needs",
         "no_longer_true",

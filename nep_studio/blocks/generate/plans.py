@@ -13,6 +13,9 @@ from nep_studio.blocks.program import Block
 
 from .expressions import Expressions, Piece, StatementGenerator, ValueGenerator, show
 
+TASK_LINES = ("needs", "makes_true", "makes_untrue")
+"""The statements by which an own block says what it is for, to who plans with it."""
+
 _NO_ARGUMENTS = ast.arguments([], [], None, [], [], None, [])
 
 
@@ -49,7 +52,7 @@ FACT_VALUES: Mapping[str, ValueGenerator] = {
     "the_plan": _wanted("the_plan"),
 }
 FACT_LINES: Mapping[str, StatementGenerator] = {
-    **{name: _line_of(_fact(name)) for name in ("needs", "no_longer_true", "now_true")},
+    **{name: _line_of(_fact(name)) for name in ("now_true", "no_longer_true", *TASK_LINES)},
     "reach": _line_of(_wanted("reach")),
     "true_while": _true_while,
 }
