@@ -206,7 +206,10 @@ def _take(
         if len(found.steps) >= MOST_ACTIONS:
             raise PlanError(
                 "There are more than {most} ways to do “{task}” and the other tasks.",
-                checklist=("Say with “needs” which values go together.", "Use fewer values in facts."),
+                checklist=(
+                    "Say with “needs” which values go together.",
+                    "Use fewer values in facts.",
+                ),
                 most=MOST_ACTIONS,
                 task=task.name,
             )

@@ -6,12 +6,7 @@ import time
 
 import pytest
 
-from nep_core.errors import PlanError
-from nep_core.program import planner
-from nep_core.program.plan_search import Problem, any_plan, landmarks
-from nep_core.program.planner import find_plan, ground
-from nep_core.program.tasks import Cancelled
-from tests.nep_core.planning.domains import (
+from benchmarks._planning_domains import (
     CLASSICS,
     Domain,
     blocks_world,
@@ -20,7 +15,12 @@ from tests.nep_core.planning.domains import (
     random_domain,
     task,
 )
-from tests.nep_core.planning.judge import follow, shortest_length
+from benchmarks._planning_judge import follow, shortest_length
+from nep_core.errors import PlanError
+from nep_core.program import planner
+from nep_core.program.plan_search import Problem, any_plan, landmarks
+from nep_core.program.planner import find_plan, ground
+from nep_core.program.tasks import Cancelled
 
 RANDOM = 500
 

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from itertools import product
 
-from tests.nep_core.planning.domains import Domain
+from ._planning_domains import Domain
 
 
 def filled(pattern, values):
