@@ -580,7 +580,10 @@ def _for_each(code: Expressions, block: Block) -> list[Piece]:
 
 
 _NEW_LISTS = frozenset(
-    {"sorted", "sorted_items", "list", "split", "list_with", "items_between", "parts_of"}
+    {
+        *("sorted", "sorted_items", "list", "split", "list_with", "items_between", "parts_of"),
+        *("fact", "the_plan"),
+    }
 )
 
 
