@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import random
+from collections.abc import Callable
 from dataclasses import dataclass
 from itertools import combinations, pairwise
 
@@ -125,7 +126,7 @@ def logistics() -> Domain:
     return Domain(frozenset(present), facts("at x b2, at y a2, at z b2"), tasks)
 
 
-CLASSICS = {
+CLASSICS: dict[str, Callable[[], Domain]] = {
     "guide": guide,
     "blocks world": blocks_world,
     "gripper": gripper,

@@ -243,7 +243,8 @@ def why_not(fact: Fact, tasks: Sequence[Task], reached: Mapping[Fact, None]) -> 
             ),
             fact=_shown(fact),
         )
-    task, need, seen = by[0], by[1], {fact}
+    task, need = by
+    seen: set[Pattern] = {fact}
     while need not in seen:  # what it needs may need something in its turn
         seen.add(need)
         deeper = _missing(need, tasks, reached)

@@ -16,7 +16,7 @@ from types import CodeType, FunctionType
 from typing import Any
 
 from faults import Fault, fault_in, fault_of
-from nep_core.errors import PlanError
+from nep_core.errors import FactNotSo, PlanError
 from nep_core.wire.messages import PlannedStep, PlanTold
 
 from . import facts
@@ -160,7 +160,7 @@ def _do(step: Step, function: FunctionType) -> None:
             words = (
                 "“{fact}” is not true afterwards." if is_made else "“{fact}” is true afterwards."
             )
-            raise facts.FactNotSo(words, fact=told_fact(changed))
+            raise FactNotSo(words, fact=told_fact(changed))
 
 
 def _given(fact: Fact) -> tuple[Any, ...]:

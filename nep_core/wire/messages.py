@@ -39,10 +39,8 @@ RuleStep = Literal["rule_started", "rule_finished", "rule_failed"]
 GoalStep = Literal["goal_started", "goal_finished", "goal_stopped", "goal_interrupted"]
 PlanTold = Literal["plan_made", "plan_step", "plan_step_failed", "plan_done"]
 Pause = Literal["paused", "resumed"]
-ProgramEvent = Literal[
-    *("started", "line", RuleStep, GoalStep, PlanTold, "value", Pause),
-    *("warning", "finished", "failed"),
-]
+Course = Literal["started", "line", "value", "warning", "finished", "failed"]
+ProgramEvent = Literal[Course, RuleStep, GoalStep, PlanTold, Pause]
 
 PROCESS_ENDED = "process_ended"
 PROCESS_RESTARTS = "process_restarts"

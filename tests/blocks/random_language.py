@@ -199,7 +199,7 @@ class Maker:
 
     def _statement(self) -> B:
         choices = [self._say, self._say, self._set, self._set, self._change, self._append]
-        choices += [self._list_statement, self._list_statement]
+        choices += [self._list_statement, self._list_statement, self._fact_statement]
         if self.where.depth < DEEPEST:
             choices += [self._if, self._repeat, self._count, self._for_each, self._parts]
             choices += [self._while, self._two_names]
@@ -251,6 +251,19 @@ class Maker:
                 inputs = {"list": self._list_variable(), "value": self._any(), "number": place}
                 return B("list.insert", {"end": end}, inputs)
         return B("list.remove", {"end": end}, {"list": self._list_variable(), "number": place})
+
+    def _fact_statement(self) -> B:
+        making = ["now_true", "now_true", "makes_true", "no_longer_true", "makes_untrue"]
+        kind = "needs" if self._chance(0.05) else self.dice.choice(making)
+        return self._fact(f"plan.{kind}")
+
+    def _fact(self, kind: str) -> B:
+        """A fact of few, so that one is often the same as another."""
+        count = self.dice.choice([0, 1, 1, 2])
+        value = self._any if self._chance(0.1) else self._leaf
+        inputs = {f"value.{n}": value() for n in range(1, count + 1)}
+        fields = {"fact": self.dice.choice(["a", "b", " a "])}
+        return B(kind, fields, inputs, groups={"of": count})
 
     def _if(self) -> B:
         groups = {"also": self.dice.randint(0, 1), "otherwise": self.dice.randint(0, 1)}
@@ -513,7 +526,7 @@ class Maker:
                 return B("logic.truth", {"truth": self.dice.choice(["true", "false"])})
             return self._get("boolean" if self._chance(0.8) else "any")
         self.where.depth += 1
-        made = self._boolean_block(self.dice.randint(0, 11))
+        made = self._boolean_block(self.dice.randint(0, 12))
         self.where.depth -= 1
         return made
 
@@ -549,6 +562,8 @@ class Maker:
                 return B("text.is_empty", inputs={"text": self._text()})
             case 10:
                 return B("list.is_empty", inputs={"list": self._list()})
+            case 11:
+                return self._fact("plan.is_true")
         inputs = {"number": self._number(), "divisor": self._positive()}
         return B("logic.divisible", inputs=inputs)
 

@@ -425,8 +425,9 @@ class FactReader:
         """A plan may call an own block that changes facts, with any values that are in facts."""
         procedure = self._project.procedures.get(self._procedure)
         for parameter in parameters(procedure) if procedure is not None else ():
-            key = parameter_key(self._procedure, parameter.id)
-            self._put.add((key, Given(NUMBER | TEXT | TRUTH)))
+            if parameter.kind != "list":  # no fact has one
+                key = parameter_key(self._procedure, parameter.id)
+                self._put.add((key, Given(NUMBER | TEXT | TRUTH)))
 
     def _plugged(self, block: Block, key: str) -> Block | None:
         block_id = block.inputs.get(key)

@@ -9,10 +9,10 @@ from typing import Any
 import pytest
 
 import nep_core
-from nep_core.errors import PlanError, ValueRefused
+from nep_core.errors import FactNotSo, PlanError, ValueRefused
 from nep_core.networks.zmq_networks import PeerNetwork
 from nep_core.program import facts, plans, tasks
-from nep_core.program.facts import FACTS, FactNotSo
+from nep_core.program.facts import FACTS
 from nep_core.wire.messages import PlannedStep, ProgramState
 from tests.nep_core.goal_playing import WAIT_S, Join, Scene
 
