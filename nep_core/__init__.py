@@ -19,6 +19,16 @@ if TYPE_CHECKING:
     from .processes.launcher import Launcher
     from .processes.node import Node
     from .program.behavior import Behavior, in_turn, one_of, what_went_wrong
+    from .program.facts import (
+        fact,
+        is_true,
+        makes_true,
+        makes_untrue,
+        needs,
+        no_longer_true,
+        now_true,
+        true_while,
+    )
     from .program.goals import fail_goal, goal_value
     from .program.human import (
         heard_word,
@@ -30,6 +40,7 @@ if TYPE_CHECKING:
         was_seen,
     )
     from .program.messages import tell, told_value
+    from .program.plans import reach, the_plan
     from .program.robot import Robot, colour_from, mix_colours
     from .program.tables import (
         as_table,
@@ -111,10 +122,13 @@ _HOMES = {
         "processes.launcher": "Launcher",
         "processes.node": "Node",
         "program.behavior": "Behavior in_turn one_of what_went_wrong",
+        "program.facts": "fact is_true makes_true makes_untrue needs no_longer_true now_true "
+        "true_while",
         "program.goals": "fail_goal goal_value",
         "program.human": "heard_word human_state is_remembered remember times_seen until_state "
         "was_seen",
         "program.messages": "tell told_value",
+        "program.plans": "reach the_plan",
         "program.robot": "Robot colour_from mix_colours",
         "program.tables": "as_table change_at has_key names_in remove_key set_at table_of value_at",
         "program.tasks": "at_once end_actions set_priority stop_program stop_rule together wait "
@@ -134,18 +148,19 @@ _HOMES = {
 __all__ = ["Behavior", "Broker", "BrokerNetwork", "DirectNetwork", "Launcher", "Master"]
 __all__ += ["NepError", "Node", "PeerNetwork", "Publisher", "Robot", "Subscriber", "add_item"]
 __all__ += ["append_text", "as_list", "as_number", "as_table", "as_text", "at_once", "change_at"]
-__all__ += ["colour_from", "count_from", "date_today", "deviation_of", "end_actions", "fail_goal"]
-__all__ += ["goal_value", "has_item", "has_key", "has_part", "heard_word", "human_state"]
-__all__ += ["in_turn", "insert_item", "is_at_least", "is_at_most", "is_less", "is_more"]
-__all__ += ["is_remembered", "is_same", "item_of", "items_between", "join_items", "largest_of"]
-__all__ += ["length_of", "letter_of", "list_with", "mean_of", "median_of", "mix_colours"]
-__all__ += ["names_in", "number_in", "one_of", "parts_of", "place_in_text", "place_of"]
-__all__ += ["random_whole", "remember", "remove_item", "remove_key", "replace_part", "set_at"]
-__all__ += ["set_item", "set_priority", "smallest_of", "sorted_items", "start_timer"]
-__all__ += ["stop_program", "stop_rule", "sum_of", "table_of", "take_item", "tell", "time_now"]
-__all__ += ["time_part", "timer_seconds", "times_seen", "title_case", "to_nearest", "to_power"]
-__all__ += ["together", "told_value", "until_state", "value_at", "wait", "wait_until", "was_seen"]
-__all__ += ["weekday_today", "what_went_wrong"]
+__all__ += ["colour_from", "count_from", "date_today", "deviation_of", "end_actions", "fact"]
+__all__ += ["fail_goal", "goal_value", "has_item", "has_key", "has_part", "heard_word"]
+__all__ += ["human_state", "in_turn", "insert_item", "is_at_least", "is_at_most", "is_less"]
+__all__ += ["is_more", "is_remembered", "is_same", "is_true", "item_of", "items_between"]
+__all__ += ["join_items", "largest_of", "length_of", "letter_of", "list_with", "makes_true"]
+__all__ += ["makes_untrue", "mean_of", "median_of", "mix_colours", "names_in", "needs"]
+__all__ += ["no_longer_true", "now_true", "number_in", "one_of", "parts_of", "place_in_text"]
+__all__ += ["place_of", "random_whole", "reach", "remember", "remove_item", "remove_key"]
+__all__ += ["replace_part", "set_at", "set_item", "set_priority", "smallest_of", "sorted_items"]
+__all__ += ["start_timer", "stop_program", "stop_rule", "sum_of", "table_of", "take_item", "tell"]
+__all__ += ["the_plan", "time_now", "time_part", "timer_seconds", "times_seen", "title_case"]
+__all__ += ["to_nearest", "to_power", "together", "told_value", "true_while", "until_state"]
+__all__ += ["value_at", "wait", "wait_until", "was_seen", "weekday_today", "what_went_wrong"]
 
 
 def __getattr__(name: str) -> Any:

@@ -21,6 +21,8 @@ NepError
 │   ├── RobotNotAnswering     no action node plays this robot
 │   └── ActionFailed          the robot could not do what it was asked
 ├── ValueRefused              a value is of a kind or a size that a block cannot work with
+├── PlanError                 what a program wants to reach cannot be reached
+│   └── FactNotSo             a fact is not as a block needs or makes it
 └── RecordingError            a recording or a model file that cannot be used
 """
 
@@ -111,6 +113,14 @@ class ActionFailed(RobotError, title="The robot could not do it"):
 
 class ValueRefused(NepError, title="The program stopped with an error"):
     """A value of a program is of a kind or a size that does not fit."""
+
+
+class PlanError(NepError, title="No plan leads there"):
+    """What a program wants to reach cannot be reached."""
+
+
+class FactNotSo(PlanError, title="A fact is not so"):
+    """A fact is not as a block needs it, or as it should have become."""
 
 
 class RecordingError(NepError, title="A file cannot be used"):

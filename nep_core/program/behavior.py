@@ -8,7 +8,7 @@ import random
 import threading
 import time
 from collections import deque
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
 from functools import partial
 from types import CodeType, FunctionType
@@ -24,6 +24,8 @@ from nep_core.wire.messages import (
     PROGRAM_STATE,
     ExpectedWords,
     HumanBehavior,
+    PlannedStep,
+    PlanTold,
     ProgramEvent,
     ProgramState,
     told,
@@ -35,6 +37,7 @@ from .goals import Goal, GoalEvent, Goals, Interrupted
 from .human import human_listener
 from .machines import Machines, Transition
 from .messages import Run, heard_by, own_run
+from .plans import tell_by
 from .robot import Robot
 from .tasks import (
     CLOCK,
@@ -374,6 +377,7 @@ class Behavior:
         words.send(ExpectedWords(words=list(expected)))
         listener = human_listener(network)
         self._busy_s = CLOCK.now_s()
+        tell_by(self._tell_plan)
         listener.listen(self._on_behavior)
         try:
             with heard_by(self):
@@ -555,6 +559,27 @@ class Behavior:
         with self._parts_lock:  # a part that has not started yet must not count as ended
             self._parts.append(part)
             return part.start()
+
+    def _tell_plan(
+        self,
+        event: PlanTold,
+        goal: str,
+        plan: Sequence[PlannedStep],
+        step: int,
+        fault: Fault | None,
+    ) -> None:
+        name = threading.current_thread().name
+        self._states.send(
+            ProgramState(
+                program=self.name,
+                event=event,
+                rule=goal,
+                thread=name,
+                plan=list(plan),
+                step=step,
+                **told(fault),
+            )
+        )
 
     def _tell(
         self, event: ProgramEvent, rule: str, line: int = 0, fault: Fault | None = None

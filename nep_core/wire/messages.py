@@ -40,19 +40,10 @@ GoalStep = Literal[
     "goal_started", "goal_finished", "goal_stopped", "goal_interrupted", "goal_failed"
 ]
 StateStep = Literal["state_entered"]
+PlanTold = Literal["plan_made", "plan_step", "plan_step_failed", "plan_done"]
 Pause = Literal["paused", "resumed"]
-ProgramEvent = Literal[
-    "started",
-    "line",
-    RuleStep,
-    GoalStep,
-    StateStep,
-    "value",
-    Pause,
-    "warning",
-    "finished",
-    "failed",
-]
+Course = Literal["started", "line", "value", "warning", "finished", "failed"]
+ProgramEvent = Literal[Course, RuleStep, GoalStep, StateStep, PlanTold, Pause]
 
 PROCESS_ENDED = "process_ended"
 PROCESS_RESTARTS = "process_restarts"
@@ -225,6 +216,13 @@ class RobotState(msgspec.Struct, kw_only=True, omit_defaults=True):
     time: float = msgspec.field(default_factory=time.time)
 
 
+class PlannedStep(msgspec.Struct, frozen=True):
+    """A step of a plan: the function of the program that is its task, and its values in order."""
+
+    task: str
+    values: list[str | int | float | bool] = []
+
+
 class ProgramState(Described, kw_only=True, omit_defaults=True):
     """What the cognitive program is doing (``/program_state``).
 
@@ -235,6 +233,8 @@ class ProgramState(Described, kw_only=True, omit_defaults=True):
     changed, by the name of the variable, as Python; what fills the places of ``text`` is in
     ``text_values`` here. "rule_failed" tells that a rule, a goal or a start ended with an
     error, "warning" what a person should look at; the program goes on.
+    The events of a plan bring the whole ``plan``, and in ``rule`` what it shall reach, in words;
+    "plan_step" and "plan_step_failed" tell which ``step`` of it runs or has failed, from 1.
     """
 
     program: str
@@ -245,6 +245,8 @@ class ProgramState(Described, kw_only=True, omit_defaults=True):
     text_values: Any = {}
     rule: str = ""
     thread: str = ""
+    plan: list[PlannedStep] = []
+    step: int = 0
     time: float = msgspec.field(default_factory=time.time)
 
 

@@ -314,6 +314,8 @@ def _program_words(state: m.ProgramState, tr: Tr) -> str:
             return tr("interrupts the goal “{goal}”", goal=state.rule)
         case "state_entered":
             return tr("is in the state “{state}”", state=state.rule)
+        case "plan_made" | "plan_step" | "plan_step_failed" | "plan_done":
+            return _plan_words(state, tr)
         case "rule_failed":
             reason, rule = tr(state.fault.sentence), state.rule.replace("_", " ")
             if not rule:
@@ -332,3 +334,26 @@ def _program_words(state: m.ProgramState, tr: Tr) -> str:
         case "finished":
             return tr("has ended")
     return ""
+
+
+def _plan_words(state: m.ProgramState, tr: Tr) -> str:
+    """What is told of a plan: its steps, which runs now, and what came of it."""
+    steps = [_step_words(step) for step in state.plan]
+    number = min(max(state.step, 1), len(steps))
+    match state.event:
+        case "plan_made" if steps:
+            return tr("plans to reach “{goal}”: {steps}", goal=state.rule, steps=", ".join(steps))
+        case "plan_made":
+            return tr("need not plan: “{goal}” is true already", goal=state.rule)
+        case "plan_step" if steps:
+            step, count = steps[number - 1], len(steps)
+            return tr("step {number} of {count}: {step}", number=number, count=count, step=step)
+        case "plan_step_failed":
+            return tr(state.fault.sentence)
+        case "plan_done" if steps:
+            return tr("has followed its plan to “{goal}”", goal=state.rule)
+    return ""
+
+
+def _step_words(step: m.PlannedStep) -> str:
+    return " ".join([step.task.replace("_", " "), *map(str, step.values)])

@@ -215,6 +215,7 @@ class Maker:
         choices += [self._list_statement, self._list_statement]
         if "table" in self.kinds.values():
             choices += [self._table_statement, self._table_statement]
+        choices.append(self._fact_statement)
         if self.where.depth < DEEPEST:
             choices += [self._if, self._repeat, self._count, self._for_each, self._parts]
             choices += [self._while, self._two_names, self._try]
@@ -278,6 +279,19 @@ class Maker:
             case 2 | 3:
                 return B("table.change", inputs={**inputs, "amount": self._number()})
         return B("table.take", inputs=inputs)
+
+    def _fact_statement(self) -> B:
+        making = ["now_true", "now_true", "makes_true", "no_longer_true", "makes_untrue"]
+        kind = "needs" if self._chance(0.05) else self.dice.choice(making)
+        return self._fact(f"plan.{kind}")
+
+    def _fact(self, kind: str) -> B:
+        """A fact of few, so that one is often the same as another."""
+        count = self.dice.choice([0, 1, 1, 2])
+        value = self._any if self._chance(0.1) else self._leaf
+        inputs = {f"value.{n}": value() for n in range(1, count + 1)}
+        fields = {"fact": self.dice.choice(["a", "b", " a "])}
+        return B(kind, fields, inputs, groups={"of": count})
 
     def _if(self) -> B:
         groups = {"also": self.dice.randint(0, 1), "otherwise": self.dice.randint(0, 1)}
@@ -611,7 +625,7 @@ class Maker:
                 return B("logic.truth", {"truth": self.dice.choice(["true", "false"])})
             return self._get("boolean" if self._chance(0.8) else "any")
         self.where.depth += 1
-        made = self._boolean_block(self.dice.randint(0, 12))
+        made = self._boolean_block(self.dice.randint(0, 13))
         self.where.depth -= 1
         return made
 
@@ -651,6 +665,8 @@ class Maker:
                 if self._chance(0.3):
                     return B("table.is_empty", inputs={"table": self._table()})
                 return B("table.has", inputs={"table": self._table(), "key": self._key()})
+            case 12:
+                return self._fact("plan.is_true")
         inputs = {"number": self._number(), "divisor": self._positive()}
         return B("logic.divisible", inputs=inputs)
 

@@ -75,6 +75,7 @@ class Interpreter:
         self.said: list[str] = []
         self._steps = self._calls = 0
         self._turns: dict[str, int] = {}
+        self.facts: list[Value] = []
         self._parameters: list[dict[str, Value]] = []
         self._own: list[dict[str, Value]] = []
         self._told: list[tuple[str, Value]] = []
@@ -554,7 +555,43 @@ def _change_key(run: Interpreter, block: Block) -> None:
     held.put(key, before + amount)
 
 
+# Facts
+
+
+def _fact(run: Interpreter, block: Block) -> list[Value]:
+    values = [run.slot(block, f"value.{n}") for n in range(1, block.groups.get("of", 0) + 1)]
+    return [run.slot(block, "fact"), *values]
+
+
+def _asked_fact(run: Interpreter, block: Block) -> list[Value]:
+    name, *values = _fact(run, block)
+    if not str(name).strip() or any(kind(value) == "list" for value in values):
+        raise Wrong("no fact")
+    return [str(name).strip(), *values]
+
+
+def _is_true(run: Interpreter, block: Block) -> bool:
+    fact = _asked_fact(run, block)
+    return any(equal(fact, other) for other in run.facts)
+
+
+def _makes_true(run: Interpreter, block: Block) -> None:
+    run.facts.append(_asked_fact(run, block))
+
+
+def _makes_untrue(run: Interpreter, block: Block) -> None:
+    fact = _asked_fact(run, block)
+    run.facts = [other for other in run.facts if not equal(fact, other)]
+
+
+def _needs(run: Interpreter, block: Block) -> None:
+    if not _is_true(run, block):
+        raise Wrong("not true")
+
+
 REPORTERS: dict[str, Callable[[Interpreter, Block], Value]] = {
+    "plan.fact": _fact,
+    "plan.is_true": _is_true,
     "variable.get": lambda run, block: run.get(str(block.fields["variable"])),
     "math.number": lambda run, block: number(run.slot(block, "number")),
     "math.arithmetic": _arithmetic,
@@ -790,4 +827,9 @@ STATEMENTS: dict[str, Callable[[Interpreter, Block], None]] = {
     "table.change": _change_key,
     "table.take": _take_key,
     "my.return": _give_back,
+    "plan.now_true": _makes_true,
+    "plan.makes_true": _makes_true,
+    "plan.no_longer_true": _makes_untrue,
+    "plan.makes_untrue": _makes_untrue,
+    "plan.needs": _needs,
 }

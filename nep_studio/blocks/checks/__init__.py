@@ -22,6 +22,7 @@ from .deployment import (
     check_talk,
 )
 from .diagnostic import SEVERITIES, Diagnostic, Fix
+from .facts import check_facts
 from .flow import check_flow, check_limits, check_shared
 
 One = TypeVar("One")
@@ -98,6 +99,7 @@ def check_steps(
     running = list(chains(project, language))
     problems = list(check_rules(project, language, running))
     problems += check_goals(project, language, running)
+    problems += check_facts(project, language, running)
     problems += yield from known.in_chains(check_blocks, project, language, every)
     problems += yield from known.in_chains(check_inside, project, language, running)
     if project.procedures:

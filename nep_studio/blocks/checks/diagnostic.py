@@ -129,6 +129,25 @@ SORTS = {
         "“{block}” is in no goal: when it is reached, the rule ends with an error.",
         ("Put it below the block of a goal, or below “when the goal …”.",),
     ),
+    "no_fact": Sort(
+        "error", "“{block}”: the fact has no name.", ("Write what is true, in words.",)
+    ),
+    "never_true": Sort(
+        "warning",
+        "“{block}” needs a fact that nothing makes true.",
+        (
+            "Write the name as in the block that makes it true, with as many values.",
+            "Or say somewhere that it is now true.",
+        ),
+    ),
+    "not_planned": Sort(
+        "warning",
+        "“{block}” is for plans, which look only directly under the “define” of an own block.",
+        (
+            "Move it there, out of other blocks.",
+            "Or say with “it is now true” or “it is no longer true” what is so.",
+        ),
+    ),
     "torn_apart": Sort(
         "warning",
         "“{block}” waits: what other rules do to “{variable}” meanwhile is lost.",

@@ -31,6 +31,7 @@ from nep_studio.blocks.generate.kinds import (
     note,
 )
 from nep_studio.blocks.generate.names import VALUES, ProgramNames
+from nep_studio.blocks.generate.plans import FACT_LINES, FACT_VALUES
 from nep_studio.blocks.generate.rules import HATS
 from nep_studio.blocks.language import Language
 from nep_studio.blocks.procedures import procedure_of
@@ -95,6 +96,9 @@ KNOWN = (
     Known(False, False, ANY, ANY, ANY),
     Known(False, True, ANY, ANY, ANY),
 )
+
+_SAME_WHATEVER_IS_KNOWN = frozenset({*FACT_LINES, *FACT_VALUES})
+"""The generators that write one call, whatever its values are."""
 
 # Makes the Python of a new block with markers in its slots.
 
@@ -440,10 +444,11 @@ def _is_range(nodes: Sequence[ast.AST]) -> bool:
 
 def _patterns(definition: Definition, language: Language) -> Iterator[Pattern]:
     seen: set[str] = set()
+    every = KNOWN[:1] if definition.generator in _SAME_WHATEVER_IS_KNOWN else KNOWN
     for groups in itertools.islice(_group_counts(definition), MOST_PATTERNS):
         for fields in _choices(definition, language, groups):
             keys = tuple(key for key, _ in definition.keys(groups))
-            variants = itertools.product(_variants(definition, keys), KNOWN)
+            variants = itertools.product(_variants(definition, keys), every)
             for (typed, plain), known in variants:
                 learner = Learner(language, fields, keys, typed, plain, known)
                 try:

@@ -62,6 +62,7 @@ from .kinds import (
     result_key,
 )
 from .names import API, MODULES
+from .plans import FACT_LINES, FACT_VALUES
 from .tables import TABLE_STATEMENTS, TABLE_VALUES
 
 # Values that are one line of Python.
@@ -562,6 +563,7 @@ REPORTERS: dict[str, ValueGenerator] = {
     "own_call": _own_call,
     "own_parameter": _own_parameter,
     "code_value": _code_value,
+    **FACT_VALUES,
 }
 
 
@@ -615,7 +617,10 @@ def _for_each(code: Expressions, block: Block) -> list[Piece]:
 
 
 _NEW_LISTS = frozenset(
-    {"sorted", "sorted_items", "list", "split", "list_with", "items_between", "parts_of"}
+    {
+        *("sorted", "sorted_items", "list", "split", "list_with", "items_between", "parts_of"),
+        *("fact", "the_plan"),
+    }
 )
 
 
@@ -826,4 +831,5 @@ STATEMENTS: dict[str, StatementGenerator] = {
     "code_lines": _code_lines,
     "own_call": lambda code, block: [show(_own_call(code, block))],
     "own_return": lambda code, block: [GiveBack(f"return {show(code.slot(block, 'value'))}")],
+    **FACT_LINES,
 }

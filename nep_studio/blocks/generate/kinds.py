@@ -79,10 +79,10 @@ _CALLS = {
     **dict.fromkeys(("str", "as_text", "title_case", "letter_of", "replace_part"), TEXT),
     **dict.fromkeys(("join_items", "append_text"), TEXT),
     **dict.fromkeys(("bool", "has_item", "has_part", "is_same", "is_less", "is_more"), TRUTH),
-    **dict.fromkeys(("is_at_most", "is_at_least", "wait_until", "has_key"), TRUTH),
+    **dict.fromkeys(("is_at_most", "is_at_least", "wait_until", "has_key", "is_true"), TRUTH),
     **dict.fromkeys(("date_today", "time_now", "weekday_today", "what_went_wrong"), TEXT),
     **dict.fromkeys(("list", "sorted", "as_list", "items_between", "list_with"), LIST),
-    **dict.fromkeys(("parts_of", "sorted_items", "names_in"), LIST),
+    **dict.fromkeys(("parts_of", "sorted_items", "names_in", "fact", "the_plan"), LIST),
     **dict.fromkeys(("dict", "as_table", "table_of"), TABLE),
     **dict.fromkeys(("as_number", "to_power", "number_in", "sum_of", "mean_of"), NUMBER),
     **dict.fromkeys(("median_of", "deviation_of", "smallest_of", "largest_of"), NUMBER),
@@ -294,6 +294,7 @@ _LOOKED_AT = frozenset(
         *(*_SETS, *_PUT_IN_LISTS, *_PUT_IN_TABLES, *_LOOK_IN_TABLES, *_OUT_OF_TABLES, *_CODE),
         "table_create",
         *("variable", "count", "for_each", "list_create", "list_split", "own_return", "own_call"),
+        *("fact", "the_plan", "makes_true", "makes_untrue"),
     }
 )
 """The blocks that put something somewhere, or name a variable."""
@@ -357,8 +358,14 @@ class FactReader:
                 self._put.add((ITEMS, self._slot(block, f"item.{number}")))
         elif "table" in generator:
             self._table_block(block, generator)
-        elif generator == "list_split":
+        elif generator == "fact":
             self._put.add((ITEMS, Given(TEXT)))
+            for number in range(1, block.groups.get("of", 0) + 1):
+                self._put.add((ITEMS, self._slot(block, f"value.{number}")))
+        elif generator in ("list_split", "the_plan"):
+            self._put.add((ITEMS, Given(TEXT)))
+        elif generator in ("makes_true", "makes_untrue"):
+            self._task()
         elif generator == "own_return" and self._procedure:
             self._put.add((result_key(self._procedure), self._slot(block, "value")))
         elif generator == "own_call":
@@ -443,6 +450,14 @@ class FactReader:
             for parameter in parameters(procedure):
                 key = parameter_key(procedure.id, parameter.id)
                 self._put.add((key, self._slot(block, parameter.id)))
+
+    def _task(self) -> None:
+        """A plan may call an own block that changes facts, with any values that are in facts."""
+        procedure = self._project.procedures.get(self._procedure)
+        for parameter in parameters(procedure) if procedure is not None else ():
+            if parameter.kind != "list":  # no fact has one
+                key = parameter_key(self._procedure, parameter.id)
+                self._put.add((key, Given(NUMBER | TEXT | TRUTH)))
 
     def _plugged(self, block: Block, key: str) -> Block | None:
         block_id = block.inputs.get(key)
