@@ -30,6 +30,29 @@ if TYPE_CHECKING:
     )
     from .program.robot import Robot, colour_from, mix_colours
     from .program.tasks import at_once, stop_program, stop_rule, together, wait, wait_until
+    from .program.tree import (
+        Check,
+        CoolDown,
+        Delay,
+        Fallback,
+        ForceFailure,
+        ForceSuccess,
+        Input,
+        Invert,
+        Output,
+        Parallel,
+        Repeat,
+        Retry,
+        Sequence,
+        Step,
+        SubTree,
+        TimeLimit,
+        WhileTrue,
+        do_tree,
+        fail_step,
+        set_tree_value,
+        tree_value,
+    )
     from .program.values import (
         add_item,
         append_text,
@@ -86,6 +109,9 @@ _HOMES = {
         "was_seen",
         "program.robot": "Robot colour_from mix_colours",
         "program.tasks": "at_once stop_program stop_rule together wait wait_until",
+        "program.tree": "Check CoolDown Delay Fallback ForceFailure ForceSuccess Input Invert "
+        "Output Parallel Repeat Retry Sequence Step SubTree TimeLimit WhileTrue do_tree fail_step "
+        "set_tree_value tree_value",
         "program.values": "add_item append_text as_list as_number as_text count_from deviation_of "
         "has_item has_part insert_item is_at_least is_at_most is_less is_more is_same item_of "
         "items_between join_items largest_of length_of letter_of list_with mean_of median_of "
@@ -101,6 +127,9 @@ __all__ += ["NepError", "Node", "PeerNetwork", "Publisher", "Robot", "Subscriber
 __all__ += ["colour_from", "heard_word", "human_state", "in_turn", "is_remembered", "mix_colours"]
 __all__ += ["one_of", "remember", "stop_program", "stop_rule", "times_seen", "together"]
 __all__ += ["until_state", "wait", "wait_until", "was_seen"]
+__all__ += ["Check", "CoolDown", "Delay", "Fallback", "ForceFailure", "ForceSuccess", "Input"]
+__all__ += ["Invert", "Output", "Parallel", "Repeat", "Retry", "Sequence", "Step", "SubTree"]
+__all__ += ["TimeLimit", "WhileTrue", "do_tree", "fail_step", "set_tree_value", "tree_value"]
 __all__ += ["add_item", "append_text", "as_list", "as_number", "as_text", "count_from"]
 __all__ += ["deviation_of"]
 __all__ += ["has_item", "has_part", "insert_item", "is_at_least", "is_at_most", "is_less"]

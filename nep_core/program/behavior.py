@@ -31,6 +31,7 @@ from nep_core.wire.states import state_of_thing, state_of_word, word_of_state
 
 from .human import human_listener
 from .tasks import CLOCK, POLL_S, PROGRAM, Cancelled, Part, RuleStopped, Task, current_task
+from .tree import Plan, Status, do_tree, do_tree_again, plant
 from .values import speak
 
 log = logging.getLogger(__name__)
@@ -40,6 +41,7 @@ Condition = Callable[[], object]
 Decorator = Callable[[Action], Action]
 Again = Literal["ignore", "restart", "queue"]
 OnError = Literal["go_on", "end"]
+TreeRuns = Literal["when_asked", "at_start", "always"]
 
 MOST_QUEUED = 1000
 TELL_AGAIN_S = 1.0
@@ -189,6 +191,22 @@ class Behavior:
         """Run the decorated function when the program starts."""
         self._starts.append(action)
         return action
+
+    def tree(self, name: str, *, runs: TreeRuns = "when_asked") -> Decorator:
+        """Make the decorated function a behaviour tree, whose nodes it makes.
+
+        ``runs``: "when_asked" by ``do_tree`` or by another tree, once "at_start" of the program,
+        or "always", again and again from the start on.
+        """
+
+        def note(action: Action) -> None:
+            tell, note_error = partial(self._tell_tree, name), partial(self._note_error, rule=name)
+            plant(Plan(name, action, tell, note_error))
+            if runs != "when_asked":
+                do = do_tree if runs == "at_start" else do_tree_again
+                self._starts.append(partial(do, name))
+
+        return _decorator(note)
 
     def run(self) -> None:
         """Run until the program is stopped or all is done; raises the first error of its parts."""
@@ -353,6 +371,12 @@ class Behavior:
             ProgramState(
                 program=self.name, event=event, rule=rule, thread=name, line=line, **told(fault)
             )
+        )
+
+    def _tell_tree(self, name: str, nodes: dict[int, Status]) -> None:
+        told_nodes = {str(line): status for line, status in nodes.items()}
+        self._states.send(
+            ProgramState(program=self.name, event="tree", rule=name, nodes=told_nodes)
         )
 
 

@@ -16,7 +16,7 @@ import threading
 import time
 from collections.abc import Callable
 from types import FrameType
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 POLL_S = 0.05
 """How often a condition is looked at."""
@@ -112,6 +112,8 @@ class Task:
         self.cancelled = threading.Event()
         self.undo: dict[tuple[str, ...], Callable[[], object]] = {}
         """What is still to be ended, by what it is, when this part is cancelled."""
+        self.board: dict[str, Any] = parent.board if parent is not None else {}
+        """The named values of the behaviour tree that this part belongs to."""
         self._children: list[Task] = []
         self._lock = threading.Lock()
         if parent is not None:

@@ -39,7 +39,7 @@ RuleStep = Literal["rule_started", "rule_finished", "rule_failed"]
 GoalStep = Literal["goal_started", "goal_finished", "goal_stopped", "goal_interrupted"]
 Pause = Literal["paused", "resumed"]
 ProgramEvent = Literal[
-    "started", "line", RuleStep, GoalStep, "value", Pause, "warning", "finished", "failed"
+    "started", "line", RuleStep, GoalStep, "value", "tree", Pause, "warning", "finished", "failed"
 ]
 
 PROCESS_ENDED = "process_ended"
@@ -209,6 +209,8 @@ class ProgramState(Described, kw_only=True, omit_defaults=True):
     "value" event tells the ``values`` that changed, by the name of the variable, as Python; what
     fills the places of ``text`` is in ``text_values`` here. "rule_failed" tells that a rule, a goal
     or a start ended with an error, "warning" what a person should look at; the program goes on.
+    A "tree" event tells the ``nodes`` of the behaviour tree ``rule`` that changed, by their line:
+    "idle", "running", "succeeded" or "failed".
     """
 
     program: str
@@ -216,6 +218,7 @@ class ProgramState(Described, kw_only=True, omit_defaults=True):
     line: int = 0
     lines: dict[str, list[int]] = {}
     values: dict[str, str] = {}
+    nodes: dict[str, str] = {}
     text_values: Any = {}
     rule: str = ""
     thread: str = ""
