@@ -114,6 +114,8 @@ class Task:
         """What is still to be ended, by what it is, when this part is cancelled."""
         self.board: dict[str, Any] = parent.board if parent is not None else {}
         """The named values of the behaviour tree that this part belongs to."""
+        self.in_step: bool = parent is not None and parent.in_step
+        """Whether it belongs to a step of a behaviour tree."""
         self._children: list[Task] = []
         self._lock = threading.Lock()
         if parent is not None:

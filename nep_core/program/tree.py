@@ -59,6 +59,12 @@ class StepFailed(BaseException):
 
 def fail_step() -> None:
     """End the step that runs here: it has failed."""
+    if not current_task().in_step:
+        raise NepError(
+            "Only a step of a behaviour tree can say that it has failed.",
+            code="outside_step",
+            checklist=("Put this into a step.", "Or stop the rule instead."),
+        )
     raise StepFailed
 
 
@@ -470,7 +476,9 @@ class Step(Node):
                 ended.set()
                 self._trunk.news.set()
 
-        self._part = Part(play, f"nep-step-{self.name}", current_task()).start()
+        self._part = Part(play, f"nep-step-{self.name}", current_task())
+        self._part.task.in_step = True
+        self._part.start()
 
     def _look(self) -> Status:
         part = self._part

@@ -22,6 +22,7 @@ from .deployment import (
 )
 from .diagnostic import SEVERITIES, Diagnostic, Fix
 from .flow import check_flow, check_limits, check_shared
+from .trees import check_trees
 
 One = TypeVar("One")
 _OfChain = Callable[[Project, Language, list[str]], Iterator[One | None]]
@@ -99,6 +100,8 @@ def check_steps(
     problems += check_goals(project, language, running)
     problems += yield from known.in_chains(check_blocks, project, language, every)
     problems += yield from known.in_chains(check_inside, project, language, running)
+    trees = partial(check_trees, project, language, running)
+    problems += yield from known.find(check_trees, object(), trees)
     if project.procedures:
         own = partial(check_own_blocks, project, language, running)
         always_anew = object()

@@ -109,6 +109,16 @@ SORTS = {
         "There is no goal with the name “{name}”.",
         ("Write the name as the goal's own block has it.",),
     ),
+    "same_tree": Sort(
+        "error",
+        "Two behaviour trees are called “{name}”.",
+        ("Give each tree a name of its own.",),
+    ),
+    "unknown_tree": Sort(
+        "error",
+        "There is no behaviour tree with the name “{name}”.",
+        ("Write the name as the tree's own block has it.",),
+    ),
     "torn_apart": Sort(
         "warning",
         "“{block}” waits: what other rules do to “{variable}” meanwhile is lost.",

@@ -9,6 +9,7 @@ from nep_studio.blocks.definitions import Definition
 from nep_studio.blocks.generate.expressions import DEEPEST_VALUE, value_cost
 from nep_studio.blocks.generate.rules import DEEPEST_INDENT, DEEPEST_LOOP
 from nep_studio.blocks.language import Language
+from nep_studio.blocks.mouths import mouth_of
 from nep_studio.blocks.program import ALL_ROBOTS, Block, Project
 from nep_studio.blocks.sharing import (
     LIST_SLOT,
@@ -172,7 +173,8 @@ def _inside(block: Block, definition: Definition, depth: _Depth) -> _Depth | Non
         return None if values > DEEPEST_VALUE else depth._replace(values=values)
     loops, indent, values = depth
     if definition.shape == "c":
-        loops = 0 if "apart" in definition.flags else loops + ("loop" in definition.flags)
+        is_counted = "loop" in definition.flags or bool(mouth_of(definition))
+        loops = 0 if "apart" in definition.flags else loops + is_counted
         indent, values = indent + 1, 0
     too_deep = loops > DEEPEST_LOOP or indent > DEEPEST_INDENT
     return None if too_deep else _Depth(loops, indent, values)

@@ -83,9 +83,9 @@ class Found:
         if not isinstance(wanted, ast.AST):
             return wanted == there
         if isinstance(wanted, ast.FunctionDef) and isinstance(there, ast.FunctionDef):
-            plain = not (there.decorator_list or there.returns or there.args.args)
             return (
-                plain
+                not (there.returns or there.args.args)
+                and self.lists(wanted.decorator_list, there.decorator_list)
                 and self._part(wanted.name, there.name)
                 and self.lists(wanted.body, there.body)
             )

@@ -60,6 +60,7 @@ from .kinds import (
     result_key,
 )
 from .names import API, MODULES
+from .trees import TREE_PARTS
 
 # Values that are one line of Python.
 
@@ -709,6 +710,7 @@ def _wait_for_word(code: Expressions, block: Block) -> list[Piece]:
 
 
 STATEMENTS: dict[str, StatementGenerator] = {
+    **TREE_PARTS,
     "repeat": _repeat,
     "forever": _loop("while", "True"),
     "while": _loop("while", "condition"),

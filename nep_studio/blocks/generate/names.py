@@ -31,13 +31,25 @@ VALUES = frozenset(
 )
 """What nep_core does with values where plain Python does something else."""
 
+TREE = frozenset(
+    {
+        *("Check", "CoolDown", "Delay", "Fallback", "ForceFailure", "ForceSuccess", "Input"),
+        *("Invert", "Output", "Parallel", "Repeat", "Retry", "Sequence", "Step", "SubTree"),
+        *("TimeLimit", "WhileTrue"),
+    }
+)
+"""The parts of behaviour trees."""
+
 API = VALUES | frozenset(
     {
+        *TREE,
         "Behavior",
         "Launcher",
         "Robot",
         "at_once",
         "colour_from",
+        "do_tree",
+        "fail_step",
         "heard_word",
         "human_state",
         "in_turn",
@@ -45,10 +57,12 @@ API = VALUES | frozenset(
         "mix_colours",
         "one_of",
         "remember",
+        "set_tree_value",
         "stop_program",
         "stop_rule",
         "times_seen",
         "together",
+        "tree_value",
         "until_state",
         "wait",
         "wait_until",

@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 from itertools import chain as chain_of
 
 from faults import Text
+from nep_studio.blocks.definitions import Definition
 from nep_studio.blocks.procedures import parameters, procedure_of
 from nep_studio.blocks.program import ALL_ROBOTS, Block
 from nep_studio.blocks.sharing import is_slow, variables_set
@@ -145,6 +146,12 @@ def _when_goal(code: Expressions, block: Block) -> Hat:
     return _hat(name, "when_goal", code.slot(block, "name"), ast.Constant(event))
 
 
+def _tree(code: Expressions, block: Block) -> Hat:
+    runs = code.choice(block, "runs")
+    options = {} if runs == "when_asked" else {"runs": ast.Constant(runs)}
+    return _hat(code.text(block, "name"), "tree", code.slot(block, "name"), **options)
+
+
 HATS: dict[str, HatGenerator] = {
     "when_started": lambda code, block: Hat(
         ast.Attribute(ast.Name("behavior"), "when_started"), "when_started"
@@ -162,6 +169,7 @@ HATS: dict[str, HatGenerator] = {
     "when_idle": lambda code, block: _hat("when_idle", "when_idle", code.slot(block, "seconds")),
     "goal": _goal,
     "when_goal": _when_goal,
+    "tree": _tree,
     "own_define": _own_define,
     "program_lines": _program_lines,
 }
@@ -225,6 +233,7 @@ class RuleWriter:
         self.lines: list[Line] = []
         self._code = code
         self._has_code_blocks = False
+        self._is_after_function = False
 
     def write(self, function_name: str, hat: Hat, stack: Sequence[str]) -> Iterator[None]:
         """Write decorator, header and body; ``stack[0]`` is the block of the hat.
@@ -245,6 +254,7 @@ class RuleWriter:
             item = next(frame.left, None)
             if item is None:
                 scope = frames.pop().scope
+                self._is_after_function |= frame.opens
                 shared = scope.assigned - self._code.own
                 if frame.opens and shared:  # at the end of a function
                     line = f"{_MARGINS[scope.indent]}global {', '.join(sorted(shared))}"
@@ -281,8 +291,9 @@ class RuleWriter:
             self._line(line, stack[0])
 
     def _block(self, chain: _Frame, block: Block) -> _Frame:
-        self._comment(block, _MARGINS[chain.indent])
         definition = self._code.definition(block)
+        self._keep_apart(definition)
+        self._comment(block, _MARGINS[chain.indent])
         if definition.page != "behaviour":
             raise CodeRefused(
                 "This block belongs on the page {page}, not under a rule.",
@@ -329,11 +340,13 @@ class RuleWriter:
             return None
         chain = self._code.project.blocks[frame.block].bodies.get(piece.slot, [])
         if isinstance(piece, Function):
-            if not self.lines[-1][0].endswith(":"):
+            if piece.decorator:
+                self._line(margin + piece.decorator, frame.block)
+            elif not self.lines[-1][0].endswith(":"):
                 self._line("", "")
             self._line(f"{margin}def {piece.name}():", frame.block)
             return self._function(chain, frame.block, frame.indent + 1)
-        indent, loops = frame.indent + 1, frame.loops + piece.loop
+        indent, loops = frame.indent + 1, frame.loops + (piece.loop or piece.is_with)
         blocks = self._enabled(chain, frame.block, indent, loops)
         return _Frame(blocks, frame.block, indent, loops, frame.scope)
 
@@ -386,6 +399,12 @@ class RuleWriter:
         blocks = self._enabled(chain, owner, indent, 0)
         return _Frame(blocks, owner, indent, 0, scope, opens=True)
 
+    def _keep_apart(self, definition: Definition) -> None:
+        """Leave a line free around a function that stands for a block, but where a mouth opens."""
+        is_function = {"of_tree", "apart"} <= definition.flags
+        if (is_function or self._is_after_function) and not self.lines[-1][0].endswith(":"):
+            self._line("", "")
+
     def _enabled(
         self, chain: Sequence[str], owner: str, indent: int, loops: int
     ) -> Iterator[Block | Piece]:
@@ -407,6 +426,7 @@ class RuleWriter:
         return iter(blocks)
 
     def _line(self, line: str, block: str) -> None:
+        self._is_after_function = False
         self.lines.append((line, block))
 
     def _comment(self, block: Block, margin: str) -> None:
