@@ -374,7 +374,7 @@ class Behavior:
         )
 
     def _tell_tree(self, name: str, nodes: dict[int, Status]) -> None:
-        told_nodes = {str(line): status for line, status in nodes.items()}
+        told_nodes: dict[str, str] = {str(line): status for line, status in nodes.items()}
         self._states.send(
             ProgramState(program=self.name, event="tree", rule=name, nodes=told_nodes)
         )

@@ -47,6 +47,8 @@ SHORTEST_S = 0.005
 DEEPEST = 150
 """So many nodes may be inside each other, those of the trees in a tree too."""
 
+Number = float | Callable[[], float]
+"""A number, or what gives it each time that a part begins."""
 _Given = TypeVar("_Given")
 Action = Callable[[], object]
 Condition = Callable[[], object]
@@ -55,6 +57,10 @@ Tell = Callable[[dict[int, Status]], None]
 
 class StepFailed(BaseException):
     """The step in which this part of the program runs has failed."""
+
+
+class NoTreeValue(NepError, title="A value of a behaviour tree is missing"):
+    """A name stands for nothing in a tree yet."""
 
 
 def fail_step() -> None:
@@ -188,6 +194,16 @@ class Branch(Node):
                 child.halt()
 
 
+def _number(number: Number) -> float:
+    return number() if callable(number) else number
+
+
+def _times(number: Number) -> float:
+    """How often: a whole number, or without end."""
+    times = _number(number)
+    return times if times == math.inf else to_nearest(times)
+
+
 # Nodes that ask several others.
 
 
@@ -249,11 +265,13 @@ class Parallel(Branch):
     Succeeds when ``enough`` of them have, all of them if that is not said.
     """
 
-    def __init__(self, enough: object = None) -> None:
+    def __init__(self, enough: Number = math.inf) -> None:
         super().__init__()
-        self._enough = None if enough is None else to_nearest(enough)
+        self._enough = enough
+        self._wanted = 0.0
 
     def _begin(self) -> None:
+        self._wanted = min(len(self.children), _times(self._enough))
         self._halt_from(0)
 
     def _look(self) -> Status:
@@ -261,10 +279,9 @@ class Parallel(Branch):
             if child.status != SUCCEEDED:
                 child.tick()
         done = sum(child.status == SUCCEEDED for child in self.children)
-        all_of_them = len(self.children)
         if any(child.status == FAILED for child in self.children):
             status = FAILED
-        elif done >= min(all_of_them, all_of_them if self._enough is None else self._enough):
+        elif done >= self._wanted:
             status = SUCCEEDED
         else:
             return RUNNING
@@ -317,22 +334,24 @@ class _Counted(_Around):
 
     _counts: Status
 
-    def __init__(self, times: object = None) -> None:
+    def __init__(self, times: Number = math.inf) -> None:
         super().__init__()
-        self._times = math.inf if times is None else to_nearest(times)
+        self._times = times
+        self._most = 0.0
         self._done = 0
 
     def _begin(self) -> None:
+        self._most = _times(self._times)
         self._done = 0
 
     def _look(self) -> Status:
-        if self._times < 1:
+        if self._most < 1:
             return self._counts
         status = self._child.tick()
         if status != self._counts:
             return status
         self._done += 1
-        return RUNNING if self._done < self._times else status
+        return RUNNING if self._done < self._most else status
 
 
 class Retry(_Counted):
@@ -350,9 +369,13 @@ class Repeat(_Counted):
 class _Timed(_Around):
     """A node that looks at the time; pauses of the program do not count."""
 
-    def __init__(self, seconds: float) -> None:
+    def __init__(self, seconds: Number) -> None:
         super().__init__()
         self._seconds = seconds
+
+    def _later_s(self) -> float:
+        """The time after so many seconds."""
+        return CLOCK.now_s() + _number(self._seconds)
 
 
 class TimeLimit(_Timed):
@@ -361,7 +384,7 @@ class TimeLimit(_Timed):
     _until_s = 0.0
 
     def _begin(self) -> None:
-        self._until_s = CLOCK.now_s() + self._seconds
+        self._until_s = self._later_s()
 
     def _look(self) -> Status:
         status = self._child.tick()
@@ -381,7 +404,7 @@ class CoolDown(_Timed):
             return FAILED
         status = self._child.tick()
         if status != RUNNING:
-            self._until_s = CLOCK.now_s() + self._seconds
+            self._until_s = self._later_s()
         return status
 
 
@@ -391,7 +414,7 @@ class Delay(_Timed):
     _from_s = 0.0
 
     def _begin(self) -> None:
-        self._from_s = CLOCK.now_s() + self._seconds
+        self._from_s = self._later_s()
 
     def _look(self) -> Status:
         return self._child.tick() if CLOCK.now_s() >= self._from_s else RUNNING
@@ -526,7 +549,11 @@ class SubTree(Branch):
 
     def _begin(self) -> None:
         self._halt_from(0)
-        self._board.update({name: value() for name, value in self._inputs})
+        for name, value in self._inputs:
+            try:
+                self._board[name] = value()
+            except NoTreeValue:
+                self._board.pop(name, None)  # what has no value yet is not given
         if not self.children:
             self._inside(self._grow)
 
@@ -581,7 +608,7 @@ def tree_value(name: str) -> Any:
     """The value of this name that belongs to the tree that runs here."""
     board = current_task().board
     if name not in board:
-        raise NepError(
+        raise NoTreeValue(
             "Nothing is called “{name}” in this tree yet.",
             code="no_tree_value",
             checklist=(

@@ -54,7 +54,7 @@ def guide():
                 pass
             with Repeat():
                 pass
-            with TimeLimit(10):
+            with TimeLimit(lambda: as_number(tree_value("place"))):
                 pass
             with CoolDown(30):
                 pass
@@ -89,7 +89,7 @@ behavior.run()
 IMPORTED = (
     "Behavior, Check, CoolDown, Delay, Fallback, ForceFailure, ForceSuccess, Input, Invert, "
     "Output, Parallel, Repeat, Retry, Robot, Sequence, Step, SubTree, TimeLimit, WhileTrue, "
-    "as_text, do_tree, fail_step, human_state, set_tree_value, tree_value, wait"
+    "as_number, as_text, do_tree, fail_step, human_state, set_tree_value, tree_value, wait"
 )
 GUIDE = GUIDE.replace("*", IMPORTED, 1)
 

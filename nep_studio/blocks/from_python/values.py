@@ -76,6 +76,8 @@ class Found:
             return self._constant(wanted.value, there)
         if isinstance(wanted, ast.Call) and (key := _whole_slot(wanted)):
             return isinstance(there, ast.expr) and self._slot(key, _without_int(there))
+        if isinstance(wanted, ast.Lambda) and _is_number(there):
+            return self.one(wanted.body, there)  # a number that is typed needs no lambda
         if type(wanted) is not type(there):
             return False
         if isinstance(wanted, list):
@@ -132,6 +134,11 @@ class Found:
             if self.words.setdefault(self.keys[position], word) != word:
                 return False
         return True
+
+
+def _is_number(node: object) -> bool:
+    """Whether a node is a number without a sign."""
+    return isinstance(node, ast.Constant) and type(node.value) in (int, float)
 
 
 def _has_rounds(made: Made) -> bool:

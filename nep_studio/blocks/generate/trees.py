@@ -23,6 +23,12 @@ def _later(value: ast.expr) -> ast.expr:
     return ast.Lambda(_NO_ARGUMENTS, value)
 
 
+def _number(code: Expressions, block: Block, key: str) -> ast.expr:
+    """A number, or what gives it each time that the part begins."""
+    number = code.slot(block, key)
+    return number if isinstance(number, ast.Constant) else _later(number)
+
+
 def _around(made: ast.expr, slot: str = "do") -> list[Piece]:
     """A part with others in it."""
     return [f"with {show(made)}:", Body(slot, is_with=True)]
@@ -37,7 +43,7 @@ def _with_limit(part: str, key: str) -> StatementGenerator:
     """The generator of a part that may have a number."""
 
     def generate(code: Expressions, block: Block) -> list[Piece]:
-        limit = [code.slot(block, f"{key}.1")] if block.groups.get("limit") else []
+        limit = [_number(code, block, f"{key}.1")] if block.groups.get("limit") else []
         return _around(code.api_call(part, *limit))
 
     return generate
@@ -45,7 +51,7 @@ def _with_limit(part: str, key: str) -> StatementGenerator:
 
 def _timed(part: str) -> StatementGenerator:
     """The generator of a part that has a time."""
-    return lambda code, block: _around(code.api_call(part, code.slot(block, "seconds")))
+    return lambda code, block: _around(code.api_call(part, _number(code, block, "seconds")))
 
 
 def _while(code: Expressions, block: Block) -> list[Piece]:
