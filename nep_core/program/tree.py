@@ -69,7 +69,7 @@ def fail_step() -> None:
         raise NepError(
             "Only a step of a behaviour tree can say that it has failed.",
             code="outside_step",
-            checklist=("Put this into a step.", "Or stop the rule instead."),
+            checklist=("Put it into a “step” block of a tree.",),
         )
     raise StepFailed
 
@@ -141,10 +141,7 @@ class Node:
             raise NepError(
                 "The tree “{name}” is too deep: {deepest} parts inside each other at most.",
                 code="tree_too_deep",
-                checklist=(
-                    "Look whether a tree has itself inside.",
-                    "Make it of smaller trees that do not stand inside each other.",
-                ),
+                checklist=("Look whether a tree has itself inside.",),
                 name=trunk.name,
                 deepest=DEEPEST,
             )
@@ -651,10 +648,7 @@ def _plan(name: str) -> Plan:
         raise NepError(
             "There is no behaviour tree “{name}”.",
             code="no_tree",
-            checklist=(
-                "Is the name written as in its own block?",
-                "Make a tree of this name.",
-            ),
+            checklist=("Write the name as the tree's own block has it.",),
             name=name,
         )
     return _plans[name]

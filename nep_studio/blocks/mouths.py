@@ -24,7 +24,7 @@ _WRONG: dict[tuple[Sort, Sort], Misplaced] = {
     ("", "tree"): Misplaced(Text("a behaviour tree is made of blocks of its own only."), _STEP),
     ("", "ports"): Misplaced(
         Text("only values that go into a tree, or out of it, belong here."),
-        "Put it into a “step” block of a tree.",
+        _STEP,
     ),
     ("tree", "ports"): Misplaced(
         Text("only values that go into a tree, or out of it, belong here."),

@@ -112,8 +112,8 @@ def test_what_a_file_names_becomes_own_blocks_to_be_filled(language: Language) -
     own = [title(procedure) for procedure in editor.project.procedures.values()]
     assert own == ["BatteryLow", "Charge", "FindFace (who)", "Say (text) (loud)"]
     text = generate_program(editor.project, editor.language).text
-    assert "def FindFace(who):\n    # Fill in here what this does.\n    set_tree_value(" in text
-    assert "def BatteryLow():\n    # Find out here whether this is so.\n    return True" in text
+    assert "def FindFace(who):\n    # fill in here what this does\n    set_tree_value(" in text
+    assert "def BatteryLow():\n    # find out here whether this is so\n    return True" in text
     assert 'Say("Hello", 0.5)' in text
 
 

@@ -52,7 +52,7 @@ def read_elements(content: bytes) -> Element:
     if len(content) > LARGEST:
         raise TreeFileError(
             "The file is too large: {size} bytes, {largest} at most.",
-            checklist=(_FROM_GROOT, "Make several files of it."),
+            checklist=(_FROM_GROOT, "Make smaller trees, and several files."),
             size=len(content),
             largest=LARGEST,
         )

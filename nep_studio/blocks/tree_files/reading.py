@@ -295,10 +295,11 @@ class _Reader:
         made = self._editor.add_procedure([name, *given], gives_value=is_condition)
         procedure = self._editor.project.procedures[made]
         chain = [Made(DEFINE + procedure.id)]
-        note = "Fill in here what this does."
+        word = self._editor.language.word
+        note = word("fill in here what this does")
         if is_condition:
-            note = "Find out here whether this is so."
-        chain.append(Made("control.note", {"text": self._editor.language.word(note)}))
+            note = word("find out here whether this is so")
+        chain.append(Made("control.note", {"text": note}))
         chain += [_set(port, 0, None) for port in model.outputs]
         if is_condition:
             truth = Made("logic.truth", {"truth": "true"})

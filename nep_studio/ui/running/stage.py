@@ -129,12 +129,8 @@ HALO = ((14.0, 40), (9.0, 80), (4.0, 255))
 AROUND = ((2.5, 150),)
 """The same around a block from which the one was called that runs."""
 
-STATUSES = {
-    "running": ("info", "running"),
-    "succeeded": ("success", "succeeded"),
-    "failed": ("error", "failed"),
-}
-"""The colour of a part of a behaviour tree, and the word beside it, by its status."""
+STATUSES = {"running": "info", "succeeded": "success", "failed": "error"}
+"""The colour of a part of a behaviour tree by its status; a word stands beside it."""
 OF_NODE = ((3.0, 220),)
 """Width and opacity of the line around a part of a behaviour tree."""
 
@@ -162,7 +158,7 @@ class RunOverlay:
         for block, status in marks.nodes.items():
             found = [placed] if (placed := view.page_layout.placed(block)) else []
             for width, opacity in OF_NODE:
-                colour = QColor(view.look.theme.colour(STATUSES[status][0]))
+                colour = QColor(view.look.theme.colour(STATUSES[status]))
                 colour.setAlpha(opacity)
                 rings(painter, view, found, colour, width / view.sight.camera.scale)
         known = (marks.counts, marks.values, marks.results, marks.paused, marks.nodes)
@@ -183,7 +179,7 @@ class RunOverlay:
         if (count := self.marks.counts.get(block, 0)) > 0:
             return tr("{n}\N{MULTIPLICATION SIGN}", n=count)
         if (status := self.marks.nodes.get(block)) is not None:
-            return tr(STATUSES[status][1])
+            return _word_of(status)
         if results := self.marks.results.get(block):
             return "   ".join(results.values())
         made = view.editor.project.blocks.get(block)
@@ -193,6 +189,13 @@ class RunOverlay:
             return ""
         name = self.names.get(str(made.fields.get("variable", "")), "")
         return self.marks.values.get(name, "")
+
+
+def _word_of(status: str) -> str:
+    """How a part of a behaviour tree is, in a word."""
+    if status == "running":
+        return tr("running")
+    return tr("succeeded") if status == "succeeded" else tr("failed")
 
 
 def _disc(
