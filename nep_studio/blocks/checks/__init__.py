@@ -19,10 +19,10 @@ from .deployment import (
     check_goals,
     check_real_robots,
     check_rules,
+    check_trees,
 )
 from .diagnostic import SEVERITIES, Diagnostic, Fix
 from .flow import check_flow, check_limits, check_shared
-from .trees import check_trees
 
 One = TypeVar("One")
 _OfChain = Callable[[Project, Language, list[str]], Iterator[One | None]]
