@@ -70,6 +70,29 @@ if TYPE_CHECKING:
         timer_seconds,
         weekday_today,
     )
+    from .program.tree import (
+        Check,
+        CoolDown,
+        Delay,
+        Fallback,
+        ForceFailure,
+        ForceSuccess,
+        Input,
+        Invert,
+        Output,
+        Parallel,
+        Repeat,
+        Retry,
+        Sequence,
+        Step,
+        SubTree,
+        TimeLimit,
+        WhileTrue,
+        do_tree,
+        fail_step,
+        set_tree_value,
+        tree_value,
+    )
     from .program.values import (
         add_item,
         append_text,
@@ -134,6 +157,9 @@ _HOMES = {
         "program.tasks": "at_once end_actions set_priority stop_program stop_rule together wait "
         "wait_until",
         "program.timing": "date_today start_timer time_now time_part timer_seconds weekday_today",
+        "program.tree": "Check CoolDown Delay Fallback ForceFailure ForceSuccess Input Invert "
+        "Output Parallel Repeat Retry Sequence Step SubTree TimeLimit WhileTrue "
+        "do_tree fail_step set_tree_value tree_value",
         "program.values": "add_item append_text as_list as_number as_text count_from deviation_of "
         "has_item has_part insert_item is_at_least is_at_most is_less is_more "
         "is_same item_of items_between join_items largest_of length_of letter_of "
@@ -145,21 +171,24 @@ _HOMES = {
     for name in names.split()
 }
 
-__all__ = ["Behavior", "Broker", "BrokerNetwork", "DirectNetwork", "Launcher", "Master"]
-__all__ += ["NepError", "Node", "PeerNetwork", "Publisher", "Robot", "Subscriber", "add_item"]
-__all__ += ["append_text", "as_list", "as_number", "as_table", "as_text", "at_once", "change_at"]
-__all__ += ["colour_from", "count_from", "date_today", "deviation_of", "end_actions", "fact"]
-__all__ += ["fail_goal", "goal_value", "has_item", "has_key", "has_part", "heard_word"]
-__all__ += ["human_state", "in_turn", "insert_item", "is_at_least", "is_at_most", "is_less"]
-__all__ += ["is_more", "is_remembered", "is_same", "is_true", "item_of", "items_between"]
-__all__ += ["join_items", "largest_of", "length_of", "letter_of", "list_with", "makes_true"]
-__all__ += ["makes_untrue", "mean_of", "median_of", "mix_colours", "names_in", "needs"]
-__all__ += ["no_longer_true", "now_true", "number_in", "one_of", "parts_of", "place_in_text"]
-__all__ += ["place_of", "random_whole", "reach", "remember", "remove_item", "remove_key"]
-__all__ += ["replace_part", "set_at", "set_item", "set_priority", "smallest_of", "sorted_items"]
-__all__ += ["start_timer", "stop_program", "stop_rule", "sum_of", "table_of", "take_item", "tell"]
-__all__ += ["the_plan", "time_now", "time_part", "timer_seconds", "times_seen", "title_case"]
-__all__ += ["to_nearest", "to_power", "together", "told_value", "true_while", "until_state"]
+__all__ = ["Behavior", "Broker", "BrokerNetwork", "Check", "CoolDown", "Delay", "DirectNetwork"]
+__all__ += ["Fallback", "ForceFailure", "ForceSuccess", "Input", "Invert", "Launcher", "Master"]
+__all__ += ["NepError", "Node", "Output", "Parallel", "PeerNetwork", "Publisher", "Repeat"]
+__all__ += ["Retry", "Robot", "Sequence", "Step", "SubTree", "Subscriber", "TimeLimit"]
+__all__ += ["WhileTrue", "add_item", "append_text", "as_list", "as_number", "as_table", "as_text"]
+__all__ += ["at_once", "change_at", "colour_from", "count_from", "date_today", "deviation_of"]
+__all__ += ["do_tree", "end_actions", "fact", "fail_goal", "fail_step", "goal_value", "has_item"]
+__all__ += ["has_key", "has_part", "heard_word", "human_state", "in_turn", "insert_item"]
+__all__ += ["is_at_least", "is_at_most", "is_less", "is_more", "is_remembered", "is_same"]
+__all__ += ["is_true", "item_of", "items_between", "join_items", "largest_of", "length_of"]
+__all__ += ["letter_of", "list_with", "makes_true", "makes_untrue", "mean_of", "median_of"]
+__all__ += ["mix_colours", "names_in", "needs", "no_longer_true", "now_true", "number_in"]
+__all__ += ["one_of", "parts_of", "place_in_text", "place_of", "random_whole", "reach"]
+__all__ += ["remember", "remove_item", "remove_key", "replace_part", "set_at", "set_item"]
+__all__ += ["set_priority", "set_tree_value", "smallest_of", "sorted_items", "start_timer"]
+__all__ += ["stop_program", "stop_rule", "sum_of", "table_of", "take_item", "tell", "the_plan"]
+__all__ += ["time_now", "time_part", "timer_seconds", "times_seen", "title_case", "to_nearest"]
+__all__ += ["to_power", "together", "told_value", "tree_value", "true_while", "until_state"]
 __all__ += ["value_at", "wait", "wait_until", "was_seen", "weekday_today", "what_went_wrong"]
 
 

@@ -50,6 +50,7 @@ from .tasks import (
     current_task,
     handled_error,
 )
+from .tree import Plan, Status, do_tree, do_tree_again, plant
 from .triggers import TELL_AGAIN_S, Days, Watch, each, each_day, each_time_true
 from .values import speak
 
@@ -60,6 +61,7 @@ Condition = Callable[[], object]
 Decorator = Callable[[Action], Action]
 Again = Literal["ignore", "restart", "queue"]
 OnError = Literal["go_on", "end"]
+TreeRuns = Literal["when_asked", "at_start", "always"]
 
 MOST_QUEUED = 1000
 
@@ -365,6 +367,22 @@ class Behavior:
             run.end()
         return None if is_own else stopped
 
+    def tree(self, name: str, *, runs: TreeRuns = "when_asked") -> Decorator:
+        """Make the decorated function a behaviour tree, whose nodes it makes.
+
+        ``runs``: "when_asked" by ``do_tree`` or by another tree, once "at_start" of the program,
+        or "always", again and again from the start on.
+        """
+
+        def note(action: Action) -> None:
+            tell, note_error = partial(self._tell_tree, name), partial(self._note_error, rule=name)
+            plant(Plan(name, action, tell, note_error))
+            if runs != "when_asked":
+                do = do_tree if runs == "at_start" else do_tree_again
+                self._starts[partial(do, name)] = None
+
+        return _decorator(note)
+
     def run(self) -> None:
         """Run until the program is stopped or all is done; raises the first error of its parts."""
         network = self._network or default_network()
@@ -589,6 +607,12 @@ class Behavior:
             ProgramState(
                 program=self.name, event=event, rule=rule, thread=name, line=line, **told(fault)
             )
+        )
+
+    def _tell_tree(self, name: str, nodes: dict[int, Status]) -> None:
+        told_nodes: dict[str, str] = {str(line): status for line, status in nodes.items()}
+        self._states.send(
+            ProgramState(program=self.name, event="tree", rule=name, nodes=told_nodes)
         )
 
 

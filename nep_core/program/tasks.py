@@ -18,7 +18,7 @@ import time
 from collections.abc import Callable
 from dataclasses import dataclass
 from types import FrameType
-from typing import Literal, NamedTuple
+from typing import Any, Literal, NamedTuple
 
 from nep_core.errors import NepError
 
@@ -189,6 +189,10 @@ class Task:
         self._parent = parent
         self._held_since_s = math.inf
         self._held_s = 0.0
+        self.board: dict[str, Any] = parent.board if parent is not None else {}
+        """The named values of the behaviour tree that this part belongs to."""
+        self.in_step: bool = parent is not None and parent.in_step
+        """Whether it belongs to a step of a behaviour tree."""
         self._children: list[Task] = []
         self._wakes: list[threading.Event] = []
         self._lock = threading.Lock()

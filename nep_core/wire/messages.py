@@ -42,7 +42,7 @@ GoalStep = Literal[
 StateStep = Literal["state_entered"]
 PlanTold = Literal["plan_made", "plan_step", "plan_step_failed", "plan_done"]
 Pause = Literal["paused", "resumed"]
-Course = Literal["started", "line", "value", "warning", "finished", "failed"]
+Course = Literal["started", "line", "value", "tree", "warning", "finished", "failed"]
 ProgramEvent = Literal[Course, RuleStep, GoalStep, StateStep, PlanTold, Pause]
 
 PROCESS_ENDED = "process_ended"
@@ -235,6 +235,8 @@ class ProgramState(Described, kw_only=True, omit_defaults=True):
     error, "warning" what a person should look at; the program goes on.
     The events of a plan bring the whole ``plan``, and in ``rule`` what it shall reach, in words;
     "plan_step" and "plan_step_failed" tell which ``step`` of it runs or has failed, from 1.
+    A "tree" event tells the ``nodes`` of the behaviour tree ``rule`` that changed, by their line:
+    "idle", "running", "succeeded" or "failed".
     """
 
     program: str
@@ -242,6 +244,7 @@ class ProgramState(Described, kw_only=True, omit_defaults=True):
     line: int = 0
     lines: dict[str, list[int]] = {}
     values: dict[str, str] = {}
+    nodes: dict[str, str] = {}
     text_values: Any = {}
     rule: str = ""
     thread: str = ""

@@ -1,7 +1,7 @@
 """Which variables several parts of a program change at once, and which lists change in place.
 
 Parts that run at once are rules, goals and what begins with the program, and in each of them the
-parts of “do together”. An own block runs wherever it is called.
+parts of “do together” and of “do side by side”. An own block runs wherever it is called.
 """
 
 from __future__ import annotations
@@ -17,14 +17,18 @@ from .language import Language
 from .procedures import CALL, DEFINE, procedure_of
 from .program import Block, Project
 
-TOGETHER, CODE_LINES, VARIABLE = "control.together", "code.lines", "variable.get"
+TOGETHER, PARALLEL = "control.together", "tree.parallel"
+CODE_LINES, VARIABLE = "code.lines", "variable.get"
 CHANGING_LISTS = frozenset({"list.add", "list.set", "list.insert", "list.remove", "list.take"})
 CHANGING_TABLES = frozenset({"table.set", "table.take", "table.change"})
 RESIZING_LISTS = CHANGING_LISTS - {"list.set"}
 LIST_SLOT, TABLE_SLOT = "list", "table"
 
 Path = tuple[tuple[str, str], ...]
-"""The parts of “do together” around a block, from the outermost to the innermost: block, slot."""
+"""The parts that run at once around a block, from the outermost to the innermost.
+
+Of “do together” the block and the slot, of “do side by side” the block and the one in its mouth.
+"""
 Places = Mapping[str, frozenset[Path]]
 
 
@@ -102,6 +106,9 @@ def look_at(project: Project, language: Language, chain: list[str]) -> Iterator[
         if block.inputs:
             waiting += [(child, path) for child in block.inputs.values()]
         for slot, body in block.bodies.items():
+            if block.type == PARALLEL:
+                waiting += [(child, (*path, (block.id, child))) for child in body]
+                continue
             inside = (*path, (block.id, slot)) if block.type == TOGETHER else path
             waiting += [(child, inside) for child in body]
     defines = procedure_of(first.type) if first.type.startswith(DEFINE) else ""

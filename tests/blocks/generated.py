@@ -26,9 +26,10 @@ PARTS_OF_PROGRAMS = {
 HATS_AND_ROBOTS = {
     *("at", "days", "every", "when_told", "wait"),
     *("goal", "when_goal", "when_heard", "when_noticed", "when_true", "when_idle", "source"),
+    *("tree", "runs", "reactive", "keeps_place"),
     *("priority", "stop", "interrupted", "ask", "wait_for_word", "seconds", "sees", "seen_name"),
 }
-"""What the generator functions of robot blocks and goals name."""
+"""What the generator functions of robot blocks, goals and trees name."""
 
 
 def parse(text: str) -> ast.Module:

@@ -20,6 +20,7 @@ from .deployment import (
     check_real_robots,
     check_rules,
     check_talk,
+    check_trees,
 )
 from .diagnostic import SEVERITIES, Diagnostic, Fix
 from .facts import check_facts
@@ -102,6 +103,8 @@ def check_steps(
     problems += check_facts(project, language, running)
     problems += yield from known.in_chains(check_blocks, project, language, every)
     problems += yield from known.in_chains(check_inside, project, language, running)
+    trees = partial(check_trees, project, language, running)
+    problems += yield from known.find(check_trees, object(), trees)
     if project.procedures:
         own = partial(check_own_blocks, project, language, running)
         always_anew = object()

@@ -11,6 +11,7 @@ from nep_studio.blocks.code_text import CodeTextRefused, read_lines, read_outsid
 from nep_studio.blocks.definitions import Definition, Slot
 from nep_studio.blocks.deployment import OUTSIDE_BLOCK
 from nep_studio.blocks.language import Language
+from nep_studio.blocks.mouths import Sort, mouth_of, why_not_in
 from nep_studio.blocks.procedures import CALL, DEFINE, PARAMETER, RETURN, procedure_of, title
 from nep_studio.blocks.program import Block, Project
 from nep_studio.blocks.slots import FieldValue
@@ -99,17 +100,25 @@ CODE_LINES, CODE_VALUE = "code.lines", "code.value"
 
 
 class _Place(NamedTuple):
-    """What a block is inside of: an own block, a loop, a part that runs beside others."""
+    """What a block is inside of: an own block, a loop, a part that runs beside others, a tree.
+
+    ``mouth`` is what may be where it is, ``has_steps`` whether a step may be around it.
+    """
 
     procedure: str
     loop: bool = False
     apart: bool = False
+    mouth: Sort = ""
+    has_steps: bool = False
 
 
 def check_inside(project: Project, language: Language, chain: list[str]) -> Found:
     """Blocks that mean nothing where they are."""
     hat = project.blocks[chain[0]]
-    start = _Place(procedure_of(hat.type) if hat.type.startswith(DEFINE) else "")
+    own = procedure_of(hat.type) if hat.type.startswith(DEFINE) else ""
+    first = language.definitions.get(hat.type)
+    mouth: Sort = mouth_of(first) if first is not None else ""
+    start = _Place(own, mouth=mouth, has_steps=bool(own or mouth))
     waiting = [(block_id, start) for block_id in reversed(chain)]
     while waiting:
         yield None
@@ -126,13 +135,19 @@ def check_inside(project: Project, language: Language, chain: list[str]) -> Foun
 
 
 def _inner(definition: Definition, place: _Place) -> _Place:
+    place = place._replace(mouth=mouth_of(definition))
     if "apart" in definition.flags:
-        return _Place(place.procedure, loop=False, apart=True)
+        return place._replace(loop=False, apart=True)
     return place._replace(loop=True) if "loop" in definition.flags else place
 
 
 def _why_not_there(block: Block, definition: Definition, place: _Place) -> _Misplaced | None:
     """How bad it is, the kind, the sentence and the remedy of what is wrong, or None."""
+    if misplaced := why_not_in(place.mouth, definition):
+        return ("error", "outside_tree", *misplaced)
+    if "in_step" in definition.flags and not place.has_steps:
+        reason = Text("it is in no step of a behaviour tree.")
+        return ("error", "outside_step", reason, "Put it into a “step” block of a tree.")
     if "in_loop" in definition.flags and not place.loop:
         return ("error", "outside_loop", Text("it is in no loop."), "Put it into a “repeat” block.")
     if block.type == RETURN and (not place.procedure or place.apart):

@@ -240,7 +240,7 @@ def check_goals(
         name = _goal_name(language, hat)
         if names.setdefault(name, hat.id) != hat.id:
             free = next(n for number in count(2) if (n := f"{name} {number}") not in taken)
-            fix = _name_goal(hat, free)
+            fix = _name_it(hat, free)
             yield found("same_goal", project, language, hat.id, fix, name=name)
     if not any(block.type in NAMING | INSIDE for block in project.blocks.values()):
         return
@@ -273,13 +273,55 @@ def _unknown_goal(
     folded = {goal.casefold().strip(): goal for goal in goals}
     near = get_close_matches(name.casefold().strip(), folded, 1)
     chosen = folded[near[0]] if near else next(iter(goals)) if len(goals) == 1 else ""
-    offered = _name_goal(block, chosen) if chosen else None
+    offered = _name_it(block, chosen) if chosen else None
     yield found("unknown_goal", project, language, block.id, offered, name=name)
 
 
-def _name_goal(block: Block, name: str) -> Fix:
+def _name_it(block: Block, name: str) -> Fix:
     label = text_of("Choose “{choice}”", choice=name)
     return Fix("choose", label, {"block": block.id, "slot": "name", "value": name})
+
+
+# Checks of behaviour trees: two of one name, and names of trees that are not there.
+
+TREE = "tree.tree"
+OF_TREE = frozenset({"tree.sub_tree", "tree.do", "tree.succeeds"})
+
+
+def check_trees(project: Project, language: Language, running: Iterable[list[str]]) -> Found:
+    """Problems of the names of trees; ``running`` are the chains that become code."""
+    trees, named = dict[str, str](), list[Block]()
+    for chain in running:
+        hat = project.blocks[chain[0]]
+        if hat.type == TREE:
+            name = _name(language, hat)
+            if trees.setdefault(name, hat.id) != hat.id:
+                named.append(hat)
+        for block in project.within(chain, enabled=True):
+            yield None
+            if block.type in OF_TREE:
+                named.append(block)
+    for block in named:
+        yield from _wrong_name(project, language, block, trees)
+
+
+def _wrong_name(
+    project: Project, language: Language, block: Block, trees: dict[str, str]
+) -> Iterator[Diagnostic]:
+    name = _name(language, block)
+    if block.type == TREE:
+        free = next(n for number in count(2) if (n := f"{name} {number}") not in trees)
+        yield found("same_tree", project, language, block.id, _name_it(block, free), name=name)
+    elif name not in trees:
+        folded = {tree.casefold().strip(): tree for tree in trees}
+        near = get_close_matches(name.casefold().strip(), folded, 1)
+        chosen = folded[near[0]] if near else next(iter(trees)) if len(trees) == 1 else ""
+        fix = _name_it(block, chosen) if chosen else None
+        yield found("unknown_tree", project, language, block.id, fix, name=name)
+
+
+def _name(language: Language, block: Block) -> str:
+    return str(language.definitions[block.type].value(block, "name"))
 
 
 def _trigger(language: Language, hat: Block) -> str:

@@ -148,6 +148,16 @@ SORTS = {
             "Or say with “it is now true” or “it is no longer true” what is so.",
         ),
     ),
+    "same_tree": Sort(
+        "error",
+        "Two behaviour trees are called “{name}”.",
+        ("Give each tree a name of its own.",),
+    ),
+    "unknown_tree": Sort(
+        "error",
+        "There is no behaviour tree with the name “{name}”.",
+        ("Write the name as the tree's own block has it.",),
+    ),
     "torn_apart": Sort(
         "warning",
         "“{block}” waits: what other rules do to “{variable}” meanwhile is lost.",

@@ -9,6 +9,7 @@ from nep_studio.blocks.definitions import Definition
 from nep_studio.blocks.generate.expressions import DEEPEST_VALUE, value_cost
 from nep_studio.blocks.generate.rules import DEEPEST_INDENT, DEEPEST_LOOP, LOOPS_OF_GUARD
 from nep_studio.blocks.language import Language
+from nep_studio.blocks.mouths import mouth_of
 from nep_studio.blocks.program import ALL_ROBOTS, Block, Project
 from nep_studio.blocks.sharing import (
     LIST_SLOT,
@@ -173,7 +174,7 @@ def _inside(block: Block, definition: Definition, depth: _Depth) -> _Depth | Non
         return None if values > DEEPEST_VALUE else depth._replace(values=values)
     loops, indent, values = depth
     if definition.shape == "c":
-        more = 1 if "loop" in definition.flags else 0
+        more = 1 if "loop" in definition.flags or mouth_of(definition) else 0
         more += LOOPS_OF_GUARD if "guards" in definition.flags else 0
         loops = 0 if "apart" in definition.flags else loops + more
         indent, values = indent + 1, 0

@@ -204,7 +204,7 @@ class Learner(Expressions):
         """A marker for the variable of a block."""
         return VARIABLE_NAME
 
-    def part_name(self) -> str:
+    def part_name(self, text: str = "") -> str:
         """A marker for the name of a function."""
         self._functions += 1
         return mark(PART, str(self._functions))
@@ -234,6 +234,7 @@ def _lines(pieces: Sequence[Piece]) -> Iterator[str]:
             yield piece
         elif isinstance(piece, Body | Function):
             if isinstance(piece, Function):
+                yield from (piece.decorator,) if piece.decorator else ()
                 yield f"def {piece.name}():"
             if isinstance(piece, Body) and piece.first:
                 yield f"    {piece.first}"

@@ -79,6 +79,8 @@ class Found:
             return self._constant(wanted.value, there)
         if isinstance(wanted, ast.Call) and (key := _whole_slot(wanted)):
             return isinstance(there, ast.expr) and self._slot(key, _without_int(there))
+        if isinstance(wanted, ast.Lambda) and _is_number(there):
+            return self.one(wanted.body, there)  # a number that is typed needs no lambda
         if type(wanted) is not type(there):
             return False
         if isinstance(wanted, list):
@@ -86,9 +88,9 @@ class Found:
         if not isinstance(wanted, ast.AST):
             return wanted == there
         if isinstance(wanted, ast.FunctionDef) and isinstance(there, ast.FunctionDef):
-            plain = not (there.decorator_list or there.returns or there.args.args)
             return (
-                plain
+                not (there.returns or there.args.args)
+                and self.lists(wanted.decorator_list, there.decorator_list)
                 and self._part(wanted.name, there.name)
                 and self.lists(wanted.body, there.body)
             )
@@ -135,6 +137,11 @@ class Found:
             if self.words.setdefault(self.keys[position], word) != word:
                 return False
         return True
+
+
+def _is_number(node: object) -> bool:
+    """Whether a node is a number without a sign."""
+    return isinstance(node, ast.Constant) and type(node.value) in (int, float)
 
 
 def _has_rounds(made: Made) -> bool:

@@ -388,12 +388,12 @@ class Expressions:
         """The kinds of what the variable of a block holds."""
         return self.kinds_at(variable_key(str(block.fields.get("variable", ""))))
 
-    def part_name(self) -> str:
-        """A name for a function inside the rule: part_1, part_2, and so on."""
-        self._parts += 1
+    def part_name(self, text: str = "") -> str:
+        """A name for a function inside the rule, after a text: else part_1, part_2, and so on."""
+        self._parts += not text
         if self._part_names is None:
             self._part_names = NameTable(self.names.taken())
-        return self._part_names.give(f"part_{self._parts}", "part")
+        return self._part_names.give(text or f"part_{self._parts}", "part")
 
 
 def value_cost(block: Block) -> int:
@@ -634,7 +634,7 @@ _PRINTERS: dict[type[ast.expr], Callable[..., tuple[str, int]]] = {
 
 @dataclass(frozen=True, slots=True)
 class Body:
-    """The chain of blocks in a slot; CPython limits how deep those of a ``loop`` are nested.
+    """The chain of blocks in a slot; CPython limits how deep loops and ``is_with`` are nested.
 
     One that is tried, or done when that fails, is in a ``guard``, which CPython counts as it does
     two loops. ``first`` is a line above the blocks, or an empty text.
@@ -642,16 +642,21 @@ class Body:
 
     slot: str
     loop: bool = False
+    is_with: bool = False
     guard: bool = False
     first: str = ""
 
 
 @dataclass(frozen=True, slots=True)
 class Function:
-    """A function without arguments whose body is the chain of blocks in a slot."""
+    """A function without arguments whose body is the chain of blocks in a slot.
+
+    ``decorator`` stands above it; without one, it is called below.
+    """
 
     name: str
     slot: str
+    decorator: str = ""
 
 
 @dataclass(frozen=True, slots=True)

@@ -64,6 +64,7 @@ from .kinds import (
 from .names import API, MODULES
 from .plans import FACT_LINES, FACT_VALUES
 from .tables import TABLE_STATEMENTS, TABLE_VALUES
+from .trees import TREE_PARTS
 
 # Values that are one line of Python.
 
@@ -794,6 +795,7 @@ def _set_priority(code: Expressions, block: Block) -> list[Piece]:
 
 
 STATEMENTS: dict[str, StatementGenerator] = {
+    **TREE_PARTS,
     "repeat": _repeat,
     "forever": _loop("while", "True"),
     "while": _loop("while", "condition"),

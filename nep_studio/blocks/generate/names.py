@@ -33,8 +33,18 @@ VALUES = frozenset(
 )
 """What nep_core does with values where plain Python does something else."""
 
+TREE = frozenset(
+    {
+        *("Check", "CoolDown", "Delay", "Fallback", "ForceFailure", "ForceSuccess", "Input"),
+        *("Invert", "Output", "Parallel", "Repeat", "Retry", "Sequence", "Step", "SubTree"),
+        *("TimeLimit", "WhileTrue"),
+    }
+)
+"""The parts of behaviour trees."""
+
 API = VALUES | frozenset(
     {
+        *TREE,
         "Behavior",
         "Launcher",
         "Robot",
@@ -45,6 +55,8 @@ API = VALUES | frozenset(
         "fail_goal",
         "goal_value",
         "fact",
+        "do_tree",
+        "fail_step",
         "heard_word",
         "human_state",
         "in_turn",
@@ -61,6 +73,7 @@ API = VALUES | frozenset(
         "remember",
         "start_timer",
         "set_priority",
+        "set_tree_value",
         "stop_program",
         "stop_rule",
         "tell",
@@ -72,6 +85,7 @@ API = VALUES | frozenset(
         "told_value",
         "the_plan",
         "true_while",
+        "tree_value",
         "until_state",
         "wait",
         "wait_until",

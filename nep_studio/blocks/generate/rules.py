@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 from itertools import chain as chain_of
 
 from faults import Text
+from nep_studio.blocks.definitions import Definition
 from nep_studio.blocks.procedures import parameters, procedure_of
 from nep_studio.blocks.program import ALL_ROBOTS, Block
 from nep_studio.blocks.sharing import is_slow, variables_set
@@ -200,6 +201,12 @@ def _when_goal(code: Expressions, block: Block) -> Hat:
     return _hat(name, "when_goal", code.slot(block, "name"), ast.Constant(event))
 
 
+def _tree(code: Expressions, block: Block) -> Hat:
+    runs = code.choice(block, "runs")
+    options = {} if runs == "when_asked" else {"runs": ast.Constant(runs)}
+    return _hat(code.text(block, "name"), "tree", code.slot(block, "name"), **options)
+
+
 HATS: dict[str, HatGenerator] = {
     "when_started": lambda code, block: Hat(
         ast.Attribute(ast.Name("behavior"), "when_started"), "when_started"
@@ -229,6 +236,7 @@ HATS: dict[str, HatGenerator] = {
     "transition_after": _transition_by("after", "seconds"),
     "transition_done": lambda code, block: _transition(code, block, "done", ast.Constant(True)),
     "when_goal": _when_goal,
+    "tree": _tree,
     "own_define": _own_define,
     "program_lines": _program_lines,
 }
@@ -297,6 +305,7 @@ class RuleWriter:
         self.lines: list[Line] = []
         self._code = code
         self._has_code_blocks = False
+        self._is_after_function = False
 
     def write(self, function_name: str, hat: Hat, stack: Sequence[str]) -> Iterator[None]:
         """Write decorator, header and body; ``stack[0]`` is the block of the hat.
@@ -317,6 +326,7 @@ class RuleWriter:
             item = next(frame.left, None)
             if item is None:
                 scope = frames.pop().scope
+                self._is_after_function |= frame.opens
                 shared = scope.assigned - self._code.own
                 if frame.opens and shared:  # at the end of a function
                     line = f"{_MARGINS[scope.indent]}global {', '.join(sorted(shared))}"
@@ -353,8 +363,9 @@ class RuleWriter:
             self._line(line, stack[0])
 
     def _block(self, chain: _Frame, block: Block) -> _Frame:
-        self._comment(block, _MARGINS[chain.indent])
         definition = self._code.definition(block)
+        self._keep_apart(definition)
+        self._comment(block, _MARGINS[chain.indent])
         if definition.page != "behaviour":
             raise CodeRefused(
                 "This block belongs on the page {page}, not under a rule.",
@@ -402,11 +413,13 @@ class RuleWriter:
             return None
         chain = self._code.project.blocks[frame.block].bodies.get(piece.slot, [])
         if isinstance(piece, Function):
-            if not self.lines[-1][0].endswith(":"):
+            if piece.decorator:
+                self._line(margin + piece.decorator, frame.block)
+            elif not self.lines[-1][0].endswith(":"):
                 self._line("", "")
             self._line(f"{margin}def {piece.name}():", frame.block)
             return self._function(chain, frame.block, frame.indent + 1)
-        indent, loops = frame.indent + 1, frame.loops + piece.loop
+        indent, loops = frame.indent + 1, frame.loops + (piece.loop or piece.is_with)
         guards = frame.guards + piece.guard
         nested = loops + LOOPS_OF_GUARD * guards
         blocks = self._enabled(chain, frame.block, indent, nested, piece.first)
@@ -461,6 +474,12 @@ class RuleWriter:
         blocks = self._enabled(chain, owner, indent, 0)
         return _Frame(blocks, owner, indent, 0, scope, opens=True)
 
+    def _keep_apart(self, definition: Definition) -> None:
+        """Leave a line free around a function that stands for a block, but where a mouth opens."""
+        is_function = {"of_tree", "apart"} <= definition.flags
+        if (is_function or self._is_after_function) and not self.lines[-1][0].endswith(":"):
+            self._line("", "")
+
     def _enabled(
         self, chain: Sequence[str], owner: str, indent: int, loops: int, first: str = ""
     ) -> Iterator[Block | Piece]:
@@ -485,6 +504,7 @@ class RuleWriter:
         return chain_of(above, blocks, ["pass"] if is_silent and (blocks or not first) else [])
 
     def _line(self, line: str, block: str) -> None:
+        self._is_after_function = False
         self.lines.append((line, block))
 
     def _comment(self, block: Block, margin: str) -> None:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from copy import deepcopy
 from dataclasses import dataclass, field
 
@@ -37,6 +37,7 @@ class Marks:
     ``glowing`` are the innermost blocks that run, ``around`` those that they were called from;
     ``values`` are by the Python name of the variable; ``results`` are what the reporters in a
     statement gave last, by the statement and the reporter. ``places`` finds a reporter's block.
+    ``nodes`` are the parts of behaviour trees that run, or have ended, as the program tells them.
     """
 
     code: Code = field(default_factory=lambda: Code("", ()))
@@ -47,6 +48,7 @@ class Marks:
     counts: Counter[str] = field(default_factory=Counter)
     values: dict[str, str] = field(default_factory=dict)
     results: dict[str, dict[str, str]] = field(default_factory=dict)
+    nodes: dict[str, str] = field(default_factory=dict)
 
     def take(self, state: ProgramState) -> None:
         """Take in what the program told."""
@@ -63,6 +65,8 @@ class Marks:
             case "value":
                 for name, text in state.values.items():
                     self._value(name, clipped(text))
+            case "tree":
+                self._nodes(state.nodes)
             case "paused":
                 block = self.code.block_at(state.line)
                 if block is not None:
@@ -83,6 +87,7 @@ class Marks:
                 self.counts.clear()
                 self.values.clear()
                 self.results.clear()
+                self.nodes.clear()
             case "finished" | "failed":
                 self.still()
 
@@ -90,6 +95,15 @@ class Marks:
         """Nothing runs any more; counts and values stay, for whoever wants to read them."""
         self.glowing = self.around = frozenset()
         self.paused.clear()
+        self.nodes = {block: how for block, how in self.nodes.items() if how != "running"}
+
+    def _nodes(self, told: Mapping[str, str]) -> None:
+        for line, status in told.items():
+            block = self.code.block_at(int(line)) if line.isdecimal() else None
+            if block is not None:
+                self.nodes.pop(block, None)
+                if status in STATUSES:
+                    self.nodes[block] = status
 
     def _value(self, name: str, text: str) -> None:
         if not name.startswith(CALL):
@@ -115,6 +129,11 @@ HALO = ((14.0, 40), (9.0, 80), (4.0, 255))
 AROUND = ((2.5, 150),)
 """The same around a block from which the one was called that runs."""
 
+STATUSES = {"running": "info", "succeeded": "success", "failed": "error"}
+"""The colour of a part of a behaviour tree by its status; a word stands beside it."""
+OF_NODE = ((3.0, 220),)
+"""Width and opacity of the line around a part of a behaviour tree."""
+
 REACH = 260.0
 """How far beside a block its chips may reach, in canvas units of a line of text of 18."""
 
@@ -136,7 +155,13 @@ class RunOverlay:
                 colour = QColor(view.look.theme.colour("glow"))
                 colour.setAlpha(opacity)
                 rings(painter, view, found, colour, width / view.sight.camera.scale)
-        known = (marks.counts, marks.values, marks.results, marks.paused)
+        for block, status in marks.nodes.items():
+            found = [placed] if (placed := view.page_layout.placed(block)) else []
+            for width, opacity in OF_NODE:
+                colour = QColor(view.look.theme.colour(STATUSES[status]))
+                colour.setAlpha(opacity)
+                rings(painter, view, found, colour, width / view.sight.camera.scale)
+        known = (marks.counts, marks.values, marks.results, marks.paused, marks.nodes)
         if not (self.breakpoints or any(known)):
             return
         paused = frozenset(marks.paused.values())
@@ -150,9 +175,11 @@ class RunOverlay:
                 _chip(painter, view, placed, words)
 
     def _chip(self, view: CanvasHost, block: str) -> str:
-        """The words beside a block: how often it fired, what its reporters or variable gave."""
+        """The words beside a block: how often it fired, how it ended, what values it gave."""
         if (count := self.marks.counts.get(block, 0)) > 0:
             return tr("{n}\N{MULTIPLICATION SIGN}", n=count)
+        if (status := self.marks.nodes.get(block)) is not None:
+            return _word_of(status)
         if results := self.marks.results.get(block):
             return "   ".join(results.values())
         made = view.editor.project.blocks.get(block)
@@ -162,6 +189,13 @@ class RunOverlay:
             return ""
         name = self.names.get(str(made.fields.get("variable", "")), "")
         return self.marks.values.get(name, "")
+
+
+def _word_of(status: str) -> str:
+    """How a part of a behaviour tree is, in a word."""
+    if status == "running":
+        return tr("running")
+    return tr("succeeded") if status == "succeeded" else tr("failed")
 
 
 def _disc(
@@ -284,7 +318,7 @@ class Stage(QObject):
         before = self._shown()
         values, results = dict(self.marks.values), deepcopy(self.marks.results)
         paused = dict(self.marks.paused)
-        counts = self.marks.counts.copy()
+        counts, nodes = self.marks.counts.copy(), self.marks.nodes.copy()
         for state in states:
             self.marks.take(state)
         has_fewer = bool(counts - self.marks.counts)  # the program was started again
@@ -293,6 +327,8 @@ class Stage(QObject):
         else:
             self._touch(before ^ self._shown())
             self._touch(self.marks.counts - counts, with_chips=True)
+            changed = {block for block, _ in nodes.items() ^ self.marks.nodes.items()}
+            self._touch(changed, with_chips=True)
         # Show the block at which the program has just paused
         new = [block for thread, block in self.marks.paused.items() if paused.get(thread) != block]
         canvas = self._canvas
@@ -323,9 +359,10 @@ class Stage(QObject):
 
     def _on_state_changed(self, state: str) -> None:
         if state == "idle":
-            before = self._shown()
+            before, nodes = self._shown(), frozenset(self.marks.nodes)
             self.marks.still()
             self._touch(before)
+            self._touch(nodes, with_chips=True)
 
     def _on_breakpoints_changed(self) -> None:
         self.overlay.breakpoints = self._breakpoints.ids

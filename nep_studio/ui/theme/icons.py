@@ -29,6 +29,7 @@ CATEGORY_ICONS = {
     "colours": "palette",
     "code": "code",
     "goals": "target",
+    "trees": "list-tree",
     "nodes": "network",
     "robots": "plug",
     "robot_events": "hand",
