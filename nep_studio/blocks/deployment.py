@@ -80,6 +80,8 @@ def find_uses(project: Project, language: Language, chain: list[str]) -> Iterato
         if definition is None or _NAMING.isdisjoint(definition.kinds):
             continue
         for key, slot in definition.keys(block.groups):
+            if project.plugged(block, key) is not None:
+                continue  # what it names is known only while the program runs
             kind, name = slot.kind.name, str(definition.value(block, key))
             if kind == "gesture" or (kind == "state" and name.startswith(GESTURE_STATE)):
                 yield Use("gesture", name.removeprefix(GESTURE_STATE), block.id)

@@ -69,10 +69,10 @@ def why_not_plugged(
         return None
     if not value.is_value:
         return Text("Only a block that gives a value goes into a slot.")
-    if value.result in slot.kind.fits:
+    if value.result in slot.fits:
         return None
     noun = Text(slot.kind.noun)
-    if not slot.kind.pluggable:
+    if not slot.pluggable:
         return text_of("This place takes {noun} that is chosen or typed, not a block.", noun=noun)
     return text_of(
         "This place needs {noun}, and “{block_name}” gives {result}.",

@@ -23,9 +23,9 @@ from nep_studio.blocks.slots import TEXT_RESULTS
 
 from .names import ProgramNames
 
-WHOLE, FRACTION, TEXT, TRUTH, LIST, OTHER = 1, 2, 4, 8, 16, 32
+WHOLE, FRACTION, TEXT, TRUTH, LIST, OTHER, ROBOT = 1, 2, 4, 8, 16, 32, 64
 NUMBER = WHOLE | FRACTION
-ANY = NUMBER | TEXT | TRUTH | LIST | OTHER
+ANY = NUMBER | TEXT | TRUTH | LIST | OTHER | ROBOT
 
 ITEMS = "items"
 """What the items of all lists can be: lists have many names, so that none is told apart."""
@@ -36,6 +36,7 @@ RESULT_KINDS = {
     "colour": TEXT,
     "boolean": TRUTH,
     "list": LIST,
+    "robot": ROBOT,
     "any": ANY,
 }
 
@@ -81,6 +82,7 @@ _CALLS = {
     **dict.fromkeys(("parts_of", "sorted_items"), LIST),
     **dict.fromkeys(("as_number", "to_power", "number_in", "sum_of", "mean_of"), NUMBER),
     **dict.fromkeys(("median_of", "deviation_of", "smallest_of", "largest_of"), NUMBER),
+    "as_robot": ROBOT,
 }
 _METHODS = {
     **dict.fromkeys(("randint", "floor", "ceil", "find"), WHOLE),
@@ -275,7 +277,7 @@ _PUT_IN_LISTS = {
 _SETS = {"set_variable": "value", "change_variable": "amount", "append_text": "text"}
 _CODE = frozenset({"code_lines", "code_value", "program_lines"})
 NO_NAMES: frozenset[str] = frozenset()
-_HARMLESS = ("as_number(", "as_text(", "as_list(", "str(", "bool(")
+_HARMLESS = ("as_number(", "as_text(", "as_list(", "as_robot(", "str(", "bool(")
 
 
 _LOOKED_AT = frozenset(
@@ -316,6 +318,8 @@ class FactReader:
                 self._inputs(block, definition)
             if definition.generator in _LOOKED_AT:
                 self._block(block, definition)
+        if hat.inputs:  # worked out before anything else is done, and each time again
+            self._reads(hat, NO_NAMES)
         end = self._walk(chain[1:], frozenset(), 0)
         if self._procedure and end is not None:  # it ends without giving back: 0
             self._put.add((result_key(self._procedure), Given(WHOLE)))
@@ -363,7 +367,7 @@ class FactReader:
 
     def _inputs(self, block: Block, definition: Definition) -> None:
         for key in block.inputs:
-            plugged = self._plugged(block, key)
+            plugged = self._project.plugged(block, key)
             inner = self._language.definitions.get(plugged.type) if plugged is not None else None
             if plugged is None or inner is None or inner.generator != "variable":
                 continue
@@ -397,7 +401,7 @@ class FactReader:
 
     def _looks(self, block: Block, key: str) -> int:
         """The kind of a value as a person sees it: by what is typed, or the block's outline."""
-        plugged = self._plugged(block, key)
+        plugged = self._project.plugged(block, key)
         definition = self._language.definitions[block.type]
         if plugged is None:
             return TEXT if isinstance(definition.value(block, key), str) else WHOLE
@@ -414,16 +418,11 @@ class FactReader:
                 key = parameter_key(procedure.id, parameter.id)
                 self._put.add((key, self._slot(block, parameter.id)))
 
-    def _plugged(self, block: Block, key: str) -> Block | None:
-        block_id = block.inputs.get(key)
-        plugged = self._project.blocks[block_id] if block_id else None
-        return None if plugged is None or plugged.disabled else plugged
-
     def _slot(self, block: Block, key: str, depth: int = 0) -> Given:
         """The kinds of what a slot gives, after it was made what the slot needs."""
         definition = self._language.definitions[block.type]
         kind = definition.slots[split_slot(key)[0]].kind
-        plugged = self._plugged(block, key)
+        plugged = self._project.plugged(block, key)
         if plugged is not None:
             given = self._value(plugged, depth + 1)
         elif kind.is_number or kind.name == "any":
@@ -432,7 +431,7 @@ class FactReader:
             given = Given(RESULT_KINDS.get(kind.name, TEXT))
         if kind.is_number:
             return given.calculated()
-        if kind.name in ("text", "lines", "boolean", "list"):
+        if kind.becomes_text or kind.name in ("boolean", "list", "robot"):
             return Given(RESULT_KINDS.get(kind.name, TEXT))
         return given
 

@@ -17,6 +17,7 @@ VALUES = frozenset(
             "append_text",
             "as_list",
             "as_number",
+            "as_robot",
             "as_text",
             "count_from",
             "deviation_of",
@@ -38,6 +39,7 @@ API = VALUES | frozenset(
         "Robot",
         "at_once",
         "colour_from",
+        "emotion_state",
         "heard_word",
         "human_state",
         "in_turn",
@@ -73,7 +75,7 @@ RESERVED = frozenset(
         *(name for name in dir(builtins) if not name.startswith("_")),
         *("exit", "quit", "copyright", "credits", "license", "help"),
         *API,
-        *("behavior", "launcher", "answer"),
+        *("behavior", "launcher", "answer", "expected_words"),
         *MODULES,
     }
 )

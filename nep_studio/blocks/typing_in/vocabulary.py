@@ -308,15 +308,15 @@ class Filler:
         return next(((made, result) for made, result in found if not _has_code(made)), None)
 
     def _value(self, slot: Slot, text: str, plain: str) -> Filling | None:
-        if slot.kind.pluggable and plain in self.variables:
+        if slot.pluggable and plain in self.variables:
             getter = self._reader().type_of("variable")
             result = self.language.definitions[getter].result if getter else ""
-            if result in slot.kind.fits:
+            if result in slot.fits:
                 return Filling(Made(getter, {"variable": self.variables[plain]}), FITTING)
         number = number_in(text)
-        if slot.kind.pluggable and _OPERATORS.search(text) and number is None:
+        if slot.pluggable and _OPERATORS.search(text) and number is None:
             found = self.expression(text)
-            if found is not None and found[1] in slot.kind.fits:
+            if found is not None and found[1] in slot.fits:
                 return Filling(found[0], NAMED)
         if slot.kind.is_number:
             return self._checked(slot, number, FITTING) if number is not None else None
