@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from .processes.launcher import Launcher
     from .processes.node import Node
     from .program.behavior import Behavior, in_turn, one_of
+    from .program.choices import emotion_state
     from .program.human import (
         heard_word,
         human_state,
@@ -28,7 +29,7 @@ if TYPE_CHECKING:
         until_state,
         was_seen,
     )
-    from .program.robot import Robot, colour_from, mix_colours
+    from .program.robot import Robot, as_robot, colour_from, mix_colours
     from .program.tasks import at_once, stop_program, stop_rule, together, wait, wait_until
     from .program.values import (
         add_item,
@@ -84,7 +85,8 @@ _HOMES = {
         "program.behavior": "Behavior in_turn one_of",
         "program.human": "heard_word human_state is_remembered remember times_seen until_state "
         "was_seen",
-        "program.robot": "Robot colour_from mix_colours",
+        "program.choices": "emotion_state",
+        "program.robot": "Robot as_robot colour_from mix_colours",
         "program.tasks": "at_once stop_program stop_rule together wait wait_until",
         "program.values": "add_item append_text as_list as_number as_text count_from deviation_of "
         "has_item has_part insert_item is_at_least is_at_most is_less is_more is_same item_of "
@@ -102,7 +104,7 @@ __all__ += ["colour_from", "heard_word", "human_state", "in_turn", "is_remembere
 __all__ += ["one_of", "remember", "stop_program", "stop_rule", "times_seen", "together"]
 __all__ += ["until_state", "wait", "wait_until", "was_seen"]
 __all__ += ["add_item", "append_text", "as_list", "as_number", "as_text", "count_from"]
-__all__ += ["deviation_of"]
+__all__ += ["as_robot", "deviation_of", "emotion_state"]
 __all__ += ["has_item", "has_part", "insert_item", "is_at_least", "is_at_most", "is_less"]
 __all__ += ["is_more", "is_same", "item_of", "items_between", "join_items", "largest_of"]
 __all__ += ["length_of", "letter_of", "list_with", "mean_of", "median_of", "number_in"]

@@ -142,6 +142,7 @@ TYPE_NUMBER = "Write digits only, with a dot where it is not whole."
 STOP_GROWING = "Look for a loop that makes the number larger and larger."
 NO_NAN = "Check the calculation that the number comes from."
 PUT_LIST = "Put a list into this place."
+PUT_ROBOT = "Put a robot, or the name of one, into this place."
 ROUND_IT = "Round the number with a block that does that."
 
 TOO_LARGE = "A number became too large."
@@ -177,8 +178,10 @@ def shown(value: Any) -> str:
     return text if len(text) <= LONGEST + 2 else f"{text[:LONGEST]}…"
 
 
-def _noun(value: object) -> Text:
-    return next((noun for kind, noun in _KINDS if isinstance(value, kind)), Text("something else"))
+def told_noun(value: object) -> Text:
+    """What a value is; what is no value of Python itself, such as a robot, says so itself."""
+    other: Text = getattr(type(value), "NOUN", Text("something else"))
+    return next((noun for kind, noun in _KINDS if isinstance(value, kind)), other)
 
 
 # A value that must be of a kind.
@@ -197,7 +200,7 @@ def as_number(value: Any) -> Number:
         LOOK,
         CONVERT,
         value=shown(value),
-        noun=_noun(value),
+        noun=told_noun(value),
     )
 
 
@@ -210,7 +213,7 @@ def as_list(value: Any) -> list[Any]:
         LOOK,
         PUT_LIST,
         value=shown(value),
-        noun=_noun(value),
+        noun=told_noun(value),
     )
 
 
@@ -282,8 +285,8 @@ def _comparable(a: Any, b: Any) -> bool:
         CONVERT,
         left=shown(a),
         right=shown(b),
-        noun=_noun(a),
-        result=_noun(b),
+        noun=told_noun(a),
+        result=told_noun(b),
     )
 
 

@@ -183,7 +183,9 @@ def _read_block(
     return definition
 
 
-def _closed(category: Category, entry: Mapping[str, Any], parts: tuple[Part, ...]) -> tuple[Part, ...]:
+def _closed(
+    category: Category, entry: Mapping[str, Any], parts: tuple[Part, ...]
+) -> tuple[Part, ...]:
     """The parts of a sentence with the places closed that take no block."""
     generator = str(entry.get("generator", ""))
     closing = Closing(

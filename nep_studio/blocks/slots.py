@@ -490,7 +490,9 @@ KINDS: dict[str, Kind] = {
         ),
         _name("state", "a human state", read=_state),
         _name("gesture", "a gesture", prefix=GESTURE_STATE, table="gestures"),
-        _name("robot", "a robot", is_said=False, fits=frozenset({"robot", "text", "any"}), new="NAO"),
+        _name(
+            "robot", "a robot", is_said=False, fits=frozenset({"robot", "text", "any"}), new="NAO"
+        ),
         _name("variable", "a variable", missing=False, is_said=False),
         Kind("choice", "one of a list", fits=_WORDS, hint="choose", opens=True),
         Kind(
