@@ -162,6 +162,8 @@ _MADE = {
     "checkbox": ("bool",),
     "robot": ("as_robot",),
 }
+_NEEDS = ("list", "robot")
+"""The kinds, beside numbers, of which a value is made where it may be another."""
 
 
 def _without_int(node: ast.expr) -> ast.expr:
@@ -253,7 +255,8 @@ class ValueReader:
         kind = slot.kind
         if not kind.becomes_text:
             inner = within(node, self._made(slot))
-            needed = NUMBER if kind.is_number else RESULT_KINDS.get(kind.name, ANY)
+            needed = RESULT_KINDS[kind.name] if kind.name in _NEEDS else ANY
+            needed = NUMBER if kind.is_number else needed
             is_truth = kind.name in ("boolean", "checkbox")
             if inner is node and not is_truth and not may_be(node, needed, self._seen):
                 return None

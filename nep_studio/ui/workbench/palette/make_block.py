@@ -56,6 +56,8 @@ def kinds() -> dict[str, str]:
         "text": tr("a text"),
         "boolean": tr("yes or no"),
         "list": tr("a list"),
+        "colour": tr("a colour"),
+        "robot": tr("a robot"),
     }
 
 
