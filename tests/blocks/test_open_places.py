@@ -8,11 +8,14 @@ from collections import Counter
 import pytest
 from block_building import B, build, read_program
 
+from nep_core.program.choices import EMOTIONS
 from nep_studio.blocks.definitions import CLOSED, Definition, Slot
+from nep_studio.blocks.editor import Editor
+from nep_studio.blocks.edits.content import AddProcedure
 from nep_studio.blocks.generate.program import generate_program
 from nep_studio.blocks.language import Language
-from nep_studio.blocks.program import Procedure, Parameter
 from nep_studio.blocks.procedures import PARAMETER_KINDS
+from nep_studio.blocks.program import Parameter, Procedure, Project
 from nep_studio.run.installation import load_language
 from tests.blocks.conftest import RESOURCES
 
@@ -69,7 +72,9 @@ def in_a_rule(definition: Definition, slot: Slot) -> list[B]:
     if definition.shape == "hat":
         return [block, B("robot.say")]
     if definition.is_value:
-        where = ("control.if", "condition") if definition.result == "boolean" else ("robot.say", "text")
+        where = (
+            ("control.if", "condition") if definition.result == "boolean" else ("robot.say", "text")
+        )
         if definition.result == "list":
             where = ("control.for_each", "list")
         other = B(where[0], {}, {where[1]: block})
@@ -95,4 +100,62 @@ def test_a_variable_in_a_place_becomes_python_and_comes_back(
 
     ast.parse(text)
     assert not [b.type for b in project.blocks.values() if b.type.startswith("code.")]
+    assert generate_program(project, language.of(project)).text == text
+
+
+def test_the_looks_of_people_are_those_of_the_blocks(language: Language) -> None:
+    assert dict(language.choices["emotions"]) == EMOTIONS
+
+
+def test_a_robot_of_a_variable_is_asked_by_its_name_only_where_it_may_be_a_text(
+    language: Language,
+) -> None:
+    """What is always a robot stands in Python by itself."""
+    held = B("variable.get", {"variable": "v1"})
+    put = B("variable.set", {"variable": "v1"}, {"value": B("robot.named")})
+    told = B("variable.set", {"variable": "v1"}, {"value": B("text.text", {"text": "NAO"})})
+    say = B("robot.say", {"text": "Hello"}, {"robot": held})
+
+    plain = build(language, [B("event.started"), put, say], variables=("which",))
+    careful = build(language, [B("event.started"), put, told, say], variables=("which",))
+
+    assert '    which.say("Hello")' in generate_program(plain.project, language).text
+    assert '    as_robot(which).say("Hello")' in generate_program(careful.project, language).text
+
+
+def test_the_words_of_an_answer_are_worked_out_once(language: Language) -> None:
+    word = B("math.random_item", {}, {"list": B("variable.get", {"variable": "v1"})})
+    ask = B("robot_speech.ask", {}, {"word.1": word}, {"do.1": [B("robot.say")]}, {"answer": 1})
+    editor = build(language, [B("event.started"), ask], variables=("words",))
+
+    text = generate_program(editor.project, language).text
+
+    assert text.count("random.choice(words)") == 1
+    assert "if answer == expected_words[0]:" in text
+    project = read_program(text, language)
+    assert generate_program(project, language.of(project)).text == text
+
+
+@pytest.mark.parametrize("kind", PARAMETER_KINDS)
+def test_an_own_block_takes_a_value_of_each_kind(language: Language, kind: str) -> None:
+    parts = ("show", Parameter("a1", "thing", kind))
+    editor = Editor(Project("Test"), language)
+    editor.apply(AddProcedure(Procedure("p1", parts, gives_value=True), 0))
+    given, x = B("my.parameter.p1.a1"), editor.add_variable("x")
+    own = editor.language
+    if kind == "robot":
+        use = B("robot.say", {}, {"robot": given})
+    else:
+        use = B("variable.set", {"variable": x}, {"value": given})
+    shown = B("robot.say", {}, {"text": B("my.call.p1")})
+    build(
+        own,
+        [B("my.define.p1"), use, B("my.return", {}, {"value": given})],
+        [B("event.started"), shown],
+        editor=editor,
+    )
+
+    text = generate_program(editor.project, editor.language).text
+    project = read_program(text, language, editor.project)
+
     assert generate_program(project, language.of(project)).text == text

@@ -74,7 +74,10 @@ def robot_blocks() -> list[Definition]:
         definition
         for definition in LANGUAGE.definitions.values()
         if definition.result != "robot"  # a value, that does nothing by itself
-        and ("robot" in definition.slots or definition.category.id in ("robot_events", "robot_speech"))
+        and (
+            "robot" in definition.slots
+            or definition.category.id in ("robot_events", "robot_speech")
+        )
     ]
 
 
