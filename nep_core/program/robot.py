@@ -451,7 +451,7 @@ class Robot:
 
         ``name`` of a mark is its number.
         """
-        thing = self._one_of("things", thing)
+        thing = self._one_of("things", thing, ["mark"])
         return _key(thing, name) in self._state().sees
 
     def seen_name(self, thing: str) -> str:
@@ -464,7 +464,10 @@ class Robot:
 
         ``measure``: "distance" in cm, "left" or "up" in degrees from straight ahead.
         """
-        thing, measure = self._one_of("placed_things", thing), self._one_of("measures", measure)
+        thing, measure = (
+            self._one_of("placed_things", thing, ["mark"]),
+            self._one_of("measures", measure),
+        )
         place = self._state().sees.get(_key(thing, ""))
         if place is None:
             return -1.0

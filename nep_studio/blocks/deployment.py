@@ -87,9 +87,15 @@ def find_uses(project: Project, language: Language, chain: list[str]) -> Iterato
                 yield Use("gesture", name.removeprefix(GESTURE_STATE), block.id)
             elif kind == "robot":
                 yield Use("robot", name, block.id)
+            elif name.startswith(GESTURE_STATE) and kind in _HOLDING:
+                gesture = name.removeprefix(GESTURE_STATE)
+                if gesture in language.choices.get("gestures", ()):
+                    yield Use("gesture", gesture, block.id)
 
 
-_NAMING = frozenset(("robot", "gesture", "state"))
+_HOLDING = ("any", "text")
+"""The kinds of the slots whose text may go into the place of a human state later."""
+_NAMING = frozenset(("robot", "gesture", "state", *_HOLDING))
 """The kinds of the slots that name a robot or a gesture."""
 
 
