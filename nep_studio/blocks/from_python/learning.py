@@ -459,6 +459,8 @@ def _patterns(definition: Definition, language: Language) -> Iterator[Pattern]:
             for is_other, (typed, plain), known in variants:
                 if is_other and not has_other:
                     break
+                if is_other and (plain or known is KNOWN[1]):
+                    continue  # what is worked out is so whatever stands in the other slots
                 learner = Learner(language, fields, keys, typed, plain, known, is_other=is_other)
                 try:
                     nodes = learner.nodes(definition, groups)
