@@ -105,10 +105,14 @@ def _folded(word: str) -> str:
 
 @lru_cache(maxsize=16)
 def _tables(model: str) -> Mapping[str, Mapping[str, str]]:
-    """The choices of a kind of robot: value and English label, by table."""
+    """The choices of a kind of robot that comes with us: value and English label, by table.
+
+    None of another one: a message from anybody must not say which files are read.
+    """
     name = model or NAO
-    places = [folder / "robots" / name for folder in resource_folders()]
-    choices = _read([*places, Path(name)], "robot.toml")
+    if not name.isidentifier():
+        return {}
+    choices = _read([folder / "robots" / name for folder in resource_folders()], "robot.toml")
     return {table: _flat(entries) for table, entries in choices.items()}
 
 

@@ -1,4 +1,4 @@
-"""Checks, uses and plans of blocks in whose places other blocks stand: what is not known is open."""
+"""Checks and uses of blocks in whose places other blocks stand: what these give is not known."""
 
 from __future__ import annotations
 

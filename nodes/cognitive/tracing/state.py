@@ -12,8 +12,8 @@ from pathlib import Path
 from types import FrameType
 from typing import Any
 
-from nep_core.program.tasks import Task, current_task
 from nep_core.program.robot import Robot
+from nep_core.program.tasks import Task, current_task
 from nep_core.program.values import as_text
 
 MOST_CALLS = 50

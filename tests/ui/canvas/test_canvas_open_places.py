@@ -1,4 +1,4 @@
-"""Fields that are chosen or pressed take blocks as texts and numbers do, and come back as they were."""
+"""Fields that are chosen or pressed take blocks as texts do, and come back as they were."""
 
 from __future__ import annotations
 
