@@ -19,6 +19,18 @@ from nep_studio.blocks.program import Parameter, Procedure, Project
 from nep_studio.run.installation import load_language
 from tests.blocks.conftest import RESOURCES
 
+VARIABLE = B("variable.get", {"variable": "v1"})
+GIVING = {
+    "number": B("math.arithmetic", {"a": 2}, {"b": VARIABLE}),
+    "text": B("text.join", {"item.1": "a"}, {"item.2": VARIABLE}),
+    "boolean": B("logic.compare", {"b": 2}, {"a": VARIABLE}),
+    "list": B("list.create", {"item.1": "a"}, {"item.2": VARIABLE}, groups={"item": 2}),
+    "colour": B("colour.mix"),
+    "robot": B("robot.named", {}, {"robot": VARIABLE}),
+    "any": B("math.random_item", {}, {"list": VARIABLE}),
+}
+"""A block that gives each kind of result."""
+WORDS = ("checkbox", "choice", "colour", "line", "robot", "state")
 NO_PLACES = ("body", "parameter")
 """The kinds of slots that no value goes into."""
 ALONE = ("my.return",)
@@ -62,11 +74,11 @@ def _colours(slot: Slot) -> list[B]:
     return [colour] if slot.kind.name == "colour" else []
 
 
-def in_a_rule(definition: Definition, slot: Slot) -> list[B]:
-    """A rule with a block in whose place a variable stands."""
+def in_a_rule(definition: Definition, slot: Slot, plugged: B) -> list[B]:
+    """A rule with a block in whose place another one stands."""
     key = f"{slot.name}.1" if slot.group else slot.name
     groups = {slot.group: max(1, definition.minimum.get(slot.group, 0))} if slot.group else {}
-    block = B(definition.id, {}, {key: B("variable.get", {"variable": "v1"})}, {}, groups)
+    block = B(definition.id, {}, {key: plugged}, {}, groups)
     if "variable" in definition.slots:
         block.fields["variable"] = "v2"
     if definition.shape == "hat":
@@ -92,7 +104,9 @@ def test_a_variable_in_a_place_becomes_python_and_comes_back(
 ) -> None:
     definition = language.definitions[block]
     editor = build(
-        language, in_a_rule(definition, definition.slots[place]), variables=("choice", "other")
+        language,
+        in_a_rule(definition, definition.slots[place], VARIABLE),
+        variables=("choice", "other"),
     )
 
     text = generate_program(editor.project, language).text
@@ -101,6 +115,29 @@ def test_a_variable_in_a_place_becomes_python_and_comes_back(
     ast.parse(text)
     assert not [b.type for b in project.blocks.values() if b.type.startswith("code.")]
     assert generate_program(project, language.of(project)).text == text
+
+
+@pytest.mark.parametrize("result", GIVING)
+def test_every_block_that_fits_becomes_python_that_comes_back(
+    language: Language, result: str
+) -> None:
+    """All places where a word, a switch or a robot is meant, each in a program of its own.
+
+    Random programs have the others in them.
+    """
+    wrong = []
+    for name, place in OPEN:
+        definition = language.definitions[name]
+        slot = definition.slots[place]
+        if result in slot.fits and slot.kind.name in WORDS:
+            rule = in_a_rule(definition, slot, GIVING[result])
+            editor = build(language, rule, variables=("choice", "other"))
+            text = generate_program(editor.project, language).text
+            project = read_program(text, language)
+            if generate_program(project, language.of(project)).text != text:
+                wrong.append((name, place))
+
+    assert wrong == []
 
 
 def test_the_looks_of_people_are_those_of_the_blocks(language: Language) -> None:
