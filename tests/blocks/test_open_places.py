@@ -196,3 +196,52 @@ def test_an_own_block_takes_a_value_of_each_kind(language: Language, kind: str) 
     project = read_program(text, language, editor.project)
 
     assert generate_program(project, language.of(project)).text == text
+
+
+def test_a_list_of_robots_is_gone_through(language: Language) -> None:
+    robots = B(
+        "list.create",
+        {},
+        {
+            "item.1": B("robot.named", {"robot": "NAO"}),
+            "item.2": B("robot.named", {"robot": "Nelly"}),
+        },
+        groups={"item": 2},
+    )
+    held, each = (B("variable.get", {"variable": v}) for v in ("v1", "v2"))
+    rule = [
+        B("event.started"),
+        B("variable.set", {"variable": "v1"}, {"value": robots}),
+        B(
+            "control.for_each",
+            {"variable": "v2"},
+            {"list": held},
+            {"do": [B("robot.say", {}, {"robot": each, "text": each})]},
+        ),
+    ]
+    editor = build(language, rule, variables=("robots", "one"))
+
+    text = generate_program(editor.project, language).text
+
+    assert "    robots = [nao, nelly]\n    for one in robots:\n" in text
+    assert "        one.say(as_text(one))\n" in text
+    project = read_program(text, language)
+    assert generate_program(project, language.of(project)).text == text
+
+
+def test_a_robot_is_given_to_an_own_block_as_it_is_or_by_its_name(language: Language) -> None:
+    parts = ("greet", Parameter("a1", "who", "robot"))
+    editor = Editor(Project("Test"), language)
+    editor.apply(AddProcedure(Procedure("p1", parts, gives_value=False), 0))
+    say = B("robot.say", {}, {"robot": B("my.parameter.p1.a1")})
+    calls = [B("my.call.p1"), B("my.call.p1", {}, {"a1": B("text.text", {"text": "nao"})})]
+    build(editor.language, [B("my.define.p1"), say], [B("event.started"), *calls], editor=editor)
+
+    text = generate_program(editor.project, editor.language).text
+
+    assert 'def greet(who):\n    who.say("Hello")' in text
+    assert '    greet(nao)\n    greet(as_robot("nao"))' in text
+    project = read_program(text, language, editor.project)
+    assert generate_program(project, language.of(project)).text == text
+    anew = read_program(text, language)
+    assert generate_program(anew, language.of(anew)).text == text
