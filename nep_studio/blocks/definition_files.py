@@ -8,11 +8,11 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, get_args
 
+from .closed import Closing
 from .definitions import (
     FLAGS,
     CallError,
     Category,
-    Closing,
     Definition,
     Part,
     SentenceError,

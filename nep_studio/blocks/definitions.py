@@ -14,7 +14,7 @@ from __future__ import annotations
 import keyword
 import re
 from collections.abc import Collection, Iterator, Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from typing import Literal
 
 from faults import Text, text_of
@@ -45,7 +45,7 @@ class Slot:
     with a ``master`` are those of the table "table.value", by the value of the slot ``master``.
     ``low`` and ``high`` are the ends of a slider. A slot of kind parameter shows ``label``, and
     ``table`` is the type of the block that is dragged out of it. ``closed`` is why no block fits
-    where its kind takes some: a key of CLOSED, or an empty text.
+    where its kind takes some: a key of ``closed.REASONS``, or an empty text.
     """
 
     name: str
@@ -108,62 +108,6 @@ class Group:
 
 
 Part = str | Slot | Group
-
-
-# Which places take no block, though blocks give what is meant there.
-
-CLOSED = {
-    "page": "the robots and nodes are there before the program begins",
-    "code": "Python is written, not worked out",
-    "variable": "it says which variable is meant, not what that holds",
-    "note": "it is a note to people, and makes no Python",
-    "trigger": "what a rule waits for is fixed when the program begins",
-    "form": "it decides which Python the block is, not what that gets",
-    "master": "it only says which choices another place offers",
-}
-_ALWAYS_WORKED_OUT = frozenset(("boolean", "list", "any", "text", "lines", "colour"))
-"""The kinds of places, beside numbers, that hold no name: also those of hats take blocks."""
-_WORKED_OUT = frozenset(
-    (("emotion", "emotion"), ("when_sensor", "robot"), ("when_sensor", "sensor"))
-)
-"""Generators and their places that are worked out each time, other than those of their kind."""
-
-
-@dataclass(frozen=True, slots=True)
-class Closing:
-    """What of a definition decides which of its places are closed."""
-
-    page: str
-    shape: str
-    generator: str
-    holds_python: bool
-    is_silent: bool
-    masters: frozenset[str]
-
-    def close(self, part: Part) -> Part:
-        """A part of the sentence, closed where nothing that is worked out is meant."""
-        if isinstance(part, Group):
-            inner = tuple(self.close(one) if isinstance(one, Slot) else one for one in part.parts)
-            return replace(part, parts=inner)  # type: ignore[arg-type]  # no group is in a group
-        return replace(part, closed=self._why(part)) if isinstance(part, Slot) else part
-
-    def _why(self, slot: Slot) -> str:
-        kind = slot.kind
-        if self.page != "behaviour":
-            return "page"
-        if kind.name in PYTHON_KINDS and (self.holds_python or self.is_silent):
-            return "code" if self.holds_python else "note"
-        if kind.name == "variable":
-            return "variable"
-        if kind.is_number or kind.name in _ALWAYS_WORKED_OUT or not kind.typed:
-            return ""
-        if (self.generator, slot.name) in _WORKED_OUT:
-            return ""
-        if self.shape == "hat":
-            return "trigger"
-        if slot.name in self.masters:
-            return "master"
-        return "form" if kind.name == "choice" and self.generator else ""
 
 
 class SentenceError(ValueError):

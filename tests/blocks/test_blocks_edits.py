@@ -163,7 +163,7 @@ def test_a_slot_says_which_value_it_needs(language):
 
     with pytest.raises(EditRefused, match=r"needs a number, and “join …” gives a text"):
         editor.create("text.join", InInput(walk, "forward"))
-    with pytest.raises(EditRefused, match="chosen or typed"):
+    with pytest.raises(EditRefused, match="a rule waits for is fixed"):
         editor.create("text.join", InInput(hat, "robot"))
     with pytest.raises(EditRefused, match=r"needs a robot, and “list of …” gives a list"):
         editor.create("list.create", InInput(walk, "robot"))

@@ -9,7 +9,8 @@ import pytest
 from block_building import B, build, read_program
 
 from nep_core.program.choices import EMOTIONS
-from nep_studio.blocks.definitions import CLOSED, Definition, Slot
+from nep_studio.blocks.closed import REASONS
+from nep_studio.blocks.definitions import Definition, Slot
 from nep_studio.blocks.editor import Editor
 from nep_studio.blocks.edits.content import AddProcedure
 from nep_studio.blocks.generate.program import generate_program
@@ -57,7 +58,7 @@ OPEN = [
 def test_every_place_that_takes_no_block_says_why() -> None:
     closed = [(d, slot) for d, slot in places(LANGUAGE) if not slot.pluggable]
 
-    assert [f"{d.id}.{slot.name}" for d, slot in closed if slot.closed not in CLOSED] == []
+    assert [f"{d.id}.{slot.name}" for d, slot in closed if slot.closed not in REASONS] == []
 
 
 def test_three_places_of_four_take_a_block() -> None:
@@ -65,7 +66,7 @@ def test_three_places_of_four_take_a_block() -> None:
     found = Counter(slot.closed or "open" for _, slot in places(LANGUAGE))
 
     assert found["open"] / found.total() > 0.75
-    assert set(found) <= {"open", *CLOSED}
+    assert set(found) <= {"open", *REASONS}
 
 
 def _colours(slot: Slot) -> list[B]:
