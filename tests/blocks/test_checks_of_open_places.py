@@ -11,6 +11,7 @@ from nep_studio.blocks.editor import Editor
 from nep_studio.blocks.language import Language
 from nep_studio.blocks.operations.finding import Subject, uses_of
 from nep_studio.blocks.program import ROBOT_BLOCK
+from nep_studio.project.triggers import Occurrence, occurrences_of
 
 STARTED, WALK = B("event.started"), B("robot.walk")
 SIT = {"posture": "posture_sit"}
@@ -86,3 +87,25 @@ def test_a_gesture_that_a_variable_may_hold_is_recognised(
     used = names_used(editor.project, editor.language, "gesture")
 
     assert used.keys() == ({text.removeprefix("gesture_")} if is_used else set())
+
+
+@pytest.mark.parametrize(
+    ("block", "place"),
+    [
+        ("robot_senses.is_touched", "part"),
+        ("robot_senses.person_is", "distance"),
+        ("robot_senses.is_doing", "doing"),
+        ("robot_senses.is_in", "posture"),
+        ("sensing.emotion", "emotion"),
+    ],
+)
+def test_what_only_the_running_program_asks_about_is_offered_to_nobody(
+    language: Language, block: str, place: str
+) -> None:
+    def asked(inputs: dict[str, B]) -> list[Occurrence]:
+        fork = B("control.if", {}, {"condition": B(block, {}, inputs)})
+        editor = program(language, fork)
+        return occurrences_of(editor.project, editor.language)
+
+    assert len(asked({})) == 1
+    assert asked({place: held()}) == []
