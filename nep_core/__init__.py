@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from .processes.launcher import Launcher
     from .processes.node import Node
     from .program.behavior import Behavior, in_turn, one_of, what_went_wrong
+    from .program.choices import emotion_state
     from .program.facts import (
         fact,
         is_true,
@@ -41,7 +42,7 @@ if TYPE_CHECKING:
     )
     from .program.messages import tell, told_value
     from .program.plans import reach, the_plan
-    from .program.robot import Robot, colour_from, mix_colours
+    from .program.robot import Robot, as_robot, colour_from, mix_colours
     from .program.tables import (
         as_table,
         change_at,
@@ -145,6 +146,7 @@ _HOMES = {
         "processes.launcher": "Launcher",
         "processes.node": "Node",
         "program.behavior": "Behavior in_turn one_of what_went_wrong",
+        "program.choices": "emotion_state",
         "program.facts": "fact is_true makes_true makes_untrue needs no_longer_true now_true "
         "true_while",
         "program.goals": "fail_goal goal_value",
@@ -152,7 +154,7 @@ _HOMES = {
         "was_seen",
         "program.messages": "tell told_value",
         "program.plans": "reach the_plan",
-        "program.robot": "Robot colour_from mix_colours",
+        "program.robot": "Robot as_robot colour_from mix_colours",
         "program.tables": "as_table change_at has_key names_in remove_key set_at table_of value_at",
         "program.tasks": "at_once end_actions set_priority stop_program stop_rule together wait "
         "wait_until",
@@ -175,21 +177,22 @@ __all__ = ["Behavior", "Broker", "BrokerNetwork", "Check", "CoolDown", "Delay", 
 __all__ += ["Fallback", "ForceFailure", "ForceSuccess", "Input", "Invert", "Launcher", "Master"]
 __all__ += ["NepError", "Node", "Output", "Parallel", "PeerNetwork", "Publisher", "Repeat"]
 __all__ += ["Retry", "Robot", "Sequence", "Step", "SubTree", "Subscriber", "TimeLimit"]
-__all__ += ["WhileTrue", "add_item", "append_text", "as_list", "as_number", "as_table", "as_text"]
-__all__ += ["at_once", "change_at", "colour_from", "count_from", "date_today", "deviation_of"]
-__all__ += ["do_tree", "end_actions", "fact", "fail_goal", "fail_step", "goal_value", "has_item"]
-__all__ += ["has_key", "has_part", "heard_word", "human_state", "in_turn", "insert_item"]
-__all__ += ["is_at_least", "is_at_most", "is_less", "is_more", "is_remembered", "is_same"]
-__all__ += ["is_true", "item_of", "items_between", "join_items", "largest_of", "length_of"]
-__all__ += ["letter_of", "list_with", "makes_true", "makes_untrue", "mean_of", "median_of"]
-__all__ += ["mix_colours", "names_in", "needs", "no_longer_true", "now_true", "number_in"]
-__all__ += ["one_of", "parts_of", "place_in_text", "place_of", "random_whole", "reach"]
-__all__ += ["remember", "remove_item", "remove_key", "replace_part", "set_at", "set_item"]
-__all__ += ["set_priority", "set_tree_value", "smallest_of", "sorted_items", "start_timer"]
-__all__ += ["stop_program", "stop_rule", "sum_of", "table_of", "take_item", "tell", "the_plan"]
-__all__ += ["time_now", "time_part", "timer_seconds", "times_seen", "title_case", "to_nearest"]
-__all__ += ["to_power", "together", "told_value", "tree_value", "true_while", "until_state"]
-__all__ += ["value_at", "wait", "wait_until", "was_seen", "weekday_today", "what_went_wrong"]
+__all__ += ["WhileTrue", "add_item", "append_text", "as_list", "as_number", "as_robot"]
+__all__ += ["as_table", "as_text", "at_once", "change_at", "colour_from", "count_from"]
+__all__ += ["date_today", "deviation_of", "do_tree", "emotion_state", "end_actions", "fact"]
+__all__ += ["fail_goal", "fail_step", "goal_value", "has_item", "has_key", "has_part"]
+__all__ += ["heard_word", "human_state", "in_turn", "insert_item", "is_at_least", "is_at_most"]
+__all__ += ["is_less", "is_more", "is_remembered", "is_same", "is_true", "item_of"]
+__all__ += ["items_between", "join_items", "largest_of", "length_of", "letter_of", "list_with"]
+__all__ += ["makes_true", "makes_untrue", "mean_of", "median_of", "mix_colours", "names_in"]
+__all__ += ["needs", "no_longer_true", "now_true", "number_in", "one_of", "parts_of"]
+__all__ += ["place_in_text", "place_of", "random_whole", "reach", "remember", "remove_item"]
+__all__ += ["remove_key", "replace_part", "set_at", "set_item", "set_priority", "set_tree_value"]
+__all__ += ["smallest_of", "sorted_items", "start_timer", "stop_program", "stop_rule", "sum_of"]
+__all__ += ["table_of", "take_item", "tell", "the_plan", "time_now", "time_part", "timer_seconds"]
+__all__ += ["times_seen", "title_case", "to_nearest", "to_power", "together", "told_value"]
+__all__ += ["tree_value", "true_while", "until_state", "value_at", "wait", "wait_until"]
+__all__ += ["was_seen", "weekday_today", "what_went_wrong"]
 
 
 def __getattr__(name: str) -> Any:

@@ -18,6 +18,8 @@ NODES_VARIABLE = "NEP_NODES"
 """More folders with nodes, before the shipped one, separated as in PATH."""
 ROBOT_FILES_VARIABLE = "NEP_ROBOT_FILES"
 """Where the files of robots on the screen are, instead of in the folder of this user's data."""
+RESOURCES_VARIABLE = "NEP_RESOURCES"
+"""The folder of resources, instead of the one that comes with us."""
 PORTABLE_VARIABLE = "NEP_PORTABLE"
 """The folder that holds everything of this user, as on a stick, instead of the user's own ones."""
 
@@ -34,6 +36,17 @@ def node_folders() -> tuple[Path, ...]:
     frozen = getattr(sys, "_MEIPASS", None)
     root = Path(frozen) if frozen else Path(__file__).resolve().parent.parent
     return (*more, root / "nodes")
+
+
+def resource_folders() -> list[Path]:
+    """The folders in which resources are looked for: of this checkout, wheel or frozen program."""
+    if told := os.environ.get(RESOURCES_VARIABLE):
+        return [Path(told)]
+    if frozen := getattr(sys, "_MEIPASS", None):
+        return [Path(frozen) / "resources"]
+    # The wheel goes first: beside an installed package, "resources" could be anybody's.
+    root = Path(__file__).resolve().parent.parent
+    return [root / "nep_studio" / "resources", root / "resources"]
 
 
 def log_folder() -> Path:

@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-import os
-import sys
 from pathlib import Path
 
 from nep_core.errors import NodeStartError
+from nep_core.places import RESOURCES_VARIABLE as OVERRIDE
+from nep_core.places import resource_folders
 
-OVERRIDE = "NEP_RESOURCES"
 NAO = "nao"
 BODY_FILE = "body.json"
 
@@ -18,10 +17,10 @@ def resource_folder() -> Path:
 
     The environment variable ``NEP_RESOURCES`` goes first. Raises NodeStartError when none is there.
     """
-    for folder in _candidates():
+    for folder in resource_folders():
         if folder.is_dir():
             return folder
-    tried = ", ".join(str(folder) for folder in _candidates())
+    tried = ", ".join(str(folder) for folder in resource_folders())
     raise NodeStartError(
         "The files that come with NEP Studio (its resources folder) are not where they should be.",
         checklist=(
@@ -31,18 +30,6 @@ def resource_folder() -> Path:
         details=f"Looked in: {tried}",
         override=OVERRIDE,
     )
-
-
-def _candidates() -> list[Path]:
-    override = os.environ.get(OVERRIDE)
-    if override:
-        return [Path(override)]
-    frozen = getattr(sys, "_MEIPASS", None)
-    if frozen:
-        return [Path(frozen) / "resources"]
-    # The wheel goes first: beside an installed package, "resources" could be anybody's.
-    root = Path(__file__).resolve().parent.parent
-    return [root / "nep_studio" / "resources", root / "resources"]
 
 
 # Which robots there are: each is a folder with its body, its animations and its looks.

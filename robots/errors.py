@@ -11,7 +11,10 @@ RobotError
 
 from __future__ import annotations
 
-from faults import FaultError
+from collections.abc import Iterable
+from difflib import get_close_matches
+
+from faults import FaultError, Text, text_of
 
 
 class RobotError(FaultError):
@@ -42,3 +45,9 @@ class PortTaken(RobotError):
     """Another program uses the port at which a robot was to be reached."""
 
     title = "A port is already in use"
+
+
+def nearest(word: str, known: Iterable[str]) -> tuple[Text, ...]:
+    """What to try where a word is not known: the one that is spelt most like it, if there is."""
+    near = get_close_matches(word, list(known), 1)
+    return tuple(text_of("Did you mean “{near}”?", near=one) for one in near)

@@ -6,8 +6,11 @@ import math
 import re
 import threading
 import time
+from collections.abc import Collection
+from difflib import get_close_matches
 from typing import Any
 
+from faults import Text
 from nep_core.errors import RobotError
 from nep_core.networks.network import Network
 from nep_core.networks.transports import default_network
@@ -16,9 +19,10 @@ from nep_core.wire.pubsub import Subscriber
 from nep_core.wire.states import TOUCHES, plain, state_of_word
 
 from .actions import ActionClient, action_client, not_answering
+from .choices import chosen
 from .human import LONGEST_WAIT_S, human_listener, next_word
 from .tasks import POLL_S, Stamp, current_task
-from .values import spoken_language
+from .values import LOOK, PUT_ROBOT, as_text, noun_of, refuse, shown, spoken_language
 
 # Where the robots of a program are, and what their sensors measure, as last heard.
 
@@ -53,6 +57,11 @@ class RobotListener:
                 current_task().check()
                 self._news.wait(POLL_S)
             return self._states[robot][0] if robot in self._states else None
+
+    def model(self, robot: str) -> str:
+        """The model of a robot as it told it last; "" of a NAO, and of one not heard yet."""
+        with self._news:
+            return self._states[robot][0].model if robot in self._states else ""
 
     def _is_told_after(self, robot: str, since: tuple[Stamp, ...]) -> bool:
         if robot not in self._states:
@@ -126,12 +135,15 @@ def number_in_words(heard: str) -> float | None:
 
 
 class Robot:
-    """One robot by name, or several that act at once.
+    """One robot by name, or several that act at once. A program may keep it as any value.
 
     Every call returns when all of them are done; it raises RobotNotAnswering or ActionFailed.
     What is measured is measured by the first; names of sensors are those of ``/robot_state``, and
-    groups of lights are "FaceLeds", "ChestLeds", "AllLeds", ...
+    groups of lights are "FaceLeds", "ChestLeds", "AllLeds", ... What is chosen by a word may be
+    called as in blocks, too; raises RobotError for a word that is not known.
     """
+
+    NOUN = Text("a robot")
 
     def __init__(self, robots: str | list[str], *, network: Network | None = None) -> None:
         self.robots = [robots] if isinstance(robots, str) else list(robots)
@@ -143,7 +155,25 @@ class Robot:
         self._network = network
         self._has_language = False
         """Whether the program has set the language in which it speaks."""
+        if len(self.robots) == 1:
+            _ROBOTS[self.robots[0]] = self
         robot_listener(network)  # what robots tell from now on is known when it is asked for
+
+    def __str__(self) -> str:
+        """Its name; the names of several."""
+        return as_text(self.robots if len(self.robots) > 1 else self.robots[0])
+
+    def __repr__(self) -> str:
+        """As a program writes it."""
+        return f"Robot({(self.robots if len(self.robots) > 1 else self.robots[0])!r})"
+
+    def __eq__(self, other: object) -> bool:
+        """Whether it is the same robot, or the same ones."""
+        return isinstance(other, Robot) and self.robots == other.robots
+
+    def __hash__(self) -> int:
+        """Robots that are the same have the same."""
+        return hash(tuple(self.robots))
 
     def stop(self) -> None:
         """Stop all that the robot does, at once; does not wait."""
@@ -165,6 +195,8 @@ class Robot:
         Without one it is the program's, as long as the robot speaks that and is set to no other.
         ``speed`` and ``pitch`` are percent of the usual ones, 50 to 200.
         """
+        gesture = self._chosen("say_gestures", gesture)
+        language = self._chosen("languages", language) if language else ""
         voice = {"speed": speed, "pitch": pitch}
         changed: dict[str, object] = {name: to for name, to in voice.items() if to != 100.0}
         if not language and not self._has_language and spoken_language() != "en":
@@ -218,7 +250,7 @@ class Robot:
 
     def set_language(self, language: str) -> None:
         """Set the language that it speaks and understands, such as "en"."""
-        self._perform("language", language=language)
+        self._perform("language", language=self._chosen("languages", language))
         self._has_language = True
 
     def language(self) -> str:
@@ -238,11 +270,11 @@ class Robot:
 
     def do(self, posture: str) -> None:
         """Take a posture: "posture_stand", "posture_sit", ..."""
-        self._perform("do", posture=posture)
+        self._perform("do", posture=self._chosen("postures", posture))
 
     def imitate(self, animal: str) -> None:
         """Imitate an animal: "cat", "elephant", ..."""
-        self._perform("imitate", animal=animal)
+        self._perform("imitate", animal=self._chosen("animals", animal))
 
     def play(
         self, animation: str, *, mirror: bool = False, reverse: bool = False, stretch: float = 1.0
@@ -251,36 +283,41 @@ class Robot:
 
         ``mirror`` plays left for right, ``reverse`` backwards.
         """
+        animation = self._chosen("animations", animation)
         self._perform("play", animation=animation, mirror=mirror, reverse=reverse, stretch=stretch)
 
     def open_hand(self, side: str = "both") -> None:
         """Open the "left" hand, the "right" one, or "both"."""
-        self._perform("hand", side=side, open=True)
+        self._perform("hand", side=self._one_of("hands", side), open=True)
 
     def close_hand(self, side: str = "both") -> None:
         """Close the "left" hand, the "right" one, or "both"."""
-        self._perform("hand", side=side, open=False)
+        self._perform("hand", side=self._one_of("hands", side), open=False)
 
     def move_joint(self, joint: str, degrees: float) -> None:
         """Move a joint, such as "LElbowRoll", to an angle."""
+        joint = self._chosen("joints", joint)
         self._perform("move_joint", joint=joint, degrees=degrees)
 
     def move_joint_by(self, joint: str, degrees: float) -> None:
         """Move a joint by an angle from where it is."""
+        joint = self._chosen("joints", joint)
         self._perform("move_joint", joint=joint, degrees=degrees, relative=True)
 
     def angle(self, joint: str) -> float:
         """The angle of a joint in degrees; of a hand ("LHand") how far it is open, 0 to 100."""
-        rad = self._state().joints.get(joint, 0.0)
+        joints = self._state().joints
+        joint = self._one_of("joints", joint, joints)
+        rad = joints.get(joint, 0.0)
         return round(rad * 100.0 if joint.endswith("Hand") else math.degrees(rad), 1)
 
     def lock(self, part: str = "body") -> None:
         """Switch the motors of a part on: "head", "left_arm", "legs", "body", ..."""
-        self._perform("stiffness", part=part, on=True)
+        self._perform("stiffness", part=self._chosen("lock_parts", part), on=True)
 
     def release(self, part: str = "body") -> None:
         """Switch the motors of a part off, so that a person can move it."""
-        self._perform("stiffness", part=part, on=False)
+        self._perform("stiffness", part=self._chosen("lock_parts", part), on=False)
 
     def wake_up(self) -> None:
         """Switch all motors on and stand up."""
@@ -331,6 +368,7 @@ class Robot:
 
         ``x_m`` is in front, ``y_m`` left, ``z_m`` up.
         """
+        frame = self._one_of("frames", frame)
         self._perform("look_at", x_m=x_m, y_m=y_m, z_m=z_m, frame=frame)
 
     def point_at(
@@ -340,34 +378,37 @@ class Robot:
 
         ``x_m``, ``y_m``, ``z_m`` and ``frame`` are as those of ``look_at``.
         """
+        frame, arm = self._one_of("frames", frame), self._one_of("arms", arm, [""])
         self._perform("point_at", x_m=x_m, y_m=y_m, z_m=z_m, frame=frame, arm=arm)
 
     def look_at_seen(self, thing: str = "face") -> None:
         """Turn the head to what it sees or hears: "face", "ball", "sound"."""
-        self._perform("look_at_seen", thing=thing)
+        self._perform("look_at_seen", thing=self._chosen("things", thing))
 
     def track(self, thing: str, using: str = "head") -> None:
         """Keep the "head" or the whole "body" turned to something it sees; "off" ends it."""
+        thing, using = self._chosen("things", thing), self._one_of("tracking", using)
         self._perform("track", thing=thing, using=using)
 
     # Its lights
 
     def leds(self, group: str, colour: str, seconds: float = 0.0) -> None:
         """Let a group of lights shine in a colour such as "#ff8800", reached in some seconds."""
+        group = self._chosen("led_groups", group)
         fade = {"seconds": seconds} if seconds else {}
         self._perform("leds", group=group, colour=colour, **fade)
 
     def leds_brightness(self, group: str, percent: float) -> None:
         """Set how bright a group of lights is, 0 to 100."""
-        self._perform("intensity", group=group, percent=percent)
+        self._perform("intensity", group=self._chosen("led_groups", group), percent=percent)
 
     def leds_off(self, group: str) -> None:
         """Switch a group of lights off."""
-        self._perform("intensity", group=group, percent=0.0)
+        self._perform("intensity", group=self._chosen("led_groups", group), percent=0.0)
 
     def leds_reset(self, group: str) -> None:
         """Light a group as it was at the start."""
-        self._perform("reset_leds", group=group)
+        self._perform("reset_leds", group=self._chosen("led_groups", group))
 
     def random_eyes(self, seconds: float) -> None:
         """Let the eyes shine in colours by chance for some seconds."""
@@ -385,6 +426,7 @@ class Robot:
         All others in SI units.
         """
         state = self._state()
+        name = self._one_of("sensors", name, [*state.sensors, "battery"])
         if name == "battery":
             return round(state.battery * 100.0, 1)
         value = state.sensors.get(name, 0.0)
@@ -394,11 +436,14 @@ class Robot:
 
     def current(self, joint: str) -> float:
         """How much current the motor of a joint takes, in A."""
-        return self._state().sensors.get(f"current_{joint}", 0.0)
+        state = self._state()
+        joint = self._one_of("joints", joint, state.joints)
+        return state.sensors.get(f"current_{joint}", 0.0)
 
     def is_touched(self, part: str) -> bool:
         """Whether it is touched now: "head", "head_front", "hand_left", "bumper_right", ..."""
         sensors = self._state().sensors
+        part = self._one_of("touch_parts", part, [*sensors, *TOUCHES])
         return any(sensors.get(name, 0.0) > 0.0 for name in TOUCHES.get(part, (part,)))
 
     def sees(self, thing: str, name: object = "") -> bool:
@@ -406,6 +451,7 @@ class Robot:
 
         ``name`` of a mark is its number.
         """
+        thing = self._one_of("things", thing, ["mark"])
         return _key(thing, name) in self._state().sees
 
     def seen_name(self, thing: str) -> str:
@@ -418,6 +464,10 @@ class Robot:
 
         ``measure``: "distance" in cm, "left" or "up" in degrees from straight ahead.
         """
+        thing, measure = (
+            self._one_of("placed_things", thing, ["mark"]),
+            self._one_of("measures", measure),
+        )
         place = self._state().sees.get(_key(thing, ""))
         if place is None:
             return -1.0
@@ -431,6 +481,7 @@ class Robot:
 
     def person_is(self, distance: str) -> bool:
         """Whether the person it sees is "close" (under 1 m), "middle" (under 2 m) or "far"."""
+        distance = self._one_of("distances", distance)
         place = self._state().sees.get("face")
         if place is None:
             return False
@@ -452,10 +503,11 @@ class Robot:
             "aware": state.settings.get("awareness"),
             "fallen": state.fallen,
         }
-        return bool(doing.get(what))
+        return bool(doing.get(self._one_of("doings", what, doing)))
 
     def is_in(self, posture: str) -> bool:
         """Whether it is in a posture, such as "posture_sit"."""
+        posture = self._chosen("postures", posture)
         return _word(posture) == _word(self._state().posture)
 
     def posture(self) -> str:
@@ -472,10 +524,12 @@ class Robot:
 
     def take_picture(self, file: str, camera: str = "top") -> None:
         """Take a picture with the "top" or "bottom" camera, into a file on the robot."""
+        camera = self._one_of("cameras", camera)
         self._perform("take_picture", file=file, camera=camera)
 
     def record_video(self, file: str, seconds: float, camera: str = "top") -> None:
         """Record a video for some seconds, into a file on the robot."""
+        camera = self._one_of("cameras", camera)
         self._perform("record_video", file=file, seconds=seconds, camera=camera)
 
     def play_sound(self, file: str) -> None:
@@ -491,6 +545,17 @@ class Robot:
     def _perform(self, action: str, **args: Any) -> None:
         self._client.perform(self.robots, action, args)
 
+    def _chosen(self, table: str, word: object) -> str:
+        """What it is asked with for a word; it refuses itself what it does not know."""
+        return chosen(word, table, self._model(), is_open=True)
+
+    def _one_of(self, table: str, word: object, also: Collection[str] = ()) -> str:
+        """The same, of words that are known here; raises RobotError for another one."""
+        return chosen(word, table, self._model(), also=also)
+
+    def _model(self) -> str:
+        return robot_listener(self._network).model(self.robots[0])
+
     def _state(self) -> RobotState:
         """The newest state, told after all that the robot was seen to do, or told of the person."""
         robot = self.robots[0]
@@ -501,6 +566,37 @@ class Robot:
         if state is None:
             raise not_answering(robot)
         return state
+
+
+_ROBOTS: dict[str, Robot] = {}
+"""The single robots of the program, by name."""
+
+
+def as_robot(value: Any) -> Robot:
+    """The same robot, or that of a name; raises ValueRefused for what is none of the program's."""
+    if isinstance(value, Robot):
+        return value
+    if not isinstance(value, str):
+        refuse(
+            "A robot belongs here, and {value} is {noun}.",
+            LOOK,
+            PUT_ROBOT,
+            value=shown(value),
+            noun=noun_of(value),
+        )
+    folded = {name.casefold(): name for name in _ROBOTS}
+    name = value if value in _ROBOTS else folded.get(value.strip().casefold(), "")
+    if name:
+        return _ROBOTS[name]
+    near = get_close_matches(value, _ROBOTS, 1)
+    refuse(
+        "There is no robot called {value}. There are: {known}.",
+        *(["Did you mean “{near}”?"] if near else []),
+        LOOK,
+        value=shown(value),
+        known=", ".join(_ROBOTS),
+        near="".join(near),
+    )
 
 
 def _is_on(on: object) -> bool:

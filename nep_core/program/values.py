@@ -175,6 +175,7 @@ TYPE_NUMBER = "Write digits only, with a dot where it is not whole."
 STOP_GROWING = "Look for a loop that makes the number larger and larger."
 NO_NAN = "Check the calculation that the number comes from."
 PUT_LIST = "Put a list into this place."
+PUT_ROBOT = "Put a robot, or the name of one, into this place."
 ROUND_IT = "Round the number with a block that does that."
 
 TOO_LARGE = "A number became too large."
@@ -214,8 +215,9 @@ def shown(value: Any) -> str:
 
 
 def noun_of(value: object) -> Text:
-    """What kind of value it is, in plain words."""
-    return next((noun for kind, noun in _KINDS if isinstance(value, kind)), Text("something else"))
+    """What a value is; what is no value of Python itself, such as a robot, says so itself."""
+    other: Text = getattr(type(value), "NOUN", Text("something else"))
+    return next((noun for kind, noun in _KINDS if isinstance(value, kind)), other)
 
 
 # A value that must be of a kind.

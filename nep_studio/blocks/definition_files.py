@@ -8,11 +8,13 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, get_args
 
+from .closed import Closing
 from .definitions import (
     FLAGS,
     CallError,
     Category,
     Definition,
+    Part,
     SentenceError,
     Shape,
     groups_of,
@@ -156,7 +158,7 @@ def _read_block(
     translations = entry.get("translations", {})
     if not all(isinstance(words, str) for words in translations.values()):
         raise SentenceError("translations must be sentences by their language")
-    parts = parse(entry["sentence"])
+    parts = _closed(category, entry, parse(entry["sentence"]))
     slots, groups = slots_of(parts), groups_of(parts)
     minimum = entry.get("minimum", {})
     definition = Definition(
@@ -179,6 +181,22 @@ def _read_block(
     _check_defaults(definition, minimum)
     _check_code(definition, generators)
     return definition
+
+
+def _closed(
+    category: Category, entry: Mapping[str, Any], parts: tuple[Part, ...]
+) -> tuple[Part, ...]:
+    """The parts of a sentence with the places closed that take no block."""
+    generator = str(entry.get("generator", ""))
+    closing = Closing(
+        category.page,
+        str(entry.get("shape", "")),
+        generator,
+        category.id == "code" or generator.startswith("code_"),
+        "silent" in entry.get("flags", []),
+        frozenset(slot.master for slot in slots_of(parts).values()),
+    )
+    return tuple(map(closing.close, parts))
 
 
 def _check_shape(definition: Definition) -> None:

@@ -44,7 +44,8 @@ class Slot:
     ``table`` names the choices, ``group`` the group that the slot is in. The choices of a slot
     with a ``master`` are those of the table "table.value", by the value of the slot ``master``.
     ``low`` and ``high`` are the ends of a slider. A slot of kind parameter shows ``label``, and
-    ``table`` is the type of the block that is dragged out of it.
+    ``table`` is the type of the block that is dragged out of it. ``closed`` is why no block fits
+    where its kind takes some: a key of ``closed.REASONS``, or an empty text.
     """
 
     name: str
@@ -55,6 +56,17 @@ class Slot:
     low: float | None = None
     high: float | None = None
     label: str = ""
+    closed: str = ""
+
+    @property
+    def fits(self) -> frozenset[str]:
+        """The result types of blocks that may be plugged in."""
+        return frozenset() if self.closed else self.kind.fits
+
+    @property
+    def pluggable(self) -> bool:
+        """Whether a reporter block may be put into the slot."""
+        return bool(self.fits)
 
     def why_not(self, value: object) -> Text | None:
         """Why the slot's field cannot hold ``value``, whatever its choices are, or None."""
@@ -427,6 +439,12 @@ class Definition:
     def beginning(self, slot: str) -> FieldValue | None:
         """What the field of a slot holds in a new block, or None."""
         return self.said.get(slot, self.defaults.get(slot))
+
+    def robots_in(self, block: Block) -> Iterator[str]:
+        """The robots that the fields of a block name, also where another block is plugged in."""
+        for key, slot in self.keys(block.groups) if "robot" in self.kinds else ():
+            if slot.kind.name == "robot":
+                yield str(self.value(block, key))
 
     def value(self, block: Block, key: str) -> FieldValue | None:
         """What the field of a slot holds, or its default, or None when it has neither."""

@@ -83,6 +83,8 @@ def find_uses(project: Project, language: Language, chain: list[str]) -> Iterato
         if definition is None or _NAMING.isdisjoint(definition.kinds):
             continue
         for key, slot in definition.keys(block.groups):
+            if project.plugged(block, key) is not None:
+                continue  # what it names is known only while the program runs
             kind, name = slot.kind.name, str(definition.value(block, key))
             if kind == "gesture" or (kind == "state" and name.startswith(GESTURE_STATE)):
                 yield Use("gesture", name.removeprefix(GESTURE_STATE), block.id)
@@ -90,9 +92,15 @@ def find_uses(project: Project, language: Language, chain: list[str]) -> Iterato
                 yield Use("heard", name, block.id)
             elif kind in ("robot", "message", "rule"):
                 yield Use(kind, name, block.id)
+            elif name.startswith(GESTURE_STATE) and kind in _HOLDING:
+                gesture = name.removeprefix(GESTURE_STATE)
+                if gesture in language.choices.get("gestures", ()):
+                    yield Use("gesture", gesture, block.id)
 
 
-_NAMING = frozenset(("robot", "gesture", "state", "message", "rule"))
+_HOLDING = ("any", "text")
+"""The kinds of the slots whose text may go into the place of a human state later."""
+_NAMING = frozenset(("robot", "gesture", "state", "message", "rule", *_HOLDING))
 """The kinds of the slots that name something of the project."""
 
 

@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 from faults import Text, text_of
 
 from . import edits
+from .closed import REASONS
 from .definitions import Definition
 from .language import Language
 from .places import InBody, InInput, InStack, NewStack, Place, chain_at, procedure_uses
@@ -69,10 +70,12 @@ def why_not_plugged(
         return None
     if not value.is_value:
         return Text("Only a block that gives a value goes into a slot.")
-    if value.result in slot.kind.fits:
+    if value.result in slot.fits:
         return None
     noun = Text(slot.kind.noun)
-    if not slot.kind.pluggable:
+    if slot.closed:
+        return text_of("No block goes into this place: {reason}.", reason=REASONS[slot.closed])
+    if not slot.pluggable:
         return text_of("This place takes {noun} that is chosen or typed, not a block.", noun=noun)
     return text_of(
         "This place needs {noun}, and “{block_name}” gives {result}.",

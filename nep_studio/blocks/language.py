@@ -171,11 +171,13 @@ class Language:
         return tables.get(self.table_of(slot, block, key), {})
 
     def robot_of(self, block: Block) -> str:
-        """The name of the robot that a block asks; "" when it asks none."""
+        """The name of the robot that a block asks; "" when it asks none, or a block says which."""
         definition = self.definitions.get(block.type)
         slots = definition.slots.values() if definition is not None else ()
         robot = next((slot for slot in slots if slot.kind.name == "robot"), None)
-        return str(definition.value(block, robot.name)) if definition and robot else ""
+        if definition is None or robot is None or robot.name in block.inputs:
+            return ""
+        return str(definition.value(block, robot.name))
 
     def label_of(self, slot: Slot, value: object, block: Block | None = None, key: str = "") -> str:
         """What a value of a slot is called, also one that the block's robot does not have."""

@@ -15,7 +15,7 @@ OWN_CATEGORY = Category("my", "My blocks", "my_blocks", 50, "behaviour")
 """The category of own blocks; resources/blocks/my_blocks.toml has those of all projects."""
 
 DEFINE, CALL, PARAMETER, RETURN = "my.define.", "my.call.", "my.parameter.", "my.return"
-PARAMETER_KINDS = ("number", "text", "boolean", "list", "table", "any")
+PARAMETER_KINDS = ("number", "text", "boolean", "list", "table", "colour", "robot", "any")
 MOST_PROCEDURES = 500
 MOST_PARTS = 40
 

@@ -252,6 +252,12 @@ class Project:
             if block.inputs:
                 waiting += reversed(block.inputs.values())
 
+    def plugged(self, block: Block, key: str) -> Block | None:
+        """The block plugged into a slot, or None; a disabled one does not count."""
+        block_id = block.inputs.get(key)
+        plugged = self.blocks[block_id] if block_id else None
+        return None if plugged is None or plugged.disabled else plugged
+
     def variable(self, variable_id: str) -> Variable | None:
         """The variable with this id, or None."""
         return next((v for v in self.variables if v.id == variable_id), None)

@@ -52,6 +52,7 @@ RESULTS = {
     "list": "a list",
     "table": "a table",
     "colour": "a colour",
+    "robot": "a robot",
     "any": "any value",
 }
 """What a reporter gives; ``any`` is known only while the program runs (a variable)."""
@@ -66,6 +67,7 @@ RESULT_SHAPES: dict[str, SlotShape] = {
     "list": "bracket",
     "table": "bracket",
     "colour": "pill",
+    "robot": "pill",
     "any": "pill",
 }
 """The outline of a block that gives such a result."""
@@ -263,7 +265,8 @@ def _read_any(text: str) -> FieldValue:
 class Kind:
     """A kind of slot: what it is called, which block results fit, what a person can type in it.
 
-    ``fits`` are the result types of blocks that may be plugged in; ``typed`` says that the slot
+    ``fits`` are the result types of blocks that may be plugged in, unless the slot is closed
+    (``Slot.closed``); ``typed`` says that the slot
     has a field (a default value that comes back when the plugged block leaves). ``why_not`` says
     why a field cannot hold a value; ``read`` makes a value of what is typed, ``write`` a text of a
     value. ``constants`` are the types of Python's constants that a field can hold. ``noun``,
@@ -313,11 +316,6 @@ class Kind:
     is_pressed: bool = False
     """Whether a press changes it: it needs no editor."""
 
-    @property
-    def pluggable(self) -> bool:
-        """Whether a reporter block may be put into the slot."""
-        return bool(self.fits)
-
     def to_python(self, value: FieldValue | None) -> ast.expr:
         """The expression of a field that stands for itself: no name, no arithmetic."""
         if self.of_nothing is not None:
@@ -346,6 +344,8 @@ def constant(value: FieldValue | None) -> ast.expr:
 # The kinds.
 
 _ALL = frozenset(RESULTS)
+_WORDS = frozenset({"text", "any"})
+"""What fits where a word is meant out of those that there are: they are looked up while it runs."""
 _COLOUR_WORDS: dict[str, FieldValue] = {
     "red": "#ff0000",
     "green": "#00ff00",
@@ -406,17 +406,26 @@ def _name(
     missing: bool = True,
     is_said: bool = True,
     read: Read = str,
+    fits: frozenset[str] | None = None,
+    new: FieldValue | None = None,
 ) -> Kind:
-    """A kind of field that holds a name; one that is not ``is_said`` is a name in Python too."""
+    """A kind of field that holds a name; one that is not ``is_said`` is a name in Python too.
+
+    What is said in Python as it is may come from a block too.
+    """
+    is_open = is_said and not prefix
     told = text_of("{noun} is missing.", noun=Text(noun)) if missing else None
     return Kind(
         name,
         noun,
+        fits=(_WORDS if is_open else frozenset()) if fits is None else fits,
         constants=(str,) if is_said else (),
         prefix=prefix,
         table=table,
         read=read,
         takes_any_words=missing,
+        becomes_text=is_open,
+        new=new,
         missing=told,
         hint=name,
         opens=True,
@@ -439,7 +448,16 @@ KINDS: dict[str, Kind] = {
         ),
         _words("text", "a text"),
         _words("lines", "a text of several lines", has_lines=True),
-        Kind("line", "one line of text", "square", new="", takes_any_words=True, hint="text"),
+        Kind(
+            "line",
+            "one line of text",
+            "square",
+            _WORDS,
+            new="",
+            takes_any_words=True,
+            becomes_text=True,
+            hint="text",
+        ),
         Kind(
             "boolean",
             "a yes-or-no question",
@@ -491,6 +509,7 @@ KINDS: dict[str, Kind] = {
             "pill",
             frozenset({"colour", "any"}),
             _why_not_colour,
+            new="#ff8800",
             words=_COLOUR_WORDS,
             mark="swatch",
             opens=True,
@@ -498,6 +517,7 @@ KINDS: dict[str, Kind] = {
         Kind(
             "checkbox",
             "on or off",
+            fits=frozenset({"boolean", "any"}),
             why_not=_why_not_checked,
             constants=(bool,),
             words=_SWITCH_WORDS,
@@ -509,8 +529,10 @@ KINDS: dict[str, Kind] = {
         _name("state", "a human state", read=_state),
         _name("mode", "a state of the program", read=_message),
         _name("gesture", "a gesture", prefix=GESTURE_STATE, table="gestures"),
-        Kind("goal", "a goal", new="", takes_any_words=True, hint="goal", opens=True),
-        _name("robot", "a robot", is_said=False),
+        Kind("goal", "a goal", fits=_WORDS, new="", takes_any_words=True, hint="goal", opens=True),
+        _name(
+            "robot", "a robot", is_said=False, fits=frozenset({"robot", "text", "any"}), new="NAO"
+        ),
         Kind(
             "rule",
             "a rule",
@@ -521,7 +543,7 @@ KINDS: dict[str, Kind] = {
             opens=True,
         ),
         _name("variable", "a variable", missing=False, is_said=False),
-        Kind("choice", "one of a list", hint="choose", opens=True),
+        Kind("choice", "one of a list", fits=_WORDS, hint="choose", opens=True),
         Kind(
             "settings",
             "a list of settings",

@@ -74,7 +74,8 @@ def _of_block(project: Project, block: Block, language: Language) -> Iterator[Oc
     asked, name = _Asked(project, block, definition, language), _name_of(definition)
     if is_of := _BY_BLOCK.get(name):
         found = is_of(asked)
-        yield replace(found, state=state_of(found)) if _is_told(name, found) else found
+        if found.value or found.kind not in _OF_A_CHOICE:  # else only the running program knows it
+            yield replace(found, state=state_of(found)) if _is_told(name, found) else found
     for key, slot in definition.keys(block.groups):
         if slot.name in _WORD_SLOTS.get(name, ()):
             yield from asked.word(key)
@@ -132,6 +133,10 @@ def state_of(occurrence: Occurrence) -> str:
     return value or "touched_head"
 
 
+_OF_A_CHOICE: frozenset[Kind] = frozenset(
+    ("touch", "distance", "emotion", "sensor", "joint", "posture", "doing")
+)
+"""What is always one of a table: it makes nothing without one."""
 _THINGS: tuple[Kind, ...] = ("face", "ball", "mark", "sound")
 _STATES: tuple[tuple[str, Kind, str], ...] = (
     ("touched_", "touch", "touch_parts"),
@@ -192,7 +197,7 @@ class _Asked:
 
     def current(self) -> Occurrence:
         joint, name = self.value("joint"), self.label("joint")
-        return replace(self.of("sensor"), value=f"current_{joint}", words=name)
+        return replace(self.of("sensor"), value=f"current_{joint}" if joint else "", words=name)
 
     def _keys(self) -> dict[str, Slot]:
         return dict(self.definition.keys(self.block.groups))

@@ -17,7 +17,7 @@ import msgspec
 
 from faults import Text
 from faults.files import read_toml
-from robots.errors import ActionFailed, FilesUnusable
+from robots.errors import ActionFailed, FilesUnusable, nearest
 
 from .body import Body
 from .keyframes import SHORTEST_STEP_S, Handle, Keyframes, Track, mirror_angle, problem_of
@@ -137,7 +137,11 @@ class Animations:
             known = ", ".join(self.names(*kinds))
             word = Text(kinds[0] if kinds else "animation")
             raise ActionFailed(
-                'There is no {word} "{name}". Possible: {known}.', word=word, name=name, known=known
+                'There is no {word} "{name}". Possible: {known}.',
+                word=word,
+                name=name,
+                known=known,
+                checklist=nearest(name, self.names(*kinds)),
             )
         return self._animations[name]
 

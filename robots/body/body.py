@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from faults.files import content, read_toml
-from robots.errors import ActionFailed, FilesUnusable
+from robots.errors import ActionFailed, FilesUnusable, nearest
 
 from .limbs import Limb
 
@@ -259,7 +259,10 @@ def lights(group: str) -> tuple[str, ...]:
     if group not in GROUPS:
         known = ", ".join(sorted(GROUPS))
         raise ActionFailed(
-            'There are no lights called "{group}". Possible: {known}.', group=group, known=known
+            'There are no lights called "{group}". Possible: {known}.',
+            group=group,
+            known=known,
+            checklist=nearest(group, GROUPS),
         )
     return GROUPS[group]
 
@@ -317,7 +320,10 @@ def posture_name(body: Body, word: str) -> str:
             return name
     known = ", ".join(_word(name) for name in body.postures)
     raise ActionFailed(
-        'There is no posture "{word}". Possible postures: {known}.', word=word, known=known
+        'There is no posture "{word}". Possible postures: {known}.',
+        word=word,
+        known=known,
+        checklist=nearest(word, map(_word, body.postures)),
     )
 
 
@@ -377,6 +383,7 @@ def single_parts(part: str) -> tuple[str, ...]:
             'There is no part "{part}" of the body. Possible: {parts}.',
             part=part,
             parts=", ".join(PARTS),
+            checklist=nearest(part, PARTS),
         )
     return PARTS[part]
 

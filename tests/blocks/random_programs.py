@@ -123,7 +123,7 @@ class Dice:
                 b.id
                 for b in self.project.blocks.values()
                 for slot in self.slots(b.type)
-                if slot.kind.pluggable and slot.kind.name in kinds
+                if slot.pluggable and slot.kind.name in kinds
             ]
             owner = self.one(owners)
             return InInput(owner, self.slot(owner, kinds))

@@ -158,13 +158,15 @@ def test_what_does_not_fit_is_refused_with_its_reason(language, edit, reason):
 
 
 def test_a_slot_says_which_value_it_needs(language):
-    editor = build(language, [B("event.started"), B("robot.walk")])
-    walk = editor.project.pages["behaviour"][0].body[1]
+    editor = build(language, [B("robot_events.touched"), B("robot.walk")])
+    hat, walk = editor.project.pages["behaviour"][0].body
 
     with pytest.raises(EditRefused, match=r"needs a number, and “join …” gives a text"):
         editor.create("text.join", InInput(walk, "forward"))
-    with pytest.raises(EditRefused, match="chosen or typed"):
-        editor.create("text.join", InInput(walk, "robot"))
+    with pytest.raises(EditRefused, match="a rule waits for is fixed"):
+        editor.create("text.join", InInput(hat, "robot"))
+    with pytest.raises(EditRefused, match=r"needs a robot, and “list of …” gives a list"):
+        editor.create("list.create", InInput(walk, "robot"))
     editor.create("math.number", InInput(walk, "forward"))
     with pytest.raises(EditRefused, match="in this slot already"):
         editor.create("math.number", InInput(walk, "forward"))

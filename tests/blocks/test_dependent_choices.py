@@ -113,4 +113,5 @@ def test_a_slot_for_a_variable_has_its_name(tmp_path):
 def test_what_fits_into_a_slot_has_its_shape_or_the_slot_takes_all():
     for kind in KINDS.values():
         shapes = {RESULT_SHAPES[result] for result in kind.fits - {"any"}}
-        assert shapes in (set(), {kind.shape}) or kind.fits == set(RESULTS)
+        is_round = kind.shape == "pill"  # a place for a word, a switch, a robot: as it is typed
+        assert is_round or shapes in (set(), {kind.shape}) or kind.fits == set(RESULTS)

@@ -150,7 +150,7 @@ def test_what_a_later_version_adds_to_the_file_is_kept(language):
         ("procedures", [{"id": "p1", "parts": [{"id": "a1", "name": "n"}]}], "at least one word"),
         (
             "procedures",
-            [{"id": "p1", "parts": ["x", {"id": "a1", "name": "n", "kind": "robot"}]}],
+            [{"id": "p1", "parts": ["x", {"id": "a1", "name": "n", "kind": "state"}]}],
             "is one of",
         ),
         ("procedures", [{"id": "p1", "parts": ["x"]}] * 2, "twice"),

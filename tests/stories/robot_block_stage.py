@@ -73,7 +73,11 @@ def robot_blocks() -> list[Definition]:
     return [
         definition
         for definition in LANGUAGE.definitions.values()
-        if "robot" in definition.slots or definition.category.id in ("robot_events", "robot_speech")
+        if definition.result != "robot"  # a value, that does nothing by itself
+        and (
+            "robot" in definition.slots
+            or definition.category.id in ("robot_events", "robot_speech")
+        )
     ]
 
 

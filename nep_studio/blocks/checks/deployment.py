@@ -105,7 +105,9 @@ def check_abilities(project: Project, language: Language, chain: list[str]) -> F
         definition = language.definitions[block.type]
         for key, slot in definition.keys(block.groups):
             value = definition.value(block, key)
-            if slot.kind.name != "choice" or language.why_not_choice(slot, value, block, key):
+            if slot.kind.name != "choice" or project.plugged(block, key) is not None:
+                continue  # what is plugged in is known, and refused, while it runs
+            if language.why_not_choice(slot, value, block, key):
                 continue  # what no robot has is told of by check_blocks
             table = language.table_of(slot, block, key)
             lacking = [name for name in robots if not _has(language, name, table, value)]
@@ -161,6 +163,8 @@ def check_real_robots(project: Project, language: Language, chain: list[str]) ->
         yield None
         definition = language.definitions.get(block.type)
         if definition is None or "needs_real_robot" not in definition.flags:
+            continue
+        if project.plugged(block, "robot") is not None:
             continue
         robot = str(definition.value(block, "robot"))
         if robot in virtual or (robot == ALL_ROBOTS and virtual):
@@ -334,5 +338,8 @@ def _trigger(language: Language, hat: Block) -> str:
             # goals that begin alike are told from each other, and from rules, by their name
             goal = f" goal {definition.value(hat, 'name')}" if "name" in definition.slots else ""
             return f"{definition.value(hat, slot.name)}{goal}"
-    values = [str(definition.value(hat, key)) for key, _ in definition.keys(hat.groups)]
+    values = [
+        f"block {hat.inputs[key]}" if key in hat.inputs else str(definition.value(hat, key))
+        for key, _ in definition.keys(hat.groups)
+    ]
     return f"block {hat.type} {values}"

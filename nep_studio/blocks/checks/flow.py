@@ -26,6 +26,8 @@ from .diagnostic import Fix, Found, found
 
 _POSTURES = {"stands_up": "posture_stand", "rests": "posture_rest"}
 """The postures after blocks with such a flag."""
+UNKNOWN = "?"
+"""A posture that only the running program knows."""
 FOR_EACH, CHANGE = "control.for_each", "variable.change"
 _OF_POSTURE = {"posture", "stands", *_POSTURES}
 
@@ -71,23 +73,28 @@ def _never_reached(
 
 def _walking_unready(project: Project, language: Language, blocks: list[Block]) -> Found:
     """Blocks that need a standing robot after one that made it sit; bodies count in their order."""
-    postures: dict[str, str] = {}
+    postures: dict[str, str] = {}  # none where a robot's is known only while the program runs
     for block in blocks:
         yield None
         definition = language.definitions.get(block.type)
         if definition is None or definition.flags.isdisjoint(_OF_POSTURE):
             continue
+        is_known = project.plugged(block, "robot") is None
         robot = str(definition.value(block, "robot"))
         taken = next((_POSTURES[flag] for flag in definition.flags if flag in _POSTURES), "")
         if "posture" in definition.flags:
             taken = str(definition.value(block, "posture"))
+            taken = UNKNOWN if project.plugged(block, "posture") is not None else taken
         if taken:
-            if robot == ALL_ROBOTS:
+            if robot == ALL_ROBOTS or not is_known:
                 postures.clear()
-            postures[robot] = taken
+            if is_known:
+                postures[robot] = taken
+            continue
+        if not is_known:
             continue
         posture = postures.get(robot, postures.get(ALL_ROBOTS))
-        if posture is not None and posture not in language.standing:
+        if posture not in (None, UNKNOWN) and posture not in language.standing:
             label = language.choices.get("postures", {}).get(posture, posture)
             name = "A robot" if robot == ALL_ROBOTS else robot
             fix = Fix("stand_first", "Stand first", {"block": block.id, "robot": robot})

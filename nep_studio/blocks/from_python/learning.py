@@ -24,8 +24,10 @@ from nep_studio.blocks.generate.kinds import (
     LIST,
     NUMBER,
     RESULT_KINDS,
+    ROBOT,
     TABLE,
     TEXT,
+    TRUTH,
     WHOLE,
     Kinds,
     note,
@@ -117,6 +119,8 @@ class Learner(Expressions):
         typed: frozenset[str],
         plain: str,
         known: Known,
+        *,
+        is_other: bool = False,
     ) -> None:
         super().__init__(Project("Learned"), language, ProgramNames({}, {}), REPORTERS, Kinds())
         self.asked: list[str] = []
@@ -127,6 +131,11 @@ class Learner(Expressions):
         self._plain = plain
         self._known = known
         self._functions = 0
+        self._is_other = is_other
+        self.has_other = False
+        """Whether the Python has another form for values that are worked out."""
+        self.worked_out: set[str] = set()
+        """The choices that a block gives in this variant."""
         self.must_show: set[str] = set()
         """The slots that must show that they hold a text."""
         self.free: set[str] = set()
@@ -150,6 +159,10 @@ class Learner(Expressions):
             return note(node, self._known.number)
         if slot.kind.name in ("list", "table"):
             return note(node, RESULT_KINDS[slot.kind.name])
+        if slot.kind.name == "robot":
+            return note(node, ROBOT)
+        if slot.kind.name == "checkbox":
+            return note(node, TRUTH)
         return note(node, TEXT) if slot.kind.becomes_text else node
 
     def value_in(self, block: Block, key: str) -> ast.expr:
@@ -199,6 +212,19 @@ class Learner(Expressions):
         if key in self._fields_chosen:
             return str(self._fields_chosen[key])
         return next(iter(self.language.choices_of(self._slot(block, key))), "")
+
+    def chosen(self, block: Block, key: str) -> str | None:
+        """The choice that this variant is made with; None where a block gives it."""
+        self.has_other = True
+        if not self._is_other:
+            return self.choice(block, key)
+        self.worked_out.add(key)
+        return None
+
+    def stays(self, node: ast.expr) -> bool:
+        """As this variant has it."""
+        self.has_other = True
+        return not self._is_other
 
     def variable(self, block: Block) -> str:
         """A marker for the variable of a block."""
@@ -422,7 +448,7 @@ def _old_patterns(definition: Definition) -> Iterator[Pattern]:
 
 def _old_pattern(definition: Definition, text: str, fields: Mapping[str, FieldValue]) -> Pattern:
     tree = ast.parse(text)
-    names = {name for name, slot in definition.slots.items() if slot.kind.pluggable}
+    names = {name for name, slot in definition.slots.items() if slot.pluggable}
     for node in ast.walk(tree):
         if isinstance(node, ast.Name) and node.id in names:
             node.id = mark(SLOT, node.id)
@@ -449,22 +475,28 @@ def _patterns(definition: Definition, language: Language) -> Iterator[Pattern]:
     for groups in itertools.islice(_group_counts(definition), MOST_PATTERNS):
         for fields in _choices(definition, language, groups):
             keys = tuple(key for key, _ in definition.keys(groups))
-            variants = itertools.product(_variants(definition, keys), every)
-            for (typed, plain), known in variants:
-                learner = Learner(language, fields, keys, typed, plain, known)
+            variants = itertools.product((False, True), _variants(definition, keys), every)
+            has_other = False
+            for is_other, (typed, plain), known in variants:
+                if is_other and not has_other:
+                    break
+                if is_other and (plain or known is KNOWN[1]):
+                    continue  # what is worked out is so whatever stands in the other slots
+                learner = Learner(language, fields, keys, typed, plain, known, is_other=is_other)
                 try:
                     nodes = learner.nodes(definition, groups)
                 except _NOT_MADE:
                     continue  # not made in this variant
-                form = _form(nodes)
+                form, has_other = _form(nodes), has_other or learner.has_other
                 if nodes and form not in (*seen, _MARKER) and not _is_range(nodes):
                     seen.add(form)
                     size = sum(_says(inner) for node in nodes for inner in ast.walk(node))
                     free = frozenset(learner.free if learner.api & VALUES else ())
                     clear = frozenset(learner.must_show)
                     fractions = _numbers(definition, keys) - typed if known is not KNOWN[0] else ()
+                    said = {k: v for k, v in fields.items() if k not in learner.worked_out}
                     yield Pattern(
-                        *(definition, nodes, fields, groups, keys, size, clear, free),
+                        *(definition, nodes, said, groups, keys, size, clear, free),
                         fractions=frozenset(fractions),
                     )
 

@@ -505,7 +505,7 @@ def _is_value(name: str, tree: ast.Module) -> bool:
 
 _MAKES = {
     **{"as_list": "list", "as_number": "number", "as_table": "table", "bool": "boolean"},
-    **{"as_text": "text", "str": "text"},
+    **{"as_robot": "robot", "as_text": "text", "str": "text"},
 }
 
 

@@ -165,7 +165,15 @@ def _whole_slot(node: ast.Call) -> str:
     return ""
 
 
-_MADE = {"list": ("as_list",), "table": ("as_table",), "boolean": ("bool",)}
+_MADE = {
+    "list": ("as_list",),
+    "table": ("as_table",),
+    "boolean": ("bool",),
+    "checkbox": ("bool",),
+    "robot": ("as_robot",),
+}
+_NEEDS = ("list", "table", "robot")
+"""The kinds, beside numbers, of which a value is made where it may be another."""
 
 
 def _without_int(node: ast.expr) -> ast.expr:
@@ -231,10 +239,10 @@ class ValueReader:
             case ast.Dict(keys=[]) if slot.kind.name == "table":
                 return True
         plugged = None
-        if slot.kind.pluggable and is_free:
+        if slot.pluggable and is_free:
             found = self.blocks(within(node, self._made(slot)))
-            plugged = next((made for made, result in found if result in slot.kind.fits), None)
-        elif slot.kind.pluggable:
+            plugged = next((made for made, result in found if result in slot.fits), None)
+        elif slot.pluggable:
             plugged = self.plugged(slot, node, is_clear=is_clear)
         if plugged is None:
             return False
@@ -260,8 +268,10 @@ class ValueReader:
         kind = slot.kind
         if not kind.becomes_text:
             inner = within(node, self._made(slot))
-            needed = NUMBER if kind.is_number else RESULT_KINDS.get(kind.name, ANY)
-            if inner is node and kind.name != "boolean" and not may_be(node, needed, self._seen):
+            needed = RESULT_KINDS[kind.name] if kind.name in _NEEDS else ANY
+            needed = NUMBER if kind.is_number else needed
+            is_truth = kind.name in ("boolean", "checkbox")
+            if inner is node and not is_truth and not may_be(node, needed, self._seen):
                 return None
             return next((made for made, result in self.blocks(inner) if result in kind.fits), None)
         inner, others = within(node, TOLD), kind.fits - TEXT_RESULTS
@@ -475,12 +485,14 @@ class ValueReader:
 
     def _converted(self, node: ast.expr) -> tuple[Made, str] | None:
         """The block of a text or a number that is made of the value in it, and its result."""
-        for generator, names in (("text", TOLD), ("number", ("as_number",))):
+        made_by = {"text": TOLD, "number": ("as_number",), "robot": ("as_robot",)}
+        for generator, names in made_by.items():
             inner, block_type = within(node, names), self.type_of(generator)
             if inner is node or not block_type:
                 continue
             definition = self.language.definitions[block_type]
-            fits = definition.slots[generator].kind.fits - TEXT_RESULTS
+            fits = definition.slots[generator].fits
+            fits = fits if generator == "robot" else fits - TEXT_RESULTS
             for made, result in self.blocks(inner):
                 if result in fits:
                     whole = Made(block_type, inputs={generator: made}, written=made.written)
@@ -494,6 +506,8 @@ class ValueReader:
             yield made, definitions[made.type].result
         elif name in self.names.variables and (getter := self.type_of("variable")):
             yield Made(getter, {"variable": self.names.variables[name]}), definitions[getter].result
+        elif name in self.names.robots and (robot := self.type_of("robot")):
+            yield Made(robot, {"robot": self.names.robots[name]}), definitions[robot].result
 
     def _field(self, slot: Slot, node: ast.expr) -> FieldValue | None:
         kind = slot.kind.name

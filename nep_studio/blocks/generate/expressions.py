@@ -21,6 +21,7 @@ from .kinds import (
     LIST,
     NUMBER,
     RESULT_KINDS,
+    ROBOT,
     TABLE,
     TEXT,
     TRUTH,
@@ -210,6 +211,10 @@ class Expressions:
             return node if are(kinds, LIST) else self.api_call("as_list", node)
         if kind.name == "table":
             return node if are(kinds, TABLE) else self.api_call("as_table", node)
+        if kind.name == "robot":
+            return node if are(kinds, ROBOT) else self.api_call("as_robot", node)
+        if kind.name == "checkbox":
+            return node if are(kinds, TRUTH) else call("bool", node)
         if kind.becomes_text:
             return node if are(kinds, TEXT) else self.told(node)
         return node
@@ -255,6 +260,13 @@ class Expressions:
         """Whether two values may be worked out in the other order, and give the same."""
         return may_swap(first, second)
 
+    def stays(self, node: ast.expr) -> bool:
+        """Whether a value is the same when it is worked out again, after some time."""
+        if not isinstance(node, ast.Name):
+            return isinstance(node, ast.Constant)
+        variables = self.names.variables.items()
+        return not any(name == node.id and v in self.sharing.shared for v, name in variables)
+
     def kinds_at(self, key: str) -> int:
         """The kinds of what is kept somewhere; what is written is written for these."""
         kinds = self.written_for[key] = self._kinds.of(key)
@@ -263,7 +275,7 @@ class Expressions:
     def _field(self, block: Block, key: str, kind: Kind, value: FieldValue | None) -> ast.expr:
         if kind.name == "robot":
             self.robots.add(str(value))
-            return ast.Name(self.names.robots[str(value)])
+            return note(ast.Name(self.names.robots[str(value)]), ROBOT)
         if kind.name == "variable":
             return ast.Name(self.variable(block))
         if kind.name == "choice":
@@ -280,9 +292,7 @@ class Expressions:
 
     def plugged(self, block: Block, key: str) -> Block | None:
         """The block plugged into a slot, or None; a disabled one does not count."""
-        block_id = block.inputs.get(key)
-        plugged = self.project.blocks[block_id] if block_id else None
-        return None if plugged is None or plugged.disabled else plugged
+        return self.project.plugged(block, key)
 
     def choice(self, block: Block, key: str) -> str:
         """The value of a choice slot, which is one of its table."""
@@ -293,6 +303,10 @@ class Expressions:
         if reason is not None:
             raise CodeRefused(reason, block=block.id, checklist=("Choose another one.",))
         return str(value)
+
+    def chosen(self, block: Block, key: str) -> str | None:
+        """The value of a choice slot; None where a block is plugged in, which gives it."""
+        return None if self.plugged(block, key) is not None else self.choice(block, key)
 
     def text(self, block: Block, key: str) -> str:
         """What the field of a slot holds, as a text."""

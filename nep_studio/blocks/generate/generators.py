@@ -128,6 +128,7 @@ _LINES = {
     "choose": "a if condition else b",
     "not": "not a",
     "human_state_is": "human_state() == state",
+    "robot": "robot",
     "text": "text",
     "text_number": "number_in(text)",
     "colour": "colour",
@@ -319,7 +320,10 @@ def _letter(code: Expressions, block: Block) -> ast.expr:
 
 
 def _emotion(code: Expressions, block: Block) -> ast.expr:
-    state = ast.Constant(f"emotion_{code.choice(block, 'emotion')}")
+    chosen = code.chosen(block, "emotion")
+    state: ast.expr = ast.Constant(f"emotion_{chosen}")
+    if chosen is None:
+        state = code.api_call("emotion_state", code.slot(block, "emotion"))
     return code.api_call("was_seen", state, ast.Constant(EMOTION_S))
 
 
@@ -572,6 +576,8 @@ REPORTERS: dict[str, ValueGenerator] = {
 
 ANSWER = "answer"
 """The name of what a robot was answered, in the function that asks."""
+WORDS = "expected_words"
+"""The name of what may be answered, where it has to be worked out."""
 
 
 def _loop(word: str, text: str) -> StatementGenerator:
@@ -763,10 +769,16 @@ def _remove(code: Expressions, block: Block) -> list[Piece]:
 
 def _ask(code: Expressions, block: Block) -> list[Piece]:
     words = code.slots(block, "word", "answer")
-    arguments = [code.slot(block, "question"), ast.List(words)]
+    possible: ast.expr = ast.List(words)
+    pieces: list[Piece] = []
+    if not all(map(code.stays, words)):  # they are worked out once
+        pieces = [f"{WORDS} = {show(possible)}"]
+        possible = ast.Name(WORDS)
+        words = [ast.Subscript(possible, ast.Constant(number)) for number in range(len(words))]
+    arguments = [code.slot(block, "question"), possible]
     seconds = {"seconds": code.slot(block, "seconds")}
     asked = show(method_call(code.slot(block, "robot"), "ask", arguments, seconds))
-    pieces: list[Piece] = [f"{ANSWER} = {asked}"]
+    pieces.append(f"{ANSWER} = {asked}")
     for number, word in enumerate(words, start=1):
         test = show(compare(ast.Name(ANSWER), ast.Eq(), word))
         pieces += [f"{'if' if number == 1 else 'elif'} {test}:", Body(f"do.{number}")]

@@ -23,9 +23,9 @@ from nep_studio.blocks.slots import TEXT_RESULTS
 from .names import ProgramNames
 from .written_code import NO_NAMES, always_ends, gives_back, names_bound_in, names_in_code, tree_of
 
-WHOLE, FRACTION, TEXT, TRUTH, LIST, OTHER, TABLE = 1, 2, 4, 8, 16, 32, 64
+WHOLE, FRACTION, TEXT, TRUTH, LIST, OTHER, TABLE, ROBOT = 1, 2, 4, 8, 16, 32, 64, 128
 NUMBER = WHOLE | FRACTION
-ANY = NUMBER | TEXT | TRUTH | LIST | OTHER | TABLE
+ANY = NUMBER | TEXT | TRUTH | LIST | OTHER | TABLE | ROBOT
 
 ITEMS = "items"
 """What the items of all lists can be: lists have many names, so that none is told apart."""
@@ -39,6 +39,7 @@ RESULT_KINDS = {
     "boolean": TRUTH,
     "list": LIST,
     "table": TABLE,
+    "robot": ROBOT,
     "any": ANY,
 }
 
@@ -86,6 +87,7 @@ _CALLS = {
     **dict.fromkeys(("dict", "as_table", "table_of"), TABLE),
     **dict.fromkeys(("as_number", "to_power", "number_in", "sum_of", "mean_of"), NUMBER),
     **dict.fromkeys(("median_of", "deviation_of", "smallest_of", "largest_of"), NUMBER),
+    "as_robot": ROBOT,
 }
 _METHODS = {
     **dict.fromkeys(("randint", "floor", "ceil", "find"), WHOLE),
@@ -286,7 +288,7 @@ _LOOK_IN_TABLES = ("table_get", "table_get_or", "table_has", "table_take")
 _OUT_OF_TABLES = {"table_names": KEYS, "table_values": KEPT}
 _SETS = {"set_variable": "value", "change_variable": "amount", "append_text": "text"}
 _CODE = frozenset({"code_lines", "code_value", "program_lines"})
-_HARMLESS = ("as_number(", "as_text(", "as_list(", "str(", "bool(")
+_HARMLESS = ("as_number(", "as_text(", "as_list(", "as_robot(", "str(", "bool(")
 
 
 _LOOKED_AT = frozenset(
@@ -329,7 +331,8 @@ class FactReader:
                 self._inputs(block, definition)
             if definition.generator in _LOOKED_AT:
                 self._block(block, definition)
-        self._reads(hat, NO_NAMES)  # what a rule waits for is worked out before all
+        if hat.inputs:  # worked out before anything else is done, and each time again
+            self._reads(hat, NO_NAMES)
         end = self._walk(chain[1:], frozenset(), 0)
         if self._procedure and end is not None:  # it ends without giving back: 0
             self._put.add((result_key(self._procedure), Given(WHOLE)))
@@ -400,7 +403,7 @@ class FactReader:
 
     def _inputs(self, block: Block, definition: Definition) -> None:
         for key in block.inputs:
-            plugged = self._plugged(block, key)
+            plugged = self._project.plugged(block, key)
             inner = self._language.definitions.get(plugged.type) if plugged is not None else None
             if plugged is None or inner is None or inner.generator != "variable":
                 continue
@@ -434,7 +437,7 @@ class FactReader:
 
     def _looks(self, block: Block, key: str) -> int:
         """The kind of a value as a person sees it: by what is typed, or the block's outline."""
-        plugged = self._plugged(block, key)
+        plugged = self._project.plugged(block, key)
         definition = self._language.definitions[block.type]
         if plugged is None:
             return TEXT if isinstance(definition.value(block, key), str) else WHOLE
@@ -459,16 +462,11 @@ class FactReader:
                 key = parameter_key(self._procedure, parameter.id)
                 self._put.add((key, Given(NUMBER | TEXT | TRUTH)))
 
-    def _plugged(self, block: Block, key: str) -> Block | None:
-        block_id = block.inputs.get(key)
-        plugged = self._project.blocks[block_id] if block_id else None
-        return None if plugged is None or plugged.disabled else plugged
-
     def _slot(self, block: Block, key: str, depth: int = 0) -> Given:
         """The kinds of what a slot gives, after it was made what the slot needs."""
         definition = self._language.definitions[block.type]
         kind = definition.slots[split_slot(key)[0]].kind
-        plugged = self._plugged(block, key)
+        plugged = self._project.plugged(block, key)
         if plugged is not None:
             given = self._value(plugged, depth + 1)
         elif kind.is_number or kind.name == "any":
@@ -477,7 +475,7 @@ class FactReader:
             given = Given(RESULT_KINDS.get(kind.name, TEXT))
         if kind.is_number:
             return given.calculated()
-        if kind.name in ("text", "lines", "boolean", "list", "table"):
+        if kind.becomes_text or kind.name in ("boolean", "list", "table", "robot"):
             return Given(RESULT_KINDS.get(kind.name, TEXT))
         return given
 

@@ -18,6 +18,7 @@ VALUES = frozenset(
             "as_list",
             "as_number",
             "as_table",
+            "as_robot",
             "as_text",
             "change_at",
             "count_from",
@@ -57,6 +58,7 @@ API = VALUES | frozenset(
         "fact",
         "do_tree",
         "fail_step",
+        "emotion_state",
         "heard_word",
         "human_state",
         "in_turn",
@@ -112,7 +114,7 @@ RESERVED = frozenset(
         *(name for name in dir(builtins) if not name.startswith("_")),
         *("exit", "quit", "copyright", "credits", "license", "help"),
         *API,
-        *("behavior", "launcher", "answer"),
+        *("behavior", "launcher", "answer", "expected_words"),
         *MODULES,
     }
 )

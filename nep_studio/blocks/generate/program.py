@@ -104,14 +104,8 @@ class ProgramGenerator:
         self._kinds = Kinds()
         self._kinds_for: object = None
         self._written_with = ProgramNames({}, {})
-        self._robots: dict[str, tuple[int, frozenset[str]]] = {}
+        self._robots: dict[str, tuple[tuple[int, int], frozenset[str]]] = {}
         self._chains: dict[str, tuple[object, Chain]] = {}
-        self._robot_slots = {
-            definition.id: slot.name
-            for definition in language.definitions.values()
-            for slot in definition.slots.values()
-            if slot.kind.name == "robot"
-        }
 
     def kinds(self) -> dict[str, int]:
         """The kinds of what the program keeps, as it was written last, by the names in Python.
@@ -328,14 +322,14 @@ class ProgramGenerator:
         return give_names(self._project, listed, used, list(headers), made, defined)
 
     def _robots_in(self, stack: str, chain: list[str]) -> frozenset[str]:
-        revision = self._project.revisions.get(stack, 0)
+        revision = self._project.revisions.get(stack, 0), self._project.procedure_revision
         known = self._robots.get(stack)
         if known is None or known[0] != revision:
-            definitions, slots = self._language.definitions, self._robot_slots
             robots = frozenset(
-                str(definitions[block.type].value(block, slots[block.type]))
+                name
                 for block in self._project.within(chain)
-                if block.type in slots
+                if (definition := self._language.definitions.get(block.type)) is not None
+                for name in definition.robots_in(block)
             )
             known = self._robots[stack] = (revision, robots)
         return known[1]
@@ -366,6 +360,8 @@ class ProgramGenerator:
         modules = set[str]().union(*(rule.modules for rule in rules))
         modules -= {name for stack in top for name in outside[stack].imports()}
         used = set[str]().union(*(rule.robots for rule in rules))
+        if "as_robot" in api:  # a text may be the name of any of them
+            used |= {entry.name for entry in robot_entries(self._project, self._language)}
         robots = self._robot_lines(names, used)
         if robots:
             api.add("Robot")

@@ -346,9 +346,7 @@ def names_of(project: Project, language: Language) -> ProgramNames:
             made, defined = made | read.set_here, defined | read.defined
         for block in project.within(chain):
             definition = language.definitions.get(block.type)
-            for key, slot in definition.keys(block.groups) if definition is not None else ():
-                if slot.kind.name == "robot" and definition is not None:
-                    used.add(str(definition.value(block, key)))
+            used.update(definition.robots_in(block) if definition is not None else ())
     listed = [entry.name for entry in robot_entries(project, language)]
     ordered = [p for p in project.procedures if p in headers]
     return give_names(project, listed, used, ordered, made, defined)

@@ -122,11 +122,12 @@ def _noticed(code: Expressions, block: Block, thing: str, key: str = "") -> Hat:
 
 
 def _sensor(code: Expressions, block: Block) -> Hat:
-    name = code.choice(block, "sensor")
-    value = method_call(code.slot(block, "robot"), "sensor", [ast.Constant(name)])
+    chosen = code.chosen(block, "sensor")
+    sensor = code.slot(block, "sensor") if chosen is None else ast.Constant(chosen)
+    value = method_call(code.slot(block, "robot"), "sensor", [sensor])
     side = code.choice(block, "side")
     test = ast.Lambda(_NO_ARGUMENTS, compare(value, _SIDES[side], code.slot(block, "value")))
-    return _hat(f"when_{name}_is_{side}", "when_true", test, **_again(code, block))
+    return _hat(f"when_{chosen or 'sensor'}_is_{side}", "when_true", test, **_again(code, block))
 
 
 def _when_true(code: Expressions, block: Block) -> Hat:

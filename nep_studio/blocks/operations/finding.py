@@ -128,7 +128,7 @@ def _subjects(language: Language, block: Block) -> Iterator[Subject]:
         yield Subject("procedure", procedure)
     for key, slot in definition.keys(block.groups):
         value = definition.value(block, key)
-        if not isinstance(value, str) or not value:
+        if not isinstance(value, str) or not value or key in block.inputs:
             continue
         kind = slot.kind.name
         if kind in ("variable", "robot", "gesture"):

@@ -399,7 +399,7 @@ def _only_slot_for(editor: Editor, block: str, owner: str) -> str:
     fitting = [
         key
         for key, slot in definition.keys(taker.groups)
-        if slot.kind.pluggable
+        if slot.pluggable
         and key not in taker.inputs
         and editor.why_not(MoveBlocks(block, 1, InInput(owner, key))) is None
     ]

@@ -279,6 +279,13 @@ class Filler:
     def fill(self, entry: Entry, slot: Slot, text: str) -> Filling | None:
         """What a slot of a block takes from a text, or None."""
         plain = folded(text.strip())
+        found, held = self._typed(entry, slot, text, plain), self._held(slot, plain)
+        if found is None or held is None:
+            return found or held
+        return max(found, held, key=lambda filling: filling.quality)
+
+    def _typed(self, entry: Entry, slot: Slot, text: str, plain: str) -> Filling | None:
+        """What stands for itself."""
         kind = slot.kind.name
         if kind in ("choice", "gesture"):
             best: Filling | None = None
@@ -307,16 +314,18 @@ class Filler:
         found = self._reader().blocks(tree)
         return next(((made, result) for made, result in found if not _has_code(made)), None)
 
+    def _held(self, slot: Slot, plain: str) -> Filling | None:
+        """The block of the variable that is called so."""
+        getter = self._reader().type_of("variable") if plain in self.variables else ""
+        if not getter or self.language.definitions[getter].result not in slot.fits:
+            return None
+        return Filling(Made(getter, {"variable": self.variables[plain]}), FITTING)
+
     def _value(self, slot: Slot, text: str, plain: str) -> Filling | None:
-        if slot.kind.pluggable and plain in self.variables:
-            getter = self._reader().type_of("variable")
-            result = self.language.definitions[getter].result if getter else ""
-            if result in slot.kind.fits:
-                return Filling(Made(getter, {"variable": self.variables[plain]}), FITTING)
         number = number_in(text)
-        if slot.kind.pluggable and _OPERATORS.search(text) and number is None:
+        if slot.pluggable and _OPERATORS.search(text) and number is None:
             found = self.expression(text)
-            if found is not None and found[1] in slot.kind.fits:
+            if found is not None and found[1] in slot.fits:
                 return Filling(found[0], NAMED)
         if slot.kind.is_number:
             return self._checked(slot, number, FITTING) if number is not None else None

@@ -85,7 +85,7 @@ def _slots(canvas: CanvasHost, block_id: str) -> Iterator[Place]:
     free = [
         (slot.kind.typed, key)
         for key, slot in definition.keys(block.groups)
-        if slot.kind.pluggable and key not in block.inputs
+        if slot.pluggable and key not in block.inputs
     ]
     for _is_typed, key in sorted(free, key=lambda pair: pair[0]):
         yield InInput(block_id, key)

@@ -13,6 +13,7 @@ from pathlib import Path
 from types import CodeType, FrameType
 from typing import Any
 
+from nep_core.program.robot import Robot
 from nep_core.program.tasks import Task, current_task, frames_of_threads
 from nep_core.program.values import as_text
 
@@ -220,6 +221,8 @@ def shown(value: Any, depth: int = 0) -> str:
         return as_text(value)
     if value is None or type(value) is float:
         return repr(value)
+    if type(value) is Robot:
+        return as_text(value)
     if type(value) in _ENDS and depth < _DEEPEST:
         kind = type(value)
         opening, closing = _ENDS[kind][0], _ENDS[kind][1]
@@ -266,7 +269,8 @@ class ProgramValues:
 
     def report(self, place: str, value: object) -> None:
         """Note what the call at a place of the file gave."""
-        if is_plain(value) and (place in self._reports or len(self._reports) < MOST_REPORTS):
+        is_told = is_plain(value) or type(value) is Robot
+        if is_told and (place in self._reports or len(self._reports) < MOST_REPORTS):
             self._reports[place] = value
 
     def changed(self) -> dict[str, str]:

@@ -52,7 +52,7 @@ def draw_place(draw, editor):
     block = draw(st.sampled_from(sorted(project.blocks)))
     definition = editor.language.definitions[project.blocks[block].type]
     keys = [(key, slot) for key, slot in definition.keys(project.blocks[block].groups)]
-    inputs = [InInput(block, key) for key, slot in keys if slot.kind.pluggable]
+    inputs = [InInput(block, key) for key, slot in keys if slot.pluggable]
     bodies = [
         InBody(block, key, draw(st.integers(0, len(project.blocks[block].bodies.get(key, [])))))
         for key, slot in keys

@@ -186,3 +186,27 @@ def test_the_sentences_of_another_language_are_understood_without_accents(langua
     found = suggestions("dit bonjour a la fenetre", french, Project())[0]
 
     assert (found.block_type, dict(found.fields)) == ("robot.say", {"text": "bonjour"})
+
+
+@pytest.mark.parametrize(
+    ("text", "block_type", "places"),
+    [
+        ("nao plays the animation favourite", "robot.play", ["animation"]),
+        ("which plays the animation favourite", "robot.play", ["animation", "robot"]),
+        ("nao plays the animation wave", "robot.play", []),
+        ("nao takes the posture favourite", "robot.do", ["posture"]),
+        ("nao looks at people by itself favourite", "robot_moves.awareness", ["on"]),
+        ("nao lights all lights in favourite", "robot.leds", ["colour"]),
+        ("remember favourite for 5", "sensing.remember", ["state"]),
+    ],
+)
+def test_the_name_of_a_variable_goes_where_a_word_is_chosen(language, text, block_type, places):
+    rule = [B("event.started"), B("robot.say")]
+    editor = build(language, rule, variables=("favourite", "which"))
+
+    place = InStack(editor.project.pages["behaviour"][0].id, 1)
+
+    block = editor.project.blocks[create(editor, best(text, editor), place)]
+
+    assert block.type == block_type
+    assert sorted(block.inputs) == places

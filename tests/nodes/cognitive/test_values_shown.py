@@ -7,6 +7,7 @@ import ast
 from hypothesis import given
 from hypothesis import strategies as st
 
+from nep_core.program.robot import Robot
 from nodes.cognitive.tracing.state import LONGEST, ProgramValues, shown
 
 PLAIN = st.recursive(
@@ -61,3 +62,11 @@ def test_what_is_no_value_is_left_out_until_it_takes_the_place_of_one() -> None:
 
     assert first == {"x": "1"}
     assert values.changed() == {"x": "…"}
+
+
+def test_a_robot_is_shown_by_its_name_also_in_a_list() -> None:
+    nao = object.__new__(Robot)  # without a network
+    nao.robots = ["NAO"]
+
+    assert shown(nao) == "NAO"
+    assert shown([nao, "NAO"]) == '[NAO, "NAO"]'

@@ -53,6 +53,9 @@ EVERY_BLOCK = "*"
 SAID_BY_WORDS = frozenset({"body", "boolean", "list", "robot"})
 """Kinds of slot of which nothing more need be said where people have written about the slot."""
 
+TAKES_BLOCKS_TOO = frozenset({"checkbox", "choice", "line", "robot", "state"})
+"""Kinds of slot of which nobody sees that they take blocks: they are chosen, or typed."""
+
 PICTURE, EXAMPLE, DRAG = "picture:", "example:", "drag:"
 """What addresses of pictures begin with, and links out of which an example is dragged."""
 
@@ -134,6 +137,8 @@ def _hints(
     block = definition.new_block("b1")
     if not has_words or slot.kind.name not in SAID_BY_WORDS:
         yield _kind(language, block, slot)
+    if slot.pluggable and slot.kind.name in TAKES_BLOCKS_TOO:
+        yield tr("A block that gives it fits here too, such as a variable.")
     value = _default(language, definition, block, slot)
     if value and slot.kind.name != "robot":
         yield tr("At first: {value}", value=value)

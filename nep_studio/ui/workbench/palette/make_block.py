@@ -57,6 +57,8 @@ def kinds() -> dict[str, str]:
         "boolean": tr("yes or no"),
         "list": tr("a list"),
         "table": tr("a table"),
+        "colour": tr("a colour"),
+        "robot": tr("a robot"),
     }
 
 
