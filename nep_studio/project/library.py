@@ -48,7 +48,11 @@ class Library:
 
     folder: Path = field(default_factory=lambda: user_folder() / "library")
     _read: dict[Path, _Read] = field(default_factory=dict)
-    _language: Language | None = None
+
+    @property
+    def are_any(self) -> bool:
+        """Whether there is a file of a pack."""
+        return any(self._files())
 
     def packs(self, language: Language) -> list[Pack]:
         """Every pack that can be read, by title; what cannot be read is left alone."""
@@ -112,9 +116,6 @@ class Library:
                     raise _unwritten(path, error) from error
 
     def _by_file(self, language: Language) -> dict[Path, Pack]:
-        if self._language is not language:
-            self._language = language
-            self._read.clear()
         found = list(self._files())
         for gone in self._read.keys() - set(found):
             del self._read[gone]
