@@ -234,9 +234,13 @@ class LibraryKit(QObject):
     def _to_look_at(self, done: Updated) -> list[str]:
         steps = []
         if count := len(done.to_look_at):
-            one = "1 block that uses them has other places now: look at what is in them."
-            many = "{n} blocks that use them have other places now: look at what is in them."
-            steps.append(count_words(count, one, many))
+            steps.append(
+                count_words(
+                    count,
+                    "1 block that uses them has other places now: look at what is in them.",
+                    "{n} blocks that use them have other places now: look at what is in them.",
+                )
+            )
         steps += [
             tr("“{block}” is in it no more, and stays as it was.", block=b) for b in done.left
         ]

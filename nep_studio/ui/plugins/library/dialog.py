@@ -196,9 +196,11 @@ class ShareDialog(QDialog):
     def ask_for_file(self) -> None:
         """Ask where the pack is to be, when there is something in it."""
         self._take_told()
-        if not self.chosen or not self.name.text().strip():
-            words = "Tick at least one block." if not self.chosen else "A pack needs a title."
-            self._tell(tr(words))
+        if not self.chosen:
+            self._tell(tr("Tick at least one block."))
+            return
+        if not self.name.text().strip():
+            self._tell(tr("A pack needs a title."))
             return
         name = as_file_name(self.name.text()) or "blocks"
         suggested = self._settings.last_folder / f"{name}{ENDING}"
