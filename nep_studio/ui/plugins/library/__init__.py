@@ -6,7 +6,7 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING, TypeVar
 from uuid import uuid4
 
-from PySide6.QtCore import QObject
+from PySide6.QtCore import QObject, QTimer
 
 from nep_studio.blocks.errors import BlocksError
 from nep_studio.blocks.operations.packing import Updated, copies, is_outdated, mark, update
@@ -69,6 +69,9 @@ class LibraryKit(QObject):
         self._told: dict[str, Message] = {}
         """What was told of the project that is open, by pack."""
         self.dialog: ShareDialog | None = None
+        self._soon = QTimer(self, singleShot=True, interval=0)
+        """What is told of another project comes when what was told of the last one has gone."""
+        self._soon.timeout.connect(self._look)
         files = host.services.files
         files.openers[ENDING] = self.take_in
         files.document_changed.connect(self._on_document_changed)
@@ -183,7 +186,7 @@ class LibraryKit(QObject):
 
     def _on_document_changed(self, _document: object) -> None:
         self._told.clear()
-        self._look()
+        self._soon.start()
 
     def _look(self) -> None:
         """Tell of each pack of which the library has a newer version than the project."""

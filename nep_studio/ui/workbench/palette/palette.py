@@ -14,6 +14,7 @@ from nep_studio.blocks.editor import Editor, History
 from nep_studio.blocks.edits import Edit
 from nep_studio.blocks.edits.content import SetExtra
 from nep_studio.blocks.edits.placing import CreateBlocks
+from nep_studio.blocks.errors import EditRefused, PackError
 from nep_studio.blocks.language import Language
 from nep_studio.blocks.operations.copying import copy
 from nep_studio.blocks.operations.finding import folded
@@ -173,7 +174,10 @@ class EntryMenu(QObject):
 
     def _take_out(self, pack: Pack) -> None:
         palette = self._palette
-        palette.library.remove(pack, palette.canvas.editor.language)
+        try:
+            palette.library.remove(pack, palette.canvas.editor.language)
+        except PackError as error:  # the question says why, and stays
+            raise EditRefused(error.sentence, checklist=error.checklist) from error
         palette.fill()
 
     def _section(self, canvas: CanvasHost, place: MenuPlace) -> list[MenuEntry]:
