@@ -188,6 +188,10 @@ class Settings(SettingsFile):
     """Whether robots on the screen are heard."""
     lets_original_join = Kept("network/original", False)
     """Whether programs of the original NEP may join the studio's network."""
+    author = Kept("library/author", "")
+    """Who is named as the author of the blocks that the person shares."""
+    licence = Kept("library/licence", "")
+    """What others may do with them."""
     kept_open_at = Kept("network/open_at", "")
     """The address at which the network is opened at each start; "" when it is not."""
 

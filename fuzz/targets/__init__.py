@@ -11,7 +11,7 @@ MODULES = {
     "network": ("frames", "master", "gateway", "pairing"),
     "robots": ("naoqi", "requests", "robot"),
     "sensors": ("lines", "push", "page", "csv", "models"),
-    "projects": ("nep", "png", "python"),
+    "projects": ("nep", "pack", "png", "python"),
     "installed": ("mcap", "manifests", "settings", "translations", "brought"),
 }
 NAMES = tuple(name for names in MODULES.values() for name in names)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -63,6 +64,34 @@ def nep(folder: Path) -> Iterator[Feed]:
 
 
 @contextmanager
+def pack(folder: Path) -> Iterator[Feed]:
+    """A pack of own blocks: taken into a library, used in a project, and updated there."""
+    from nep_studio.blocks.editor import Editor
+    from nep_studio.blocks.errors import EditRefused
+    from nep_studio.blocks.operations.copying import bring_definitions
+    from nep_studio.blocks.operations.packing import definitions_in, is_outdated, update
+    from nep_studio.blocks.packs import from_bytes, to_bytes
+    from nep_studio.project.library import read_pack
+
+    language, path = _language(), folder / "blocks.nepblocks"
+    usual = from_bytes((SEEDS / "pack" / "wave.nepblocks").read_bytes(), "wave", language)
+
+    def feed(data: bytes) -> None:
+        path.write_bytes(data)
+        read = read_pack(path, language)
+        assert to_bytes(from_bytes(to_bytes(read), "again", language)) == to_bytes(read)
+        editor = Editor(Project("Uses them"), language)
+        for one in (usual, read):
+            with contextlib.suppress(EditRefused):  # too many own blocks, or too far outside
+                bring_definitions(editor, definitions_in(one, language, one.about.offers))
+                if is_outdated(editor.project, read):
+                    update(editor, read)
+        _looked_at(editor.project, language, folder)
+
+    yield feed
+
+
+@contextmanager
 def png(folder: Path) -> Iterator[Feed]:
     """A picture with a project inside: PNG or SVG."""
     from nep_studio.blocks.files import from_bytes
@@ -115,6 +144,7 @@ TARGETS = {
     one.name: one
     for one in (
         Target("nep", nep, json_changed),
+        Target("pack", pack, json_changed),
         Target("png", png, png_changed),
         Target("python", python, python_changed),
     )

@@ -368,6 +368,8 @@ class Definition:
     translations: Mapping[str, str] = field(default_factory=dict)
     said: Mapping[str, str] = field(default_factory=dict)
     """Texts of ``defaults``, in the language of the person, by slot: a new block has these."""
+    about: str = ""
+    """What the block does in the words of who made it: of an own block."""
     kinds: frozenset[str] = field(init=False)
     """The names of the kinds of its slots."""
     page: str = field(init=False)

@@ -27,7 +27,7 @@ from .errors import EditRefused
 from .generate.renaming import NO_ROBOTS, names_followed
 from .language import Language
 from .places import NewStack, Place
-from .procedures import DEFINE, header_of
+from .procedures import DEFINE, changed, header_of
 from .program import Changes, Note, Parameter, Procedure, Project
 
 # Undo and redo: transactions of edits, each one step; typing in one field is one step too.
@@ -354,7 +354,11 @@ class Editor:
 
         What was in a parameter that goes is put beside, as a stack of its own.
         """
-        procedure = Procedure(procedure_id, tuple(parts), gives_value)
+        known = self.project.procedures.get(procedure_id) or Procedure(procedure_id, ())
+        self.replace_procedure(changed(known, parts, gives_value=gives_value))
+
+    def replace_procedure(self, procedure: Procedure) -> None:
+        """Let an own block be another one of the same id; all that use it follow, as above."""
         with self.transaction(ChangeProcedure.label):
             for number, misfit in enumerate(list(misfits(procedure, self.project, self.language))):
                 self._put_right(misfit, number)

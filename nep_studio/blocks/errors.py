@@ -3,6 +3,7 @@
 BlocksError
 ├── DefinitionError    a file that describes blocks or a robot is wrong
 ├── ProjectFileError   a .nep file cannot be read or written
+├── PackError          a pack of blocks cannot be read, written or made
 ├── EditRefused        an edit that the program cannot take
 └── CodeRefused        a block that cannot become Python
 """
@@ -30,6 +31,12 @@ class ProjectFileError(BlocksError):
     """A project file cannot be read or written."""
 
     title = "This project cannot be used"
+
+
+class PackError(BlocksError):
+    """A pack of blocks cannot be read, written or made; nothing of it was taken in."""
+
+    title = "These blocks cannot be used"
 
 
 class EditRefused(BlocksError):

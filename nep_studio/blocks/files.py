@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import Any, Literal
 
 import msgspec
+from msgspec.structs import replace
 
 from faults import Text, reason_of
 from faults.files import whole_file
@@ -60,7 +61,7 @@ def to_bytes(project: Project) -> bytes:
         "notes": _lines(map(msgspec.to_builtins, notes)),
         "page_order": _lines({"id": page, "title": titles.get(page, "")} for page in project.pages),
         "pages": "{\n" + ",\n".join(pages) + "\n}",
-        "procedures": _lines(map(msgspec.to_builtins, project.procedures.values())),
+        "procedures": _lines(map(_procedure, project.procedures.values())),
         "variables": _lines(map(msgspec.to_builtins, project.variables)),
         "version": str(VERSION),
         **{key: _line(value) for key, value in project.extra.items()},
@@ -90,6 +91,16 @@ def _block(block: Block) -> dict[str, Any]:
     return entry
 
 
+def _procedure(procedure: Procedure) -> dict[str, Any]:
+    """What is not told of an own block is left out; extra keys are as they were."""
+    entry: dict[str, Any] = msgspec.to_builtins(procedure)
+    extra = entry.pop("extra")
+    for key in ("help", "sentences", "origin"):
+        if not entry[key]:
+            del entry[key]
+    return {**extra, **entry}
+
+
 def _lines(entries: Iterable[object]) -> str:
     lines = ",\n".join(map(_line, entries))
     return f"[\n{lines}\n]" if lines else "[]"
@@ -108,6 +119,7 @@ DEEPEST_EXTRA = 100
 _ID = re.compile(r"[A-Za-z0-9_-]{1,64}")
 _TYPE = re.compile(r"[A-Za-z0-9_.-]{1,128}")
 _KNOWN_KEYS = frozenset(Block.__struct_fields__) - {"extra"}
+_PROCEDURE_KEYS = frozenset(Procedure.__struct_fields__) - {"extra"}
 _UNKNOWN_TYPE_KEYS = _KNOWN_KEYS - {"fields", "groups"}
 
 
@@ -163,6 +175,9 @@ def from_bytes(data: bytes, file_name: str, language: Language) -> Project:
 
 
 def _project(decoded: dict[str, Any], language: Language) -> Project:
+    own = decoded.get("procedures")
+    if isinstance(own, list):
+        decoded = {**decoded, "procedures": [_without_unknown(entry) for entry in own]}
     try:
         file = msgspec.convert(decoded, _File)
     except msgspec.ValidationError as error:
@@ -175,7 +190,7 @@ def _project(decoded: dict[str, Any], language: Language) -> Project:
         raise Flaw("groups are nested too deep in it.")
     _check_kept(project)
     _read_variables(project, file.variables)
-    _read_procedures(project, file.procedures)
+    _read_procedures(project, file.procedures, own if isinstance(own, list) else [])
     _read_page_order(project, file.page_order)
     language = language.of(project)
     for entry in file.blocks:
@@ -190,6 +205,13 @@ def _project(decoded: dict[str, Any], language: Language) -> Project:
         if (fault := why_not_stack(stack.body, project.blocks, language)) is not None:
             raise Flaw(fault[1], fault[0])
     return project
+
+
+def _without_unknown(entry: object) -> object:
+    """An own block of the file without the keys that are kept as they are."""
+    if not isinstance(entry, dict):
+        return entry
+    return {key: value for key, value in entry.items() if key in _PROCEDURE_KEYS}
 
 
 def _check_kept(project: Project) -> None:
@@ -209,13 +231,19 @@ def _read_variables(project: Project, variables: list[Variable]) -> None:
         project.variables.append(variable)
 
 
-def _read_procedures(project: Project, procedures: list[Procedure]) -> None:
+def _read_procedures(
+    project: Project, procedures: list[Procedure], entries: list[dict[str, Any]]
+) -> None:
     if len(procedures) > MOST_PROCEDURES:
         raise Flaw(
             "there are too many own blocks: {most_procedures} at most.",
             most_procedures=MOST_PROCEDURES,
         )
-    for procedure in procedures:
+    for known, entry in zip(procedures, entries, strict=True):
+        extra = {key: value for key, value in entry.items() if key not in _PROCEDURE_KEYS}
+        procedure = replace(known, extra=extra)
+        if is_deeper(extra, DEEPEST_EXTRA):
+            raise Flaw("groups are nested too deep in it.")
         if (reason := why_not_procedure(procedure)) is not None:
             raise Flaw("the own block “{id}”: {reason}", id=procedure.id[:40], reason=reason)
         _new_id(project, procedure.id, project.procedures)

@@ -47,8 +47,8 @@ class Language:
     A table that is absent or empty is not known here (no node manifests were given, say), and
     then any value passes. ``profiles`` are the kinds of robots that there are; the first is what
     a project without robots is offered. ``words`` are other words of sentences in the language of
-    the person, by the English ones. ``robots`` are those of the project whose language it is, by
-    name; ``choices`` is then what any of them can.
+    the person, by the English ones; ``code`` is that of this language. ``robots`` are those of the
+    project whose language it is, by name; ``choices`` is then what any of them can.
     """
 
     definitions: Mapping[str, Definition] = field(repr=False)
@@ -56,6 +56,7 @@ class Language:
     choices: Tables = field(repr=False)
     profiles: tuple[RobotProfile, ...]
     words: Mapping[str, str] = field(default_factory=dict, repr=False)
+    code: str = ""
     robots: Mapping[str, RobotChoices] = field(default_factory=dict, repr=False)
     _base: Language | None = field(default=None, repr=False, compare=False)
     _own: WeakKeyDictionary[Project, _Own] = field(
@@ -90,7 +91,7 @@ class Language:
             assert isinstance(definitions, dict)
             definitions.clear()
             definitions |= base.definitions
-            definitions |= definitions_of(project.procedures.values(), base.words)
+            definitions |= definitions_of(project.procedures.values(), base.words, base.code)
         robots = [(stack.id, project.revisions.get(stack.id)) for stack in project.pages["robots"]]
         if own.offered != (offered := (project.extra_revision, robots)):
             own.offered = offered
@@ -282,6 +283,7 @@ def translated(language: Language, table: Table, code: str = "") -> Language:
         {name: _choices(name, known, table) for name, known in language.choices.items()},
         tuple(_profile(profile, table) for profile in language.profiles),
         words=_texts(table, "words"),
+        code=code,
     )
 
 

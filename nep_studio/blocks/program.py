@@ -100,12 +100,30 @@ class Parameter(msgspec.Struct, frozen=True):
     kind: str = "any"
 
 
+class Origin(msgspec.Struct, frozen=True, omit_defaults=True):
+    """Which block of which pack an own block is a copy of; ``title`` is the pack's."""
+
+    pack: str
+    block: str
+    version: int = 1
+    title: str = ""
+
+
 class Procedure(msgspec.Struct, frozen=True):
-    """An own block: the words and parameters of its sentence, and whether it gives a value."""
+    """An own block: the words and parameters of its sentence, and whether it gives a value.
+
+    ``help`` says what it does; ``sentences`` are its sentence in other languages by their codes,
+    with the ids of its parameters in braces; ``extra`` are keys of the file that this version does
+    not know, saved as they were.
+    """
 
     id: str
     parts: tuple[str | Parameter, ...]
     gives_value: bool = False
+    help: str = ""
+    sentences: dict[str, str] = {}
+    origin: Origin | None = None
+    extra: dict[str, Any] = {}
 
 
 class Note(msgspec.Struct, frozen=True):

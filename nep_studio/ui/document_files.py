@@ -105,6 +105,8 @@ class Files(QObject):
         self._is_warned = False
         self._warning: Message | None = None
         self.document: Document | None = None
+        self.openers: dict[str, OnChosen] = {}
+        """Who opens what is no project, by the ending of its file."""
 
     # New, open, close
 
@@ -119,7 +121,11 @@ class Files(QObject):
         self._chooser.choose_to_open(self._window, self._settings.last_folder, self.open)
 
     def open(self, path: Path) -> None:
-        """Open a project; one inside a picture opens as a copy."""
+        """Open a project; one inside a picture opens as a copy. Packs of blocks have an opener."""
+        opener = self.openers.get(path.suffix.lower())
+        if opener is not None:
+            opener(path.absolute())
+            return
         on_opened = self._on_example_opened if path.suffix.lower() in PICTURES else self._on_opened
         self.guard(lambda: self._read(path.absolute(), on_opened))
 

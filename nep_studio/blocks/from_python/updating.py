@@ -34,8 +34,8 @@ from nep_studio.blocks.operations.finding import why_not_robot_name
 from nep_studio.blocks.operations.fixes import rename_robot
 from nep_studio.blocks.operations.selection import chain_around
 from nep_studio.blocks.places import InBody, InInput, InStack, NewStack, Place, variable_uses
-from nep_studio.blocks.procedures import parameters, procedure_of
-from nep_studio.blocks.program import Block, Parameter, Procedure, Project, split_slot
+from nep_studio.blocks.procedures import changed, parameters, procedure_of
+from nep_studio.blocks.program import Block, Parameter, Project, split_slot
 
 from .comparing import lost_lines
 from .learning import CodeUnread, Made, RefusedAtLine, at_line, blocks_of
@@ -421,7 +421,8 @@ def _rename_own_block(editor: Editor, one: _Written, name: str, given: Sequence[
         parts = [p for p in parts if isinstance(p, Parameter)]
         parts.insert(first if len(said) == 1 else 0, words_of(name))
     try:
-        editor.apply(ChangeProcedure(Procedure(procedure.id, tuple(parts), procedure.gives_value)))
+        new = changed(procedure, parts, gives_value=procedure.gives_value)
+        editor.apply(ChangeProcedure(new))
     except EditRefused:  # Python that is to be read anew names it in another way
         log.debug("an own block keeps its name until the text is read")
         return False

@@ -33,7 +33,7 @@ from nep_studio.blocks.procedures import (
     procedure_of,
     title,
 )
-from nep_studio.blocks.program import PAGES, Block, Procedure, Project, Stack
+from nep_studio.blocks.program import FARTHEST, PAGES, Block, Procedure, Project, Stack
 from nep_studio.blocks.slots import FieldValue
 from nep_studio.blocks.text import sentence
 
@@ -51,9 +51,14 @@ STEP = 24.0
 
 @dataclass(frozen=True)
 class Clip:
-    """Blocks that are in no project: each stack of ``project`` is one run that was copied."""
+    """Blocks that are in no project: each stack of ``project`` is one run that was copied.
+
+    ``along`` are the definitions of own blocks of a pack that come along where a project lacks
+    them.
+    """
 
     project: Project = field(default_factory=lambda: Project("Blocks"))
+    along: Clip | None = None
 
     def __len__(self) -> int:
         return len(self.project.blocks)
@@ -217,6 +222,8 @@ class Names:
 
 def names_for(editor: Editor, clip: Clip) -> Names:
     """Find the variables and own blocks of a clip by their names, and make those that lack."""
+    if clip.along is not None:
+        bring_definitions(editor, clip.along)
     names = Names()
     known = {variable.name: variable.id for variable in editor.project.variables}
     for variable in clip.project.variables:
@@ -234,7 +241,7 @@ def renewed(language: Language, block: Block, ids: Mapping[str, str], names: Nam
     """A block of a clip with other ids, for the project."""
     new = block.copy()
     new.id = ids[block.id]
-    new.type = _type(block.type, names)
+    new.type = renamed_type(block.type, names)
     keys = _keys(block, names)
     new.fields = {keys.get(key, key): value for key, value in new.fields.items()}
     new.inputs = {keys.get(key, key): ids[plugged] for key, plugged in block.inputs.items()}
@@ -249,11 +256,12 @@ def renewed(language: Language, block: Block, ids: Mapping[str, str], names: Nam
 def _procedure_for(
     editor: Editor, source: Project, procedure: Procedure, names: Names
 ) -> Procedure:
-    """The own block that says the same; a new one when there is none, or when it has a header
-    already and the clip brings another.
+    """The own block from the same pack, or that says the same; a new one when there is none, or
+    when it has a header already and the clip brings another.
     """
     there = editor.project.procedures.values()
-    same = next((p for p in there if _signature(p) == _signature(procedure)), None)
+    same = copy_of(editor.project, procedure)
+    same = same or next((p for p in there if _signature(p) == _signature(procedure)), None)
     brings_header = bool(header_of(source, procedure.id))
     if same is not None and not (brings_header and header_of(editor.project, same.id)):
         return same
@@ -267,8 +275,25 @@ def _procedure_for(
 
 
 def _signature(procedure: Procedure) -> tuple[object, ...]:
-    kinds = tuple(parameter.kind for parameter in parameters(procedure))
-    return title(procedure), kinds, procedure.gives_value
+    return title(procedure), *_taken_and_given(procedure)
+
+
+def _taken_and_given(procedure: Procedure) -> tuple[object, ...]:
+    return tuple(parameter.kind for parameter in parameters(procedure)), procedure.gives_value
+
+
+def copy_of(project: Project, procedure: Procedure) -> Procedure | None:
+    """The own block of a project that is a copy of the same block of a pack, of any version.
+
+    None, too, where it has become another one, to which calls would not fit.
+    """
+    origin = procedure.origin
+    for own in project.procedures.values() if origin is not None else ():
+        if own.origin is not None and origin is not None:
+            is_same = (own.origin.pack, own.origin.block) == (origin.pack, origin.block)
+            if is_same and _taken_and_given(own) == _taken_and_given(procedure):
+                return own
+    return None
 
 
 def _told_apart(procedure: Procedure, titles: set[str]) -> Procedure:
@@ -283,7 +308,8 @@ def _told_apart(procedure: Procedure, titles: set[str]) -> Procedure:
         number += 1
 
 
-def _type(block_type: str, names: Names) -> str:
+def renamed_type(block_type: str, names: Names) -> str:
+    """The type of a block with the ids of own block and parameter that these names give."""
     old = procedure_of(block_type)
     if old not in names.procedures:
         return block_type
@@ -321,7 +347,7 @@ def paste(editor: Editor, clip: Clip, page: str, x: float, y: float) -> tuple[st
         names = names_for(editor, clip)
         bring_animations(editor, clip.project)
         new = tuple(
-            _put(
+            put_chain(
                 editor,
                 clip,
                 stack.body,
@@ -335,6 +361,52 @@ def paste(editor: Editor, clip: Clip, page: str, x: float, y: float) -> tuple[st
     return new
 
 
+Where = Mapping[str, tuple[str, float, float] | None]
+"""Pages and points of definitions, by own block; None and the others: below all that is there."""
+
+BELOW: Where = MappingProxyType({})
+
+
+def bring_definitions(editor: Editor, along: Clip, where: Where = BELOW) -> None:
+    """Put the definitions that a project lacks onto its pages, with what they name."""
+    source, project = along.project, editor.project
+    lacking = [
+        block
+        for chain in along.roots
+        if not _is_defined(project, source, procedure_of(source.blocks[chain[0]].type))
+        for block in chain
+    ]
+    if not lacking:
+        return
+    clip = copy(source, editor.language.of(source), lacking)
+    names = names_for(editor, clip)
+    bring_animations(editor, clip.project)
+    for chain in clip.roots:
+        own = procedure_of(clip.project.blocks[chain[0]].type)
+        page, x, y = where.get(own) or (PAGES[0], STEP, lowest(project, PAGES[0]))
+        put_chain(editor, clip, chain, names, editor.new_stack(page, x, y))
+
+
+def _is_defined(project: Project, source: Project, procedure: str) -> bool:
+    there = copy_of(project, source.procedures[procedure])
+    return there is not None and bool(header_of(project, there.id))
+
+
+BLOCK_HEIGHT = 60.0
+"""About how high a block is, in canvas units: where nobody has laid the blocks out yet."""
+
+
+def lowest(project: Project, page: str) -> float:
+    """About where the stacks of a page end."""
+    ends = (stack.y + height_of(project, stack.body) for stack in project.pages[page])
+    return min(max(ends, default=STEP), FARTHEST / 2)
+
+
+def height_of(project: Project, chain: list[str]) -> float:
+    """About how high a chain is with some room below it."""
+    return BLOCK_HEIGHT * (1 + sum(1 for _ in project.within(chain)))
+
+
 def paste_at(editor: Editor, clip: Clip, place: Place) -> tuple[str, ...]:
     """Put the blocks of a clip of one stack into a place; gives the new blocks of the chain."""
     _require_blocks(clip)
@@ -346,7 +418,7 @@ def paste_at(editor: Editor, clip: Clip, place: Place) -> tuple[str, ...]:
     with editor.transaction("paste blocks"):
         bring_animations(editor, clip.project)
         names = names_for(editor, clip)
-        new = _put(editor, clip, clip.roots[0], names, place)
+        new = put_chain(editor, clip, clip.roots[0], names, place)
         _name_rules(editor, clip, names)
     return new
 
@@ -364,7 +436,7 @@ def duplicate(editor: Editor, ids: Iterable[str], at: Points = UNKNOWN) -> tuple
         return paste(editor, clip, page, left + STEP, top + STEP)
 
 
-def _put(
+def put_chain(
     editor: Editor, clip: Clip, chain: Iterable[str], names: Names, place: Place
 ) -> tuple[str, ...]:
     """Create a chain of a clip with ids that are new to the project; gives them."""

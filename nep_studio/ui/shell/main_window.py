@@ -31,7 +31,7 @@ from PySide6.QtWidgets import (
 )
 
 from nep_studio.ui.actions import Actions
-from nep_studio.ui.document_files import PICTURES, SUFFIX, FileChooser
+from nep_studio.ui.document_files import PICTURES, SUFFIX, FileChooser, Files
 from nep_studio.ui.labels import follow_words
 from nep_studio.ui.message_cards import MessageArea
 from nep_studio.ui.messages import Answer, Message
@@ -206,10 +206,11 @@ class LazyInitialiser(QObject):
 # What holds for the pointer everywhere: projects are dropped anywhere, the wheel only scrolls.
 
 
-def project_in(event: QDropEvent) -> Path | None:
-    """The project among what is dragged; the event is then taken."""
+def project_in(event: QDropEvent, opened: Files) -> Path | None:
+    """The project, or else what can be opened, among what is dragged; the event is then taken."""
+    endings = (SUFFIX, *PICTURES, *opened.openers)
     files = [Path(url.toLocalFile()) for url in event.mimeData().urls() if url.isLocalFile()]
-    found = next((file for file in files if file.suffix.lower() in (SUFFIX, *PICTURES)), None)
+    found = next((file for file in files if file.suffix.lower() in endings), None)
     if found is not None:
         event.acceptProposedAction()
     return found
@@ -245,7 +246,9 @@ class PointerRules(QObject):
         if isinstance(event, QWheelEvent):
             is_passed_on = _is_value(watched) and not watched.hasFocus()
         else:
-            is_passed_on = self._is_inside(watched) and project_in(event) is not None
+            is_passed_on = (
+                self._is_inside(watched) and project_in(event, self._window.files) is not None
+            )
         if is_passed_on:
             event.ignore()  # then Qt asks the widget around it
         return is_passed_on
@@ -368,7 +371,11 @@ class MainWindow(QMainWindow):
         self.lazy.is_laid_out = True
         if self.lazy.is_done:
             self.workbench.restore(self.fontMetrics().height())
-        if path is not None:
+        is_project = path is None or path.suffix.lower() in (SUFFIX, *PICTURES)
+        if path is not None and not is_project and not self.lazy.is_done:
+            once = Qt.ConnectionType.SingleShotConnection  # who opens it is there only then
+            self.lazy.completed.connect(lambda: self.files.open(path), once)
+        elif path is not None:
             self.files.open(path)
         self.offer_recovery()
 
@@ -507,10 +514,10 @@ class MainWindow(QMainWindow):
 
     def dragEnterEvent(self, event: QDragEnterEvent) -> None:
         """Take a project that is dragged onto the window."""
-        project_in(event)
+        project_in(event, self.files)
 
     def dropEvent(self, event: QDropEvent) -> None:
         """Open a project that is dropped onto the window."""
-        path = project_in(event)
+        path = project_in(event, self.files)
         if path is not None:
             self.files.open(path)

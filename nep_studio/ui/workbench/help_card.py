@@ -40,6 +40,11 @@ def card_text(editor: Editor, block_id: str) -> str:
     definition = language.definitions[project.blocks[block_id].type]
     parts = [f"<h3>{escape(sentence(project, language, block_id))}</h3>"]
     parts += [f"<p>{escape(text)}</p>" for text in _about(definition)]
+    own = project.procedures.get(procedure_of(definition.id))
+    if own is not None and own.origin is not None:
+        title, version = own.origin.title or own.origin.pack, own.origin.version
+        told = tr("It is from “{title}”, version {version}.", title=title, version=version)
+        parts.append(f"<p>{escape(told)}</p>")
     places = "".join(f"<li>{escape(words)}</li>" for words in _places(editor, block_id))
     if places:
         parts.append(f"<p>{escape(tr('Its places:'))}</p><ul>{places}</ul>")

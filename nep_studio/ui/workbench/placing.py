@@ -66,7 +66,8 @@ def _places(canvas: CanvasHost, clip: Clip, cursor: str) -> Iterator[Place]:
     """The places to try, the best first: the slots of the block, then below it and its owners."""
     editor = canvas.editor
     project = editor.project
-    first = editor.language.definitions.get(clip.project.blocks[clip.roots[0][0]].type)
+    language = editor.language.of(clip.project)  # it may bring own blocks of a library
+    first = language.definitions.get(clip.project.blocks[clip.roots[0][0]].type)
     if first is None or first.is_value:
         yield from _slots(canvas, cursor)
         return

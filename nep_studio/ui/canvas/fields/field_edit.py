@@ -15,7 +15,7 @@ from nep_studio.blocks.editor import Editor
 from nep_studio.blocks.edits.content import ChangeProcedure, SetField
 from nep_studio.blocks.errors import EditRefused
 from nep_studio.blocks.operations.fixes import rename_robot
-from nep_studio.blocks.procedures import procedure_of
+from nep_studio.blocks.procedures import changed, procedure_of
 from nep_studio.blocks.program import Parameter, Procedure
 from nep_studio.blocks.slots import FieldValue, why_not_name
 from nep_studio.ui.canvas.layout.boxes import Piece
@@ -157,7 +157,7 @@ class ParameterEdit:
             else part
             for part in self._procedure.parts
         )
-        return Procedure(self._procedure.id, parts, self._procedure.gives_value)
+        return changed(self._procedure, parts, gives_value=self._procedure.gives_value)
 
 
 # Says below a field why what is typed in it does not fit.

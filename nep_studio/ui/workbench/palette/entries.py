@@ -7,6 +7,8 @@ from dataclasses import dataclass, replace
 from html import escape
 from typing import Literal
 
+from msgspec.structs import replace as replaced
+
 from nep_studio.blocks.definitions import Category, Definition
 from nep_studio.blocks.editor import Editor
 from nep_studio.blocks.edits.content import AddProcedure
@@ -14,9 +16,11 @@ from nep_studio.blocks.edits.placing import CreateBlocks
 from nep_studio.blocks.edits.project import AddVariable
 from nep_studio.blocks.errors import BlocksError
 from nep_studio.blocks.language import Language
-from nep_studio.blocks.operations.copying import Clip, copy, python_of
+from nep_studio.blocks.operations.copying import Clip, copy, copy_of, python_of
+from nep_studio.blocks.operations.packing import definitions_in
+from nep_studio.blocks.packs import Pack
 from nep_studio.blocks.places import NewStack
-from nep_studio.blocks.procedures import CALL
+from nep_studio.blocks.procedures import CALL, definitions_of, procedure_of
 from nep_studio.blocks.program import ALL_ROBOTS, Block, Project
 from nep_studio.blocks.slots import FieldValue
 from nep_studio.blocks.text import sentence
@@ -35,10 +39,12 @@ READ_VARIABLE = "variable.get"
 class Stock:
     """The samples, made from an editor's language, with its variables and own blocks.
 
-    Ids of samples are those of blocks in ``project``, which whatever draws a project can draw.
+    Own blocks of ``packs`` that the project has no copy of are samples, too: ``kept`` are their
+    packs by own block. Ids of samples are those of blocks in ``project``, which whatever draws a
+    project can draw.
     """
 
-    def __init__(self, editor: Editor) -> None:
+    def __init__(self, editor: Editor, packs: Iterable[Pack] = ()) -> None:
         self.language = editor.language
         self.project = Project("Palette")
         for number, variable in enumerate(editor.project.variables):
@@ -46,6 +52,10 @@ class Stock:
         for number, procedure in enumerate(editor.project.procedures.values()):
             AddProcedure(procedure, number).apply(self.project)
         self.project.extra = editor.project.extra
+        self._own = list(self.project.procedures)
+        self.kept: dict[str, Pack] = {}
+        for number, pack in enumerate(packs):
+            self._take_in(editor.project, pack, number)
         self._ids: dict[tuple[object, ...], str] = {}
 
     def sample(self, block_type: str, **fields: FieldValue) -> str:
@@ -59,8 +69,7 @@ class Stock:
         """The samples of a category, in the order of the palette."""
         variables = self.project.variables
         if category == "my":
-            for procedure in self.project.procedures:
-                yield self.sample(CALL + procedure)
+            yield from self._calls(self._own)
         if category == "variable":
             for variable in variables:
                 yield self.sample(READ_VARIABLE, variable=variable.id)
@@ -69,12 +78,14 @@ class Stock:
             is_here = definition.category.id == category and not is_own
             if is_here and definition.id != READ_VARIABLE:
                 yield self.sample(definition.id)
+        if category == "my":
+            yield from self._calls(self.kept)
 
     def shown(self, category: str, level: Level) -> Iterable[str]:
         """The samples of a drawer at a level; at the first one it has blocks of several."""
         if level == "first":
             if category == "my":
-                return [self.sample(CALL + procedure) for procedure in self.project.procedures]
+                return list(self._calls((*self._own, *self.kept)))
             first = first_by_heading(self.project, self.language).get(category, [])
             return [self.sample(block_type) for block_type in first]
         samples = self.offered(category)
@@ -86,7 +97,11 @@ class Stock:
         clip = copy(self.project, self.language, [sample])
         for block in clip.project.blocks.values():
             self._choose_robot(block)
-        return clip
+        return self._with_definitions(clip, sample)
+
+    def pack_of(self, sample: str) -> Pack | None:
+        """The pack of the library that a sample is from, or None for one of the project."""
+        return self.kept.get(procedure_of(self.project.blocks[sample].type))
 
     def words(self, sample: str) -> str:
         """What a sample says."""
@@ -95,6 +110,33 @@ class Stock:
     def definition(self, sample: str) -> Definition:
         """The definition of a sample."""
         return self.language.definitions[self.project.blocks[sample].type]
+
+    def _calls(self, procedures: Iterable[str]) -> Iterator[str]:
+        yield from (self.sample(CALL + procedure) for procedure in procedures)
+
+    def _take_in(self, project: Project, pack: Pack, number: int) -> None:
+        """Offer the blocks of a pack that a project has no copy of."""
+        new = [
+            replaced(procedure, id=f"kept{number}_{procedure.id}")
+            for procedure in pack.offered
+            if copy_of(project, procedure) is None
+        ]
+        for procedure in new:
+            AddProcedure(procedure, len(self.project.procedures)).apply(self.project)
+            self.kept[procedure.id] = pack
+        made = definitions_of(new, self.language.words, self.language.code)
+        definitions = {**self.language.definitions, **made}
+        self.language = replace(self.language, definitions=definitions)
+
+    def _with_definitions(self, clip: Clip, sample: str) -> Clip:
+        """What a block of the library needs comes along with it."""
+        own = procedure_of(self.project.blocks[sample].type)
+        pack, origin = self.kept.get(own), None
+        if pack is not None:
+            origin = self.project.procedures[own].origin
+        if pack is None or origin is None:
+            return clip
+        return replace(clip, along=definitions_in(pack, self.language, [origin.block]))
 
     def _new(self, definition: Definition, fields: dict[str, FieldValue]) -> str:
         block = definition.new_block(self.project.new_id("b"))
@@ -161,7 +203,13 @@ def recent_drawer() -> Drawer:
 
 
 def drawers_of(
-    editor: Editor, kind: str, level: Level, *, has_recent: bool, has_snippets: bool
+    editor: Editor,
+    kind: str,
+    level: Level,
+    *,
+    has_recent: bool,
+    has_snippets: bool,
+    has_library: bool = False,
 ) -> list[Drawer]:
     """The drawers for a kind of page: what was used last, the categories, the snippets.
 
@@ -171,7 +219,7 @@ def drawers_of(
     snippets = Drawer(SNIPPETS, tr("My snippets"), "star")
     if level == "first":
         first = list(first_by_heading(editor.project, editor.language))
-        own = ["my"] if editor.project.procedures else []
+        own = ["my"] if editor.project.procedures or has_library else []
         drawers = [_drawer(known[one]) for one in dict.fromkeys([*first, *own])]
         return [*drawers, snippets] if has_snippets else drawers
     drawers = [recent_drawer()] if has_recent else []
@@ -243,7 +291,11 @@ def _inside(
         yield Entry("button", drawer, tr("Make a block…"), action=MAKE_BLOCK)
     if drawer.id == "variable" and level != "first":
         yield Entry("button", drawer, tr("New variable…"), action=NEW_VARIABLE)
+    is_kept = False
     for sample in stock.shown(drawer.id, level):
+        if not is_kept and stock.pack_of(sample) is not None:
+            is_kept = True
+            yield Entry("words", drawer, tr("From my library:"))
         yield _block(stock, drawer, sample)
 
 
@@ -291,7 +343,7 @@ def python(project: Project, language: Language, block: str) -> str:
 
 def does(definition: Definition) -> list[str]:
     """What the blocks of a definition do, in sentences; some may be empty."""
-    told = [block_texts(language_code()).get(definition.id, BlockText()).about]
+    told = [definition.about or block_texts(language_code()).get(definition.id, BlockText()).about]
     if "takes_time" in definition.flags:
         told.append(tr("The program waits here until it is done."))
     if "needs_real_robot" in definition.flags:

@@ -14,10 +14,13 @@ from nep_studio.blocks.editor import Editor, History
 from nep_studio.blocks.edits import Edit
 from nep_studio.blocks.edits.content import SetExtra
 from nep_studio.blocks.edits.placing import CreateBlocks
+from nep_studio.blocks.errors import EditRefused, PackError
 from nep_studio.blocks.language import Language
 from nep_studio.blocks.operations.copying import copy
 from nep_studio.blocks.operations.finding import folded
+from nep_studio.blocks.packs import Pack
 from nep_studio.blocks.program import FIRST_BLOCKS, Changes, Project
+from nep_studio.project.library import Library
 from nep_studio.settings import Settings
 from nep_studio.ui.canvas.canvas import Canvas
 from nep_studio.ui.canvas.editing.menu import MenuEntry, MenuPlace
@@ -120,6 +123,7 @@ class EntryMenu(QObject):
         add = self.menu.addAction
         add(icon("plus", theme), tr("Insert"), lambda: palette.use(entry))
         if snippet is None:
+            self._add_of_library(self.menu, palette.shelf.pack_of(entry))
             self._add_of_first(self.menu, palette.shelf.type_of(entry))
             self.menu.popup(place)
             return
@@ -152,6 +156,29 @@ class EntryMenu(QObject):
         if FIRST_BLOCKS in project.extra:
             usual = SetExtra(FIRST_BLOCKS, None)
             menu.addAction(icon("undo-2", theme), tr("The usual first blocks"), lambda: keep(usual))
+
+    def _add_of_library(self, menu: QMenu, pack: Pack | None) -> None:
+        """What takes the pack of a block out of the person's library."""
+        if pack is not None:
+            words = tr("Take “{pack}” out of my library…", pack=pack.title)
+            sign = icon("trash-2", self._palette.canvas.look.theme)
+            menu.addAction(sign, words.replace("&", "&&"), lambda: self.ask_to_take_out(pack))
+
+    def ask_to_take_out(self, pack: Pack) -> None:
+        """Ask whether a pack leaves the library: that cannot be taken back."""
+        words = tr(
+            "Take “{pack}” out of your library? Projects that have its blocks keep them.",
+            pack=pack.title,
+        )
+        self._ask(words, tr("Take out"), lambda _name: self._take_out(pack), None)
+
+    def _take_out(self, pack: Pack) -> None:
+        palette = self._palette
+        try:
+            palette.library.remove(pack, palette.canvas.editor.language)
+        except PackError as error:  # the question says why, and stays
+            raise EditRefused(error.sentence, checklist=error.checklist) from error
+        palette.fill()
 
     def _section(self, canvas: CanvasHost, place: MenuPlace) -> list[MenuEntry]:
         """What the menu of a block offers besides."""
@@ -265,6 +292,7 @@ class Palette(QWidget):
         self.settings = settings
         self.snippets = snippets or Snippets(settings.folder / "snippets")
         self.search = labelled(QLineEdit(self), placeholder="Search blocks", name="Search blocks")
+        self.library = Library(settings.folder / "library")
         self._sign = QAction(self.search)
         self.fold = QToolButton(self)
         self.categories = CategoryColumn(self)
@@ -316,7 +344,12 @@ class Palette(QWidget):
         recent = self._recent
         level = self.level if kind == "behaviour" else "all"  # other pages have few blocks
         self._drawers = entries.drawers_of(
-            editor, kind, level, has_recent=bool(recent), has_snippets=self.snippets.are_any
+            editor,
+            kind,
+            level,
+            has_recent=bool(recent),
+            has_snippets=self.snippets.are_any,
+            has_library=self.library.are_any,
         )
         self.categories.show_drawers(self._drawers, self.canvas.look.theme)
         self._fit()
@@ -324,7 +357,7 @@ class Palette(QWidget):
         self.shelf.fill_later(partial(self._fill_shelf, editor, kind, level, recent))
 
     def _fill_shelf(self, editor: Editor, kind: str, level: Level, recent: Sequence[str]) -> None:
-        stock = Stock(editor)
+        stock = Stock(editor, self.library.packs(editor.language))
         typed = self.search.text().strip()
         if typed:
             of_page = (one.id for one in editor.language.categories if one.page == kind)

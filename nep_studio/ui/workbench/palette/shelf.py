@@ -18,6 +18,7 @@ from PySide6.QtGui import (
 from PySide6.QtWidgets import QAbstractScrollArea, QToolTip, QWidget
 
 from nep_studio.blocks.operations.copying import Clip
+from nep_studio.blocks.packs import Pack
 from nep_studio.ui.canvas.canvas import Canvas
 from nep_studio.ui.canvas.editing.cargo import Grip
 from nep_studio.ui.words import tr
@@ -322,6 +323,10 @@ class Shelf(ShelfView):
     def type_of(self, entry: Entry) -> str:
         """The type of the block of an entry; empty for what is none."""
         return self._stock.project.blocks[entry.sample].type if entry.sample else ""
+
+    def pack_of(self, entry: Entry) -> Pack | None:
+        """The pack of the library that the block of an entry is from, or None."""
+        return self._stock.pack_of(entry.sample) if entry.sample else None
 
     # Mouse
 

@@ -73,11 +73,13 @@ class ShelfLayout:
         self.highest_snippet = HIGHEST_SNIPPET * self.measures.unit
         self.spots: list[Spot] = []
         self.height = 0.0
+        self.language = canvas.editor.language
         self._canvas = canvas
         self._tops: list[float] = []
 
     def fill(self, stock: Stock, entries: Sequence[Entry]) -> None:
         """Give every entry its place."""
+        self.language = stock.language
         layout = Layout(stock.project, stock.language, self.measures)
         self.spots = []
         y = self.margin / 2
@@ -192,7 +194,7 @@ class ShelfPainter:
         self._bold = QFont(self._font)
         self._bold.setBold(True)
         self._blocks = BlockPainter(
-            canvas.look.theme, canvas.editor.language, layout.measures, canvas.look.block_font
+            canvas.look.theme, layout.language, layout.measures, canvas.look.block_font
         )
 
     def paint(self, painter: QPainter, spot: Spot) -> None:
