@@ -81,12 +81,14 @@ def test_every_cue_of_an_example_has_a_happening(path: Path) -> None:
 
 
 def test_every_hat_and_question_of_the_language_has_a_happening() -> None:
-    # Run, the goal that it is about, and what is no rule
-    own = {"event.started", "goal.when_goal", "code.program"}
+    # Run, the goal that it is about, what another rule tells, the clock, and what is no rule
+    own = {"event.started", "goal.when_goal", "event.told", "time.every", "time.at", "code.program"}
     without = []
     for definition in LANGUAGE.definitions.values():
         is_question = definition.is_value and definition.category.id in ("sensing", "robot_senses")
-        if definition.shape == "hat" and definition.id not in own:
+        if definition.id == "event.true":
+            stack = [B(definition.id, {}, {"condition": B("robot_senses.is_touched")})]
+        elif definition.shape == "hat" and definition.id not in own:
             fields = {"state": "please"} if definition.id == "goal.goal" else {}
             stack = [B(definition.id, fields)]
         elif is_question:
