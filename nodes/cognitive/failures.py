@@ -4,16 +4,23 @@ from __future__ import annotations
 
 import ast
 import linecache
+import logging
 import re
 import traceback
 from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import lru_cache
 from itertools import islice
 from types import FrameType, TracebackType
 from typing import Any
 
-from faults import Fault, Text, Words, fault_of
-from nep_core.errors import NepError
+from faults import Fault, Text, Words, fault_of, filled, told
+from faults.files import read_toml
+from nep_core.errors import NepError, NodeStartError
+from nep_core.program.values import spoken_language
+from nodes.resources import resource_folder
+
+log = logging.getLogger(__name__)
 
 # The values that an operation of a program had when it failed, read without running any code.
 
@@ -520,3 +527,26 @@ def line_of(error: BaseException, file: str) -> int:
         return error.lineno or 0
     frames = reversed(traceback.extract_tb(error.__traceback__))
     return next((frame.lineno or 0 for frame in frames if frame.filename == file), 0)
+
+
+# The words of errors in the language in which the program tells values.
+
+
+def in_spoken_language(text: Words, /, **values: object) -> str:
+    """Return the words of a text, or of a template and its values; in English where none are."""
+    if isinstance(text, Text):
+        return told(text, in_spoken_language)
+    return filled(_messages(spoken_language()).get(text, text), values, in_spoken_language)
+
+
+@lru_cache(maxsize=2)
+def _messages(language: str) -> dict[str, str]:
+    """The sentences of a language by the English ones; none for English."""
+    if language == "en":
+        return {}
+    try:
+        table = read_toml(resource_folder() / "translations" / f"{language}.toml")
+    except (OSError, ValueError, RecursionError, NodeStartError):
+        log.warning("the words of %s cannot be read", language, exc_info=True)
+        return {}
+    return {**table.get("window", {}), **table.get("messages", {})}

@@ -33,8 +33,7 @@ from nep_core.wire.messages import (
     told,
 )
 from nep_core.wire.pubsub import Publisher
-from nodes.cognitive.failures import ProgramFailed, failure_of, line_of
-from nodes.cognitive.words import in_spoken_language
+from nodes.cognitive.failures import ProgramFailed, failure_of, in_spoken_language, line_of
 
 if TYPE_CHECKING:
     from nodes.cognitive.tracing.tracer import Tracer

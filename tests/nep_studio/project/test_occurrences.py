@@ -81,12 +81,16 @@ def test_every_cue_of_an_example_has_a_happening(path: Path) -> None:
 
 
 def test_every_hat_and_question_of_the_language_has_a_happening() -> None:
-    # Run, the goal that it is about, what is no rule, what asks, and who asks
+    # Run, the goal that it is about, what is no rule, what another rule tells, the clock
     own = {"event.started", "goal.when_goal", "code.program", "goal.goal_when", "goal.goal_asked"}
+    own |= {"event.told", "time.every", "time.at", "state.begins", "state.after", "state.done"}
+    own |= {"state.told"}
     without = []
     for definition in LANGUAGE.definitions.values():
         is_question = definition.is_value and definition.category.id in ("sensing", "robot_senses")
-        if definition.shape == "hat" and definition.id not in own:
+        if definition.id == "event.true":
+            stack = [B(definition.id, {}, {"condition": B("robot_senses.is_touched")})]
+        elif definition.shape == "hat" and definition.id not in own:
             fields = {"state": "please"} if definition.id == "goal.goal" else {}
             stack = [B(definition.id, fields)]
         elif is_question:

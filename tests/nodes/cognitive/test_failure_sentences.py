@@ -8,7 +8,8 @@ from pathlib import Path
 import pytest
 
 from nep_core.errors import RobotNotAnswering
-from nodes.cognitive.failures import OTHER, SENTENCES, failure_of, line_of
+from nep_core.program.values import speak
+from nodes.cognitive.failures import OTHER, SENTENCES, failure_of, in_spoken_language, line_of
 
 CASES = {
     "1 / 0": "A number was divided by zero.",
@@ -155,3 +156,25 @@ def test_a_sentence_has_named_places_and_a_checklist(told) -> None:
     assert all(place.isidentifier() for place in places)
     assert told.steps
     assert all(step[-1] in ".?" for step in (told.sentence, *told.steps))
+
+
+@pytest.mark.parametrize(
+    ("language", "expected"),
+    [
+        ("en", "A number was divided by zero."),
+        ("de", "Eine Zahl wurde durch null geteilt."),
+        ("xx", "A number was divided by zero."),
+    ],
+)
+def test_a_program_tells_its_errors_in_its_own_language(language: str, expected: str) -> None:
+    speak(language)
+    try:
+        assert in_spoken_language(failure_of(ZeroDivisionError()).sentence) == expected
+    finally:
+        speak("en")
+
+
+def test_values_in_a_sentence_stay_as_they_are() -> None:
+    error = RobotNotAnswering("{name} does not answer.", name="NAO {x}")
+
+    assert in_spoken_language(error.sentence) == "NAO {x} does not answer."
