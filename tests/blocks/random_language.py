@@ -273,12 +273,13 @@ class Maker:
 
     def _table_statement(self) -> B:
         inputs = {"table": self._table_variable(), "key": self._key()}
-        match self.dice.randint(0, 4):
-            case 0 | 1:
-                return B("table.set", inputs={**inputs, "value": self._any()})
-            case 2 | 3:
-                return B("table.change", inputs={**inputs, "amount": self._number()})
-        return B("table.take", inputs=inputs)
+        match self.dice.randint(0, 20):
+            case 0:
+                return B("table.take", inputs=inputs)
+            case number if number % 2:
+                value = self._number() if self._chance(0.7) else self._any()
+                return B("table.set", inputs={**inputs, "value": value})
+        return B("table.change", inputs={**inputs, "amount": self._number()})
 
     def _fact_statement(self) -> B:
         making = ["now_true", "now_true", "makes_true", "no_longer_true", "makes_untrue"]
@@ -437,7 +438,14 @@ class Maker:
     def _typed_table(self) -> B:
         """A table of up to three keys, mostly texts, with values that are mostly typed."""
         count = self.dice.randint(0, 3)
-        make = self._typed if self._chance(0.8) or not self._deeper() else self._any
+        makers = [
+            self._typed_number,
+            self._typed_number,
+            self._typed_number,
+            self._typed,
+            self._leaf,
+        ]
+        make = self.dice.choice(makers)
         entries = [(self._typed_key(), make()) for _ in range(count)]
         inputs = {f"key.{n}": key for n, (key, _) in enumerate(entries, 1)}
         inputs |= {f"value.{n}": value for n, (_, value) in enumerate(entries, 1)}
@@ -451,7 +459,7 @@ class Maker:
         return B("text.text", {kind: key}) if kind == "text" else B("math.number", {kind: key})
 
     def _key(self) -> B:
-        if self._chance(0.03):
+        if self._chance(0.01):
             return self._any()
         return (
             self._get(self.dice.choice(["text", "any"])) if self._chance(0.2) else self._typed_key()
@@ -460,7 +468,7 @@ class Maker:
     def _at(self) -> B:
         """What a table has at a key, mostly so that it need not be there."""
         inputs = {"table": self._table_variable(), "key": self._key()}
-        if self._chance(0.3):
+        if self._chance(0.15):
             return B("table.get", inputs=inputs)
         return B("table.get_or", inputs={**inputs, "otherwise": self._leaf()})
 
