@@ -21,10 +21,16 @@ from .tasks import CLOCK, POLL_S, Countdown, Stamp, current_task
 LONGEST_WAIT_S = 3600.0
 
 
-def next_word(heard: list[str], wanted: dict[str, str], seconds: float) -> str:
+def next_word(
+    heard: list[str],
+    wanted: dict[str, str],
+    seconds: float,
+    resume: Callable[[], object] = lambda: None,
+) -> str:
     """Wait for the first state of ``heard`` that is a wanted word, or any word; "" when too late.
 
-    ``heard`` grows while this waits; ``wanted`` is the word of each state.
+    ``heard`` grows while this waits; ``wanted`` is the word of each state. What is heard while
+    this part is held was said to somebody else; then ``resume`` is called, and it waits on.
     """
     task, countdown, looked_at = current_task(), Countdown(seconds), 0
     while True:
@@ -36,7 +42,12 @@ def next_word(heard: list[str], wanted: dict[str, str], seconds: float) -> str:
         if (left_s := countdown.left_s()) <= 0:
             return ""
         task.sleep(min(POLL_S, left_s))
-        task.stand_still()
+        if task.is_held:
+            task.stand_still()
+            resume()
+            countdown.skip()
+            heard.clear()
+            looked_at = 0
 
 
 REMEMBER_S = 3.0

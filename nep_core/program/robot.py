@@ -211,7 +211,7 @@ class Robot:
         with human_listener(self._network).following() as heard:
             self.say(question)
             heard.clear()  # what was said before the question ended answers nothing
-            return self._listen(words or [], seconds, heard)
+            return self._listen(words or [], seconds, heard, str(question))
 
     def ask_number(self, question: object, seconds: float = 10.0) -> float:
         """Ask for a number, and give it; an answer that is none is asked again, three times in all.
@@ -257,12 +257,22 @@ class Robot:
         """The language that it speaks and understands."""
         return str(self._state().settings.get("language", ""))
 
-    def _listen(self, words: list[str], seconds: float, heard: list[str]) -> str:
+    def _listen(
+        self, words: list[str], seconds: float, heard: list[str], question: str = ""
+    ) -> str:
+        """Listen for an answer; after an interruption a question is asked once more."""
         wanted = {state_of_word(word): word for word in words}
         listening = {"words": words, "seconds": min(seconds, LONGEST_WAIT_S)}
+
+        def ask_again() -> None:
+            if question:
+                self._client.end(self.robots, "listen")
+                self.say(question)
+                self._client.begin(self.robots, "listen", listening)
+
         self._client.begin(self.robots, "listen", listening)
         try:
-            return next_word(heard, wanted, seconds)
+            return next_word(heard, wanted, seconds, ask_again)
         finally:
             self._client.end(self.robots, "listen")
 

@@ -283,6 +283,9 @@ class Timeline:
                 return tr("failed to {action}: {reason}", action=request.action, reason=told)
             case "failed":
                 return tr("failed to {action}", action=request.action)
+            case "cancelled" if result.code == m.DISPLACED:
+                does = action_words(request, self.language, tr)
+                return tr("no longer {does}: it {reason}", does=does, reason=tr(reason))
             case "cancelled":
                 return tr("no longer {does}", does=action_words(request, self.language, tr))
         return ""

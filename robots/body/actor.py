@@ -207,8 +207,11 @@ class Actor:
         """End what is in the way of something more important; who asked for it is told why."""
         results = []
         for command_id, other in self.schedule.displaced().items():
-            words = MADE_WAY_FOR if other.by else MADE_WAY
-            fault = fault_of(words, code=DISPLACED, by=other.by, **self._rest(command_id))
+            rest = self._rest(command_id)
+            if other.by:
+                fault = fault_of(MADE_WAY_FOR, code=DISPLACED, by=other.by, **rest)
+            else:
+                fault = fault_of(MADE_WAY, code=DISPLACED, **rest)
             self.driver.stop([command_id])
             self.schedule.end(command_id)
             results.append(self._result(command_id, "cancelled", fault))

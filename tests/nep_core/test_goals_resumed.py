@@ -172,6 +172,34 @@ def test_what_it_had_begun_and_not_waited_for_is_begun_again(scene: Scene, join:
     assert wait_until(lambda: len(nao.args("walk_freely")) == 2, WAIT_S)
 
 
+def test_a_question_is_asked_once_more_and_what_was_said_meanwhile_answers_nothing(
+    scene: Scene, join: Join
+) -> None:
+    nao, robot = StoppableRobot(join("NAO")), Robot("NAO")
+    nao.lasts = False
+
+    @scene.behavior.goal("tour", when="tour", priority="low", interrupted="resume")
+    def tour() -> None:
+        scene.diary.write(robot.ask("Shall we go on?", ["yes", "no"], 30))
+
+    alarm(scene, 0.5)
+    scene.begin()
+    scene.does("tour")
+    assert wait_until(lambda: nao.args("listen"), WAIT_S)
+
+    scene.does("alarm")
+    entries = [scene.diary.next()]
+    scene.does("heard_yes")
+    entries.append(scene.diary.next())
+    assert wait_until(lambda: len(nao.args("say")) == 2, WAIT_S)
+    quiet = scene.diary.is_quiet()
+    scene.does("heard_no")
+
+    assert entries == ["alarm begins", "alarm done"] and quiet
+    assert scene.diary.next() == "no"
+    assert [args["text"] for args in nao.args("say")] == ["Shall we go on?"] * 2
+
+
 def test_one_that_stands_still_can_be_given_up(scene: Scene) -> None:
     ended = []
 
@@ -195,7 +223,7 @@ def test_one_that_stands_still_can_be_given_up(scene: Scene) -> None:
 
     assert [scene.diary.next(), scene.diary.next()] == ["alarm done", "tour stopped"]
     assert wait_until(lambda: ended, WAIT_S)
-    assert not scene.behavior.pursues("tour")
+    assert wait_until(lambda: not scene.behavior.pursues("tour"), WAIT_S)
 
 
 def test_a_goal_can_be_interrupted_again_and_again(scene: Scene) -> None:

@@ -167,3 +167,27 @@ def test_the_end_of_a_node_is_told_once_in_each_of_its_lives(timeline: Timeline)
 
     assert [told("stopped"), told("alive"), told("stopped", "watch was stopped")] == [1, 0, 0]
     assert [told("ready"), told("stopped", "watch was stopped"), told("stopped")] == [1, 1, 0]
+
+
+def test_who_takes_a_limb_from_an_action_is_told_by_name(timeline: Timeline) -> None:
+    timeline.lines(say())
+    timeline.lines(result("started"))
+    made_way = m.ActionResult(
+        id="1",
+        robot="NAO",
+        state="cancelled",
+        code=m.DISPLACED,
+        text="made way for “{by}”, which is more important",
+        values={"by": "help"},
+    )
+
+    (told,) = timeline.lines(made_way)
+
+    words = "no longer says “Hello”: it made way for “help”, which is more important"
+    assert told == ("NAO", words)
+
+
+def test_a_goal_that_cannot_be_reached_is_told(timeline: Timeline) -> None:
+    failed = m.ProgramState(program="Test", event="goal_failed", rule="tour")
+
+    assert [words for _, words in timeline.lines(failed)] == ["cannot reach the goal “tour”"]
