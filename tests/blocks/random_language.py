@@ -282,7 +282,9 @@ class Maker:
         return B("table.change", inputs={**inputs, "amount": self._number()})
 
     def _fact_statement(self) -> B:
-        making = ["now_true", "now_true", "makes_true", "no_longer_true", "makes_untrue"]
+        making, inside = ["now_true", "no_longer_true"], self.where.procedure
+        if inside is None or not any(p.kind == "list" for p in inside.parameters):
+            making += ["now_true", "makes_true", "makes_untrue"]  # no fact has a list for a task
         kind = "needs" if self._chance(0.05) else self.dice.choice(making)
         return self._fact(f"plan.{kind}")
 

@@ -318,10 +318,12 @@ class FactReader:
         self._begun: set[tuple[str, int, int]] = set()
         self._inside: set[tuple[str, str, bool]] = set()
         self._procedure = ""
+        self._first: frozenset[str] = NO_NAMES
+        """The blocks directly under the hat."""
 
     def read(self, chain: Sequence[str]) -> Facts:
         """The facts of the stack of a chain of blocks; its first is the hat."""
-        hat = self._project.blocks[chain[0]]
+        hat, self._first = self._project.blocks[chain[0]], frozenset(chain)
         self._procedure = procedure_of(hat.type) if hat.type.startswith(DEFINE) else ""
         for block in self._project.within(chain, enabled=True):
             definition = self._language.definitions.get(block.type)
@@ -367,7 +369,7 @@ class FactReader:
                 self._put.add((ITEMS, self._slot(block, f"value.{number}")))
         elif generator in ("list_split", "the_plan"):
             self._put.add((ITEMS, Given(TEXT)))
-        elif generator in ("makes_true", "makes_untrue"):
+        elif generator in ("makes_true", "makes_untrue") and block.id in self._first:
             self._task()
         elif generator == "own_return" and self._procedure:
             self._put.add((result_key(self._procedure), self._slot(block, "value")))
