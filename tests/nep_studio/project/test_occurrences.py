@@ -84,11 +84,11 @@ def test_every_hat_and_question_of_the_language_has_a_happening() -> None:
     # Run, the goal that it is about, what is no rule, what another rule tells, the clock
     own = {"event.started", "goal.when_goal", "code.program", "goal.goal_when", "goal.goal_asked"}
     own |= {"event.told", "time.every", "time.at", "state.begins", "state.after", "state.done"}
-    own |= {"state.told"}
+    own |= {"state.told", "tree.tree"}
     without = []
     for definition in LANGUAGE.definitions.values():
         is_question = definition.is_value and definition.category.id in ("sensing", "robot_senses")
-        if definition.id == "event.true":
+        if definition.id in ("event.true", "state.when"):
             stack = [B(definition.id, {}, {"condition": B("robot_senses.is_touched")})]
         elif definition.shape == "hat" and definition.id not in own:
             fields = {"state": "please"} if definition.id == "goal.goal" else {}
