@@ -42,6 +42,7 @@ class Run:
 
     def begin(self) -> None:
         """Let this be the run of the thread, and of the parts that it begins."""
+        self.after = None  # else a rule that is always late would keep all its runs
         _own.set(self)
         forget_handled()
 
@@ -136,6 +137,7 @@ def _await(runs: Sequence[Run], own: Run | None) -> None:
     try:
         for run in runs:
             run.await_end()
+        current_task().check()  # what ended them may be that all is to end
     finally:
         if own is not None:
             with _graph:

@@ -10,7 +10,7 @@ from typing import Literal
 
 from nep_core.errors import NepError
 
-from .tasks import CLOCK, POLL_S, current_task, wait
+from .tasks import CLOCK, POLL_S, RuleStopped, current_task, wait
 
 Fire = Callable[[], object]
 Watch = Callable[[Fire], None]
@@ -64,6 +64,8 @@ def each_time_true(
         while True:
             try:
                 is_true, is_wrong = bool(condition()), False
+            except RuleStopped:  # in an own block that is asked
+                is_true, is_wrong = False, False
             except Exception as error:
                 is_true, is_wrong = False, True
                 now_s = time.monotonic()

@@ -12,7 +12,7 @@ from nep_core.errors import ValueRefused
 from nep_core.networks.zmq_networks import PeerNetwork
 from nep_core.program import tasks, timing, triggers
 from nep_core.program.behavior import Behavior
-from nep_core.program.tasks import CLOCK, Cancelled, Part, Task
+from nep_core.program.tasks import CLOCK, Cancelled, Part, Task, stop_rule
 from nep_core.program.timing import (
     date_today,
     start_timer,
@@ -111,6 +111,15 @@ def test_a_condition_that_fails_is_told_once_counts_as_no_and_is_asked_on(
     assert not watch.fires(0.5)
     assert [type(error) for error in errors] == [IndexError]
     items.append(True)
+    assert watch.fires()
+
+
+def test_a_condition_that_stops_the_rule_counts_as_no(
+    watching: Callable[[Watch], Watching],
+) -> None:
+    answers = [stop_rule, lambda: True]
+    watch = watching(each_time_true(lambda: answers.pop(0)() if answers else True, pytest.fail))
+
     assert watch.fires()
 
 

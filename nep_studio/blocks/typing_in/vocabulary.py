@@ -20,10 +20,11 @@ from nep_studio.blocks.language import Language
 from nep_studio.blocks.operations.finding import folded
 from nep_studio.blocks.slots import FieldValue
 
-from ..deployment import names_used, robot_entries
+from ..deployment import can_be_stopped, names_used, robot_entries, rules
 from ..from_python.values import ValueReader
 from ..generate.names import python_name
 from ..program import ALL_ROBOTS, Project
+from ..text import sentence
 
 # Typed sentences of languages that are written without spaces: where their words are.
 
@@ -297,6 +298,8 @@ class Filler:
         if kind == "robot":
             name = self.robots.get(plain)
             return Filling(name, NAMED) if name is not None else None
+        if kind == "rule":
+            return self._rule(plain)
         if kind == "variable":
             return self._variable(plain, text.strip())
         if slot.kind.words:
@@ -340,6 +343,17 @@ class Filler:
         if " " in text or not python_name(text, "").isidentifier() or number_in(text) is not None:
             return None
         return Filling("", FREE, new_variable=text)
+
+    def _rule(self, plain: str) -> Filling | None:
+        """The rule whose first block says this, or begins with it."""
+        best: Filling | None = None
+        for chain in rules(self.project, self.language):
+            if not can_be_stopped(self.project, self.language, chain[0]):
+                continue
+            quality = _likeness(plain, folded(sentence(self.project, self.language, chain[0])))
+            if quality and (best is None or quality > best.quality):
+                best = Filling(chain[0], quality)
+        return best
 
     def _free_gesture(self, slot: Slot, plain: str) -> Filling | None:
         if slot.kind.name == "gesture" and plain and not self.language.choices_of(slot):

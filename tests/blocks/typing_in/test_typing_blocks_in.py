@@ -53,6 +53,10 @@ def create(editor, suggestion, place):
         ("posture sit", "robot.do", {"posture": "posture_sit"}),
         ("nao walks 0.5", "robot.walk", {"robot": "NAO", "forward": 0.5}),
         ("wait until", "control.wait_until", {}),
+        ("tell dance", "event.tell", {"message": "dance"}),
+        ("every 5 seconds", "time.every", {"seconds": 5}),
+        ("at 17:30", "time.at", {"time": "17:30"}),
+        ("stop the rule when the program starts", "control.stop_other_rule", {"rule": "b4"}),
     ],
 )
 def test_a_typed_sentence_suggests_its_block_with_its_values(editor, text, block_type, fields):
