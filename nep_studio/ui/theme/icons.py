@@ -40,6 +40,7 @@ CATEGORY_ICONS = {
     "camera": "camera",
     "time": "clock",
     "states": "route",
+    "plans": "map",
 }
 """A category's icon, by the category's ``colour``: so that colour never speaks alone."""
 
