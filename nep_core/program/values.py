@@ -203,9 +203,10 @@ def shown(value: Any) -> str:
         return "…"
     elif isinstance(value, list | dict):
         try:
-            is_list = isinstance(value, list)
-            some = value[:LONGEST] if is_list else dict(list(value.items())[:LONGEST])
-            text = as_text(some) or ("[]" if is_list else "{}")
+            if isinstance(value, list):
+                text = as_text(value[:LONGEST]) or "[]"
+            else:
+                text = as_text(dict(list(value.items())[:LONGEST])) or "{}"
         except ValueRefused:
             return "…"
     else:

@@ -301,7 +301,9 @@ def _kinds_given(tree: ast.Module, names: SourceNames) -> dict[str, int]:
                 found[name] = found.get(name, 0) | kinds_of(value)
             case ast.Name(id=name, ctx=ast.Store()):
                 found.setdefault(name, 0)
-            case ast.AugAssign(target=ast.Name(id=name)) | ast.For(target=ast.Name(id=name)):
+            case ast.AugAssign(target=ast.Name(id=name), value=value):
+                found[name] = found.get(name, 0) | kinds_of(value)
+            case ast.For(target=ast.Name(id=name)):
                 found[name] = ANY
     for _ in range(MOST_NAMES_OF_ONE):
         for name, others in same.items():
