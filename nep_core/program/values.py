@@ -401,6 +401,22 @@ def count_from(first: Any, last: Any, step: Any = 1) -> Iterable[Number]:
     return (start + way * by * done for done in range(steps + 1))
 
 
+def count_up(first: Any, last: Any, step: Any = 1) -> Iterable[Number]:
+    """The numbers from one up to another, as count_from; none where that is below the first."""
+    return count_from(first, last, step) if as_number(first) <= as_number(last) else _none(step)
+
+
+def count_down(first: Any, last: Any, step: Any = 1) -> Iterable[Number]:
+    """The numbers from one down to another, as count_from; none where that is above the first."""
+    return count_from(first, last, step) if as_number(first) >= as_number(last) else _none(step)
+
+
+def _none(step: Any) -> Iterable[Number]:
+    """No numbers; raises ValueRefused for a step with which nobody counts."""
+    count_from(0, 0, step)
+    return ()
+
+
 _NUMBER = re.compile(r"\s*([+-]?(?:\d+[.,]?\d*|[.,]\d+)(?:[eE][+-]?\d+)?)\s*", re.ASCII)
 _LARGEST_EXPONENT = 400
 

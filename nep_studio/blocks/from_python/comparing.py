@@ -17,6 +17,7 @@ from nep_studio.blocks.generate.program import ProgramGenerator, generate_progra
 from nep_studio.blocks.generate.source_map import Code
 
 from .joined import as_joined, told_in_braces
+from .equal_forms import is_gone_through
 from .learning import CodeUnread
 from .naming import functions_of, locals_of, names_made, stopped_in
 from .outside import HEADERS, Part, is_frame
@@ -397,6 +398,8 @@ def _same(one: object, other: object) -> bool:
             return False
         if isinstance(ours, ast.FormattedValue) and isinstance(theirs, ast.FormattedValue):
             left += told_in_braces(ours, theirs)
+        elif isinstance(ours, ast.For) and is_gone_through(ours, theirs):
+            left += [(getattr(ours, n), getattr(theirs, n)) for n in ("target", "body", "orelse")]
         elif isinstance(ours, ast.AST):
             left += [(getattr(ours, n, None), getattr(theirs, n, None)) for n in ours._fields]
         elif isinstance(ours, list) and isinstance(theirs, list):

@@ -16,6 +16,7 @@ from nep_studio.blocks.language import Language
 from nep_studio.blocks.procedures import DEFINE, parameters
 from nep_studio.blocks.program import Project
 
+from .equal_forms import other_statements
 from .learning import CodeUnread, Made, beginning, blocks_of, learned
 from .naming import Hints, SourceNames, Turns, names_in
 from .outside import Part
@@ -195,15 +196,21 @@ class StatementReader:
                     yield made, 1, {}
                     if is_best_enough and not made.written:
                         return
-        for pattern in self._learned.statements.get(beginning(first), ()):
+        for form in (first, *other_statements(first)):
+            for one in self._of_patterns([form, *nodes[1:]]):
+                yield one
+                if is_best_enough and not _written(one):
+                    return
+
+    def _of_patterns(self, nodes: Sequence[ast.stmt]) -> Iterator[_Candidate]:
+        """The blocks that the first statements are by their patterns."""
+        for pattern in self._learned.statements.get(beginning(nodes[0]), ()):
             count = len(pattern.nodes)
             is_kept = any(node.lineno in self._kept for node in nodes[:count])
             found = match(pattern, nodes[:count]) if count <= len(nodes) and not is_kept else None
             made_from = self.values.made_from(pattern, found) if found is not None else None
             if made_from is not None and found is not None:
                 yield made_from, count, found.bodies
-                if is_best_enough and not made_from.written:
-                    return
 
     def _keep_code(self, made: list[Made], code: list[ast.stmt], begin: int) -> int:
         """Put statements that are no blocks into one code block; gives the line after which."""

@@ -16,6 +16,7 @@ from nep_studio.blocks.slots import TEXT_RESULTS, FieldValue, constant
 
 from ..generate.expressions import known_whole
 from ..generate.kinds import ANY, NUMBER, RESULT_KINDS, TABLE, TEXT, WHOLE, Seen, are, kinds_of
+from .equal_forms import other_values
 from .joined import TOLD
 from .learning import (
     BODY,
@@ -276,11 +277,9 @@ class ValueReader:
             return next((made for made, result in self.blocks(inner) if result in kind.fits), None)
         inner, others = within(node, TOLD), kind.fits - TEXT_RESULTS
         if inner is node:
-            others = (
-                frozenset({"any"})
-                if not is_clear and may_be(node, TEXT, self._seen)
-                else frozenset()
-            )
+            is_text = kinds_of(node, self._seen) == TEXT
+            is_text = is_text or (not is_clear and may_be(node, TEXT, self._seen))
+            others = frozenset({"any"}) if is_text else frozenset()
             others |= TEXT_RESULTS
             found = sorted(self.blocks(node), key=_is_no_text)
             return next((made for made, result in found if result in others), None)
@@ -430,11 +429,12 @@ class ValueReader:
             for made in self.called(node):
                 if definitions[made.type].is_value:
                     yield made, definitions[made.type].result
-        for pattern in self._learned.values.get(beginning(node), ()):
-            found = match(pattern, [node])
-            made_from = self.made_from(pattern, found) if found is not None else None
-            if made_from is not None:
-                yield made_from, pattern.definition.result
+        for form in (node, *other_values(node)):
+            for pattern in self._learned.values.get(beginning(form), ()):
+                found = match(pattern, [form])
+                made_from = self.made_from(pattern, found) if found is not None else None
+                if made_from is not None:
+                    yield made_from, pattern.definition.result
         if isinstance(node, ast.JoinedStr) and (joined := self._f_string(node)) is not None:
             yield joined
         if (converted := self._converted(node)) is not None:
