@@ -71,6 +71,7 @@ if TYPE_CHECKING:
         to_nearest,
         to_power,
     )
+    from .program.variables import Variables
     from .wire.pubsub import Publisher, Subscriber
 
 _HOMES = {
@@ -91,6 +92,7 @@ _HOMES = {
         "items_between join_items largest_of length_of letter_of list_with mean_of median_of "
         "number_in parts_of place_in_text place_of random_whole remove_item replace_part set_item "
         "smallest_of sorted_items sum_of take_item title_case to_nearest to_power",
+        "program.variables": "Variables",
         "wire.pubsub": "Publisher Subscriber",
     }.items()
     for name in names.split()
@@ -108,7 +110,7 @@ __all__ += ["is_more", "is_same", "item_of", "items_between", "join_items", "lar
 __all__ += ["length_of", "letter_of", "list_with", "mean_of", "median_of", "number_in"]
 __all__ += ["parts_of", "place_in_text", "place_of", "random_whole", "remove_item"]
 __all__ += ["replace_part", "set_item", "smallest_of", "sorted_items", "sum_of", "take_item"]
-__all__ += ["title_case", "to_nearest", "to_power"]
+__all__ += ["Variables", "title_case", "to_nearest", "to_power"]
 
 
 def __getattr__(name: str) -> Any:

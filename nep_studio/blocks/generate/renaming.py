@@ -6,12 +6,13 @@ import ast
 import copy
 import re
 import unicodedata
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, field, replace
 
 from faults import Words
 from nep_studio.blocks.code_text import (
+    SHARED_OBJECTS,
     CodeTextRefused,
     made_by,
     parse_lines,
@@ -25,8 +26,10 @@ from nep_studio.blocks.language import Language
 from nep_studio.blocks.procedures import DEFINE, parameters, procedure_of
 from nep_studio.blocks.program import Block, Project
 
+from .kinds import FactReader, Facts
 from .names import ProgramNames
 from .program import give_names
+from .scopes import scoped
 
 NO_ROBOTS: Mapping[str, str] = {}
 
@@ -34,7 +37,7 @@ NO_ROBOTS: Mapping[str, str] = {}
 
 _FUNCTIONS = (ast.FunctionDef, ast.AsyncFunctionDef, ast.Lambda)
 _COMPREHENSIONS = (ast.ListComp, ast.SetComp, ast.DictComp, ast.GeneratorExp)
-_WORD = re.compile(r"\w+")
+_WORD = re.compile(rf"(?:(?:{'|'.join(SHARED_OBJECTS)})\.)?\w+")
 
 
 class CannotRename(Exception):
@@ -329,13 +332,17 @@ def _without_names(tree: ast.Module) -> str:
 # The names of a program, and the blocks in which people wrote Python.
 
 
-def names_of(project: Project, language: Language) -> ProgramNames:
-    """What everything in a project is called in its Python, as far as that can be read."""
-    used = set[str]()
+def names_of(project: Project, language: Language, plain: Collection[str] = ()) -> ProgramNames:
+    """What everything in a project is called in its Python, as far as that can be read.
+
+    The variables of the ids in ``plain`` are called as where Python of a person names them.
+    """
+    used, facts = set[str](), dict[str, Facts]()
     headers: dict[str, None] = {}
     made, defined = frozenset[str](), frozenset[str]()
     for chain in chains(project, language):
         first = project.blocks[chain[0]]
+        facts[first.id] = FactReader(project, language).read(chain)
         if first.type.startswith(DEFINE):
             headers[procedure_of(first.type)] = None
         if first.type == OUTSIDE_BLOCK:
@@ -351,7 +358,8 @@ def names_of(project: Project, language: Language) -> ProgramNames:
                     used.add(str(definition.value(block, key)))
     listed = [entry.name for entry in robot_entries(project, language)]
     ordered = [p for p in project.procedures if p in headers]
-    return give_names(project, listed, used, ordered, made, defined)
+    names = give_names(project, listed, used, ordered, made, defined)
+    return scoped(names, facts, project, plain)
 
 
 @contextmanager
@@ -373,7 +381,7 @@ def names_followed(
     before = names_of(project, language)
     yield
     language = language.of(project)
-    after = names_of(project, language)
+    after = names_of(project, language, _named_plainly(before))
     change = _Change(project, before, after, robots, pieces)
     for piece in pieces:
         text = change.of(piece)
@@ -384,9 +392,18 @@ def names_followed(
         raise EditRefused(_TAKEN, checklist=(_OTHER_NAME,), line=pieces[0].line, new=shown)
 
 
+def _named_plainly(names: ProgramNames) -> set[str]:
+    """The variables of the whole program that Python of a person names."""
+    return {
+        variable
+        for variable, name in names.variables.items()
+        if "." not in name and name not in names.locals
+    }
+
+
 def _plain(names: ProgramNames) -> ProgramNames:
     """The names without those that own Python makes."""
-    return replace(names, outside=frozenset())
+    return replace(names, outside=frozenset(), locals=frozenset())
 
 
 _TAKEN = "In the Python “{line}”, “{new}” means something else already."
