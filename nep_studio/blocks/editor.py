@@ -22,7 +22,7 @@ from .edits.content import (
     SetField,
 )
 from .edits.placing import CreateBlocks, DeleteBlocks, MoveBlocks
-from .edits.project import AddVariable, MoveStack, RemovePage, RenameVariable
+from .edits.project import AddVariable, MoveStack, RemovePage, RenameVariable, SetScope
 from .errors import EditRefused
 from .generate.renaming import NO_ROBOTS, names_followed
 from .language import Language
@@ -286,7 +286,7 @@ class Editor:
         reason = why_not(edit, self.project, self.language)
         if reason is not None:
             raise EditRefused(reason)
-        if isinstance(edit, RenameVariable | ChangeProcedure):
+        if isinstance(edit, RenameVariable | SetScope | ChangeProcedure):
             with self.transaction(label or edit.label), self.renaming():
                 self.history.apply(edit)
             return

@@ -73,6 +73,10 @@ def lost_lines(
     _require_own_names(source, parts)
     if names := _names_shared(editor, code, made, functions) - apart:
         return Lost(set(), generator.kinds(), apart=names)
+    again = _functions_made(editor, code, made)
+    both = [(there, again[stack]) for stack, there in functions.items() if stack in again]
+    if lines := {there.lineno for there, other in both if not _require_same_scope(there, other)}:
+        return Lost(lines, generator.kinds())
     lost, places = _lost_functions(editor, source, code, made, functions)
     around = _lost_around(source, made)
     places = places or _setting(source, around)
@@ -290,7 +294,11 @@ def _require_same_scope(there: ast.FunctionDef, again: ast.FunctionDef) -> bool:
 
 def _is_shared(function: ast.FunctionDef | ast.AsyncFunctionDef, name: str) -> bool:
     names = {f"{owner}.{name}" for owner in SHARED_OBJECTS}
-    return any(isinstance(n, ast.Name) and n.id in names for n in ast.walk(function))
+    return any(
+        (isinstance(node, ast.Name) and node.id in names)
+        or (isinstance(node, ast.Global) and name in node.names)
+        for node in ast.walk(function)
+    )
 
 
 def _require_no_use(source: Source, renamed: Mapping[str, int]) -> None:

@@ -6,7 +6,7 @@ So a text reads the same whether it says ``global score`` or ``program.score``.
 from __future__ import annotations
 
 import ast
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 
 from nep_studio.blocks.code_text import made_by, outside_functions
 from nep_studio.blocks.program import SCOPE_PROGRAM
@@ -57,13 +57,17 @@ def with_shared_names(tree: ast.Module, known: Mapping[str, str]) -> ast.Module:
     """The tree of a program in which its plain variables are called ``program.score`` too.
 
     These are the names that functions say are global, and those of plain values outside of all
-    functions; ``known`` are those that a project has for names that a text does not explain.
+    functions; ``known`` are those that a project has for names that a text does not explain. A name
+    that stands for a function, a module or a robot too stays as it is.
     """
     own = {name for node in ast.walk(tree) if isinstance(node, _Function) for name in _made(node)}
     made = {name for node in tree.body for name in _stored(node)}
-    said = {n for node in ast.walk(tree) if isinstance(node, ast.Global) for n in node.names}
+    said = _said_global(ast.walk(tree))
     begun = {name for node in tree.body if (name := _begun(node)) and name not in own}
-    kept = {name for node in tree.body for name in _defined(node)} | RESERVED
+    kept = RESERVED | {name for node in tree.body for name in (*_header(node), *_defined([node]))}
+    for function in (one for one in ast.walk(tree) if isinstance(one, _Function)):
+        inside = list(_inside(function))
+        kept |= _defined(inside) & _said_global(inside)
     names = {name: f"{SCOPE_PROGRAM}.{name}" for name in (said | begun) - kept}
     free = known.keys() - made - own - kept
     _Renamer({**{name: known[name] for name in free}, **names}).rename(tree)
@@ -77,13 +81,17 @@ def _begun(node: ast.stmt) -> str:
     return ""
 
 
-def _defined(node: ast.stmt) -> Iterator[str]:
-    """What is a function, a class, a module, or a robot outside of all functions."""
+def _defined(nodes: Iterable[ast.AST]) -> set[str]:
+    """What functions, classes, modules and the like are called that are made there."""
+    return {name for one in nodes if not isinstance(one, ast.Name) for name in made_by(one)}
+
+
+def _said_global(nodes: Iterable[ast.AST]) -> set[str]:
+    return {name for one in nodes if isinstance(one, ast.Global) for name in one.names}
+
+
+def _header(node: ast.stmt) -> Iterator[str]:
     match node:
-        case ast.FunctionDef(name=name) | ast.AsyncFunctionDef(name=name) | ast.ClassDef(name=name):
-            yield name
-        case ast.Import(names=names) | ast.ImportFrom(names=names):
-            yield from ((alias.asname or alias.name).partition(".")[0] for alias in names)
         case ast.Assign(
             targets=[ast.Name(id=name)], value=ast.Call(func=ast.Name(id="Robot" | "Behavior"))
         ):

@@ -378,27 +378,30 @@ def names_followed(
     if not pieces:
         yield
         return
-    before = names_of(project, language)
+    plain = _named_plainly(project, language, pieces)
+    before = names_of(project, language, plain)
     yield
     language = language.of(project)
-    after = names_of(project, language, _named_plainly(before))
+    after = names_of(project, language, plain)
     change = _Change(project, before, after, robots, pieces)
     for piece in pieces:
         text = change.of(piece)
         if text != piece.text:
             apply(SetField(piece.block.id, piece.key, text))
-    if _plain(names_of(project, language)) != _plain(after):
+    if _plain(names_of(project, language, plain)) != _plain(after):
         shown = next(iter(change.new), "")
         raise EditRefused(_TAKEN, checklist=(_OTHER_NAME,), line=pieces[0].line, new=shown)
 
 
-def _named_plainly(names: ProgramNames) -> set[str]:
-    """The variables of the whole program that Python of a person names."""
-    return {
-        variable
-        for variable, name in names.variables.items()
-        if "." not in name and name not in names.locals
-    }
+def _words(text: str) -> set[str]:
+    return {unicodedata.normalize("NFKC", word) for word in _WORD.findall(text)}
+
+
+def _named_plainly(project: Project, language: Language, pieces: Sequence[_Piece]) -> set[str]:
+    """The variables that Python of a person names, also where it does nothing."""
+    words = {word for piece in pieces for word in _words(piece.text)}
+    names = names_of(project, language, [variable.id for variable in project.variables])
+    return {variable for variable, name in names.variables.items() if name in words}
 
 
 def _plain(names: ProgramNames) -> ProgramNames:
@@ -480,8 +483,7 @@ class _Change:
                 plain, names, apart=self._apart(piece), new=new, called=self.called
             )
         except CodeTextRefused as refused:
-            words = {unicodedata.normalize("NFKC", word) for word in _WORD.findall(piece.text)}
-            if not words & (names.keys() | new):
+            if not _words(piece.text) & (names.keys() | new):
                 return piece.text
             raise self._refused(
                 "The Python “{line}” cannot be read: the new name cannot be written there.",

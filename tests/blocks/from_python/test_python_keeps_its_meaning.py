@@ -212,5 +212,5 @@ def test_a_variable_of_a_loose_block_is_that_of_its_name_in_the_text(language):
     assert [variable.name for variable in editor.project.variables] == ["n", "m"]
     assert "    n = 1\n" in generate_program(editor.project, language).text
     with pytest.raises(CodeUnread, match="a variable of the whole program"):
-        update_from_python(editor, text.format("n: int = 1"))
+        update_from_python(editor, text.format("n = m = 1"))
     assert [variable.name for variable in editor.project.variables] == ["n", "m"]
