@@ -28,6 +28,7 @@ if TYPE_CHECKING:
         until_state,
         was_seen,
     )
+    from .program.kept import Kept
     from .program.robot import Robot, colour_from, mix_colours
     from .program.tasks import at_once, stop_program, stop_rule, together, wait, wait_until
     from .program.values import (
@@ -85,6 +86,7 @@ _HOMES = {
         "program.behavior": "Behavior in_turn one_of",
         "program.human": "heard_word human_state is_remembered remember times_seen until_state "
         "was_seen",
+        "program.kept": "Kept",
         "program.robot": "Robot colour_from mix_colours",
         "program.tasks": "at_once stop_program stop_rule together wait wait_until",
         "program.values": "add_item append_text as_list as_number as_text count_from deviation_of "
@@ -110,7 +112,7 @@ __all__ += ["is_more", "is_same", "item_of", "items_between", "join_items", "lar
 __all__ += ["length_of", "letter_of", "list_with", "mean_of", "median_of", "number_in"]
 __all__ += ["parts_of", "place_in_text", "place_of", "random_whole", "remove_item"]
 __all__ += ["replace_part", "set_item", "smallest_of", "sorted_items", "sum_of", "take_item"]
-__all__ += ["Variables", "title_case", "to_nearest", "to_power"]
+__all__ += ["Kept", "Variables", "title_case", "to_nearest", "to_power"]
 
 
 def __getattr__(name: str) -> Any:

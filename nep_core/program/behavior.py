@@ -30,6 +30,7 @@ from nep_core.wire.pubsub import Publisher
 from nep_core.wire.states import state_of_thing, state_of_word, word_of_state
 
 from .human import human_listener
+from .kept import keep_now, take_troubles
 from .tasks import CLOCK, POLL_S, PROGRAM, Cancelled, Part, RuleStopped, Task, current_task
 from .values import speak
 
@@ -218,7 +219,8 @@ class Behavior:
             for part in self._parts:
                 part.join(1.0)
             PROGRAM.end_undone()
-            self._tell_drops()
+            keep_now()
+            self._tell_troubles()
             self._states.close()
             words.close()
         if self._first_error is not None and not PROGRAM.cancelled.is_set():
@@ -255,7 +257,7 @@ class Behavior:
             if self._ends_on_error and self._first_error is not None:
                 return
             if time.monotonic() - self._told_drops_s >= TELL_AGAIN_S:
-                self._tell_drops()
+                self._tell_troubles()
 
     def _play(self, action: Action, rule: str) -> None:
         """Do something; an error in it is told, and ends nothing else than the program says."""
@@ -275,6 +277,12 @@ class Behavior:
         fault, line = _explainers[0](error)
         self._tell("rule_failed", rule, line, fault)
         self._first_error = self._first_error or error
+
+    def _tell_troubles(self) -> None:
+        """Tell what a person should look at: what was left out, what could not be kept."""
+        self._tell_drops()
+        for fault in take_troubles():
+            self._tell("warning", "", 0, fault)
 
     def _tell_drops(self) -> None:
         """Tell of the starts that did not fit into a queue since that was last told."""

@@ -4,6 +4,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+SHARED_OBJECTS = ("program", "kept")
+"""What the objects are called in a program whose attributes are its variables."""
+
 
 class Variables:
     """The variables of a program: ``program = Variables(score=0)``, then ``program.score += 1``.
@@ -22,3 +25,8 @@ class Variables:
 
         def __getattr__(self, name: str) -> Any: ...
         def __setattr__(self, name: str, value: Any) -> None: ...
+
+
+def variables_in(held: object) -> dict[str, object]:
+    """The variables that such an object holds, read without running any code; {} of another."""
+    return held.__dict__ if isinstance(held, Variables) else {}

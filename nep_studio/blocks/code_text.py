@@ -14,14 +14,12 @@ from types import CodeType
 from typing import TypeVar
 
 from faults import Text, Words, text_of
+from nep_core.program.variables import SHARED_OBJECTS
 
 from .definitions import PYTHON_KINDS, Definition
 from .errors import BlocksError
 from .program import Block, Project
 from .slots import JOINERS
-
-SHARED_OBJECTS = ("program", "kept")
-"""What the variables of the whole program, and of all its runs, are attributes of in Python."""
 
 _GENERATOR_FLAGS = 0x20 | 0x80 | 0x200
 """Of a code object: it is a generator, a coroutine, or both."""

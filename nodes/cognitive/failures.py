@@ -13,6 +13,7 @@ from types import FrameType, TracebackType
 
 from faults import Fault, Text, Words, fault_of
 from nep_core.errors import NepError
+from nep_core.program.variables import variables_in
 
 # The values that an operation of a program had when it failed, read without running any code.
 
@@ -74,7 +75,7 @@ def _values(node: ast.AST, frame: FrameType) -> dict[str, Words]:
     match node:
         case (
             ast.BinOp(left=left, op=sign, right=right)
-            | ast.AugAssign(target=ast.Name() as left, op=sign, value=right)
+            | ast.AugAssign(target=ast.Name() | ast.Attribute() as left, op=sign, value=right)
         ):
             return _sides(left, right, frame) | {"sign": _SIGNS.get(type(sign), "?")}
         case ast.Compare(left=left, comparators=[right]):
@@ -108,7 +109,10 @@ def _place(items: ast.expr, index: ast.expr, frame: FrameType) -> dict[str, Word
 
 def _in_words(node: ast.expr) -> str:
     """What a list is called: a variable by the words of its name, as it has them in the blocks."""
-    return node.id.replace("_", " ").strip() if isinstance(node, ast.Name) else ast.unparse(node)
+    match node:
+        case ast.Name(id=name) | ast.Attribute(value=ast.Name(), attr=name):
+            return name.replace("_", " ").strip()
+    return ast.unparse(node)
 
 
 def _value(node: ast.expr, frame: FrameType) -> object:
@@ -118,6 +122,8 @@ def _value(node: ast.expr, frame: FrameType) -> object:
             return value
         case ast.Name(id=name):
             return _named(name, frame)
+        case ast.Attribute(value=ast.Name(id=owner), attr=name):
+            return _of_program(owner, name, frame)
         case ast.UnaryOp(op=ast.USub(), operand=operand):
             return -_number(operand, frame)
         case ast.BinOp(left=left, op=ast.Add(), right=right):
@@ -140,6 +146,14 @@ def _named(name: str, frame: FrameType) -> object:
     for names in (frame.f_locals, frame.f_globals):
         if name in names and type(names[name]) in _PLAIN:
             return names[name]
+    raise _Unknown
+
+
+def _of_program(owner: str, name: str, frame: FrameType) -> object:
+    """What a variable of the whole program holds."""
+    held = variables_in(frame.f_globals.get(owner))
+    if name in held and type(held[name]) in _PLAIN:
+        return held[name]
     raise _Unknown
 
 
@@ -198,6 +212,12 @@ SENTENCES = (
     Explanation(
         NameError,
         r"'(?P<name>\w+)'",
+        'Something called "{name}" was used before it had a value.',
+        (GIVE_FIRST, CHECK_NAME),
+    ),
+    Explanation(
+        AttributeError,
+        r"'(?:Variables|Kept)' object has no attribute '(?P<name>\w+)'",
         'Something called "{name}" was used before it had a value.',
         (GIVE_FIRST, CHECK_NAME),
     ),

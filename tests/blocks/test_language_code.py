@@ -23,7 +23,8 @@ def lines(language, *blocks, variables=("items", "n", "word")):
     parse(text)
     assert_mapped(generate_program(editor.project, language), editor.project, language)
     body = text.partition("def when_started():\n")[2].partition("\n\n\nbehavior.run")[0]
-    return [line[4:].replace("program.", "") for line in body.splitlines()]
+    found = [line[4:] for line in body.splitlines() if not line.startswith("    global")]
+    return [line.replace("program.", "") for line in found]
 
 
 def value(language, block):

@@ -77,7 +77,7 @@ def with_shared_names(tree: ast.Module, known: Mapping[str, str]) -> ast.Module:
 def _begun(node: ast.stmt) -> str:
     match node:
         case ast.Assign(targets=[ast.Name(id=name)], value=ast.Constant() | ast.List()):
-            return name
+            return "" if is_shared(name) else name
     return ""
 
 

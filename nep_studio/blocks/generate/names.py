@@ -36,6 +36,7 @@ VALUES = frozenset(
 API = VALUES | frozenset(
     {
         "Behavior",
+        "Kept",
         "Launcher",
         "Robot",
         "Variables",

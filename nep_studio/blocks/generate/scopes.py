@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Collection, Mapping
 from dataclasses import replace
 
+from nep_studio.blocks.deployment import chains
+from nep_studio.blocks.language import Language
 from nep_studio.blocks.program import SCOPE_KEPT, SCOPE_PROGRAM, Project
 
-from .kinds import Facts
+from .kinds import FactReader, Facts
 from .names import ProgramNames
 
 
@@ -62,3 +65,14 @@ def scoped(
             variables[variable.id] = name
             by_themselves.add(name)
     return replace(names, variables=variables, locals=frozenset(by_themselves))
+
+
+def share_as_before(project: Project, language: Language) -> None:
+    """Let variables that several stacks use belong to the whole program, as they once did."""
+    stacks = chains(project, language)
+    facts = {chain[0]: FactReader(project, language).read(chain) for chain in stacks}
+    users = Counter(variable for one in facts.values() for variable in one.used)
+    local = local_variables(facts)
+    for variable in project.variables:
+        if users[variable.id] > 1 and variable.id in local and not variable.scope:
+            variable.scope = SCOPE_PROGRAM

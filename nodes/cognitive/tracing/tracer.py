@@ -187,7 +187,7 @@ class Tracer:
         self._send = send
         source = read_source(Path(file))
         self._threads = ProgramThreads()
-        self._values = ProgramValues(source.variables)
+        self._values = ProgramValues(source.variables, self._threads.frames)
         self._pace = Pace(source, self._tell)
         self._watch = (make_watch or cheapest_watch())(file, self._threads, self)
         self._lock = threading.Lock()
@@ -233,6 +233,7 @@ class Tracer:
 
     def leave(self, frame: FrameType) -> None:
         """Note the end of a call."""
+        self._values.end_of(frame)
         self._threads.leave(frame)
 
     def line(self, _frame: FrameType, line: int) -> bool:
