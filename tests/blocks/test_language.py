@@ -20,6 +20,7 @@ import nep_core
 from nep_core.program import behavior
 from nep_core.program.tasks import Part, RuleStopped, Task
 from nep_core.program.values import speak
+from nep_core.program.variables import Variables
 from nep_studio.blocks.errors import CodeRefused
 from nep_studio.blocks.generate.program import generate_program
 from nep_studio.blocks.language import Language
@@ -75,6 +76,7 @@ def stand_ins(monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
     with monkeypatch.context() as patched:
         patched.setattr(nep_core, "Robot", Listener, raising=False)
         patched.setattr(nep_core, "Behavior", Runner, raising=False)
+        patched.setattr(nep_core, "Kept", Variables, raising=False)  # writes no files
         yield
     speak("en")
 
