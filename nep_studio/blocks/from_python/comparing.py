@@ -9,7 +9,8 @@ from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence, Set
 from dataclasses import dataclass, field
 
-from nep_studio.blocks.code_text import SHARED_OBJECTS, CodeTextRefused, compile_quietly
+from nep_core.program.variables import SHARED_OBJECTS
+from nep_studio.blocks.code_text import CodeTextRefused, compile_quietly
 from nep_studio.blocks.editor import Editor
 from nep_studio.blocks.errors import CodeRefused
 from nep_studio.blocks.generate.names import API

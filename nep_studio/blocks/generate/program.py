@@ -9,7 +9,8 @@ from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 
-from nep_studio.blocks.code_text import SHARED_OBJECTS, CodeText, read_outside
+from nep_core.program.variables import SHARED_OBJECTS
+from nep_studio.blocks.code_text import CodeText, read_outside
 from nep_studio.blocks.deployment import (
     OUTSIDE_BLOCK,
     RobotEntry,

@@ -11,8 +11,8 @@ from contextlib import contextmanager
 from dataclasses import dataclass, field, replace
 
 from faults import Words
+from nep_core.program.variables import SHARED_OBJECTS
 from nep_studio.blocks.code_text import (
-    SHARED_OBJECTS,
     CodeTextRefused,
     made_by,
     parse_lines,
