@@ -167,7 +167,8 @@ def parse_lines(text: str) -> ast.Module:
 def _parse(text: str, mode: str) -> ast.Module | ast.Expression:
     try:
         with warnings.catch_warnings(action="ignore"):
-            return as_names(ast.parse(text, mode=mode))  # type: ignore[type-var]
+            tree: ast.Module | ast.Expression = ast.parse(text, mode=mode)  # type: ignore[assignment]
+            return as_names(tree)
     except SyntaxError as error:
         line = error.lineno or 1
         raise CodeTextRefused(_syntax_sentence(error), line) from error

@@ -119,6 +119,18 @@ def test_what_is_called_as_the_object_has_another_name(language):
     assert "    program_ = 1\n" in text and "    kept_ = 2\n" in text
 
 
+def test_no_line_waits_for_another_because_of_a_variable_by_itself(language):
+    more = B(
+        "variable.set",
+        {"variable": "v1"},
+        {"value": B("math.arithmetic", inputs={"a": get(), "b": B("math.random_integer")})},
+    )
+    by_itself = build(language, started(put(), more), touched(put(), more), variables=("x",))
+    shared = build(language, started(more), touched(more), variables=("x",))
+
+    assert "at_once" not in code_of(by_itself) and code_of(shared).count("with at_once: ") == 2
+
+
 OLD = """
 from nep_core import Behavior, Robot
 

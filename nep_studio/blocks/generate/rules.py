@@ -307,7 +307,8 @@ class RuleWriter:
         piece = pieces[0]
         line = piece if isinstance(piece, str) else piece.line
         variables = shared.intersection(variables_set(code.project, code.language, block))
-        names = [code.names.variables[one] for one in variables if one in code.names.variables]
+        names = {code.names.variables[one] for one in variables if one in code.names.variables}
+        names -= code.names.locals  # nobody else sets those
         if not any(_can_be_torn(line, name) for name in names) or self._takes_time(block):
             return pieces
         code.api.add(AT_ONCE)
