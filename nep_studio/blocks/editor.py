@@ -313,10 +313,10 @@ class Editor:
         self.apply(CreateBlocks((block.id,), (block,), place))
         return block.id
 
-    def add_variable(self, name: str) -> str:
+    def add_variable(self, name: str, scope: str = "") -> str:
         """Make a variable; gives its id."""
         variable_id = self.project.new_id("v")
-        self.apply(AddVariable(variable_id, name, len(self.project.variables)))
+        self.apply(AddVariable(variable_id, name, len(self.project.variables), scope))
         return variable_id
 
     def new_stack(self, page: str, x: float, y: float) -> NewStack:

@@ -10,6 +10,7 @@ from nep_studio.blocks.edits.project import RenameVariable, SetScope
 from nep_studio.blocks.files import from_bytes, to_bytes
 from nep_studio.blocks.from_python.updating import update_from_python
 from nep_studio.blocks.generate.program import generate_program
+from nep_studio.blocks.operations.copying import copy, paste
 from nep_studio.blocks.program import Project
 
 
@@ -117,6 +118,17 @@ def test_what_is_called_as_the_object_has_another_name(language):
     text = code_of(build(language, chain, variables=("program", "kept")))
 
     assert "    program_ = 1\n" in text and "    kept_ = 2\n" in text
+
+
+def test_a_variable_keeps_its_scope_in_another_project(language):
+    editor = build(language, started(put(), say()), variables=("x",))
+    editor.apply(SetScope("v1", "kept"))
+    other = build(language)
+    clip = copy(editor.project, language, editor.project.pages["behaviour"][0].body)
+
+    paste(other, clip, "behaviour", 0, 0)
+
+    assert [(one.name, one.scope) for one in other.project.variables] == [("x", "kept")]
 
 
 def test_no_line_waits_for_another_because_of_a_variable_by_itself(language):
