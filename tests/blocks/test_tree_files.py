@@ -163,6 +163,19 @@ def test_files_of_version_3_are_read(language: Language) -> None:
     assert exported(imported(language, text)[0]) == text
 
 
+def test_scripts_may_have_two_signs_that_xml_forbids(language: Language) -> None:
+    editor, told = imported(
+        language,
+        """<root BTCPP_format="4"><BehaviorTree ID="T"><Sequence>
+        <ScriptCondition code="a>1 && b != 2"/><Say text="A &amp; B"/>
+        </Sequence></BehaviorTree></root>""",
+    )
+
+    assert not told
+    assert '<Condition ID="ScriptCondition" code="a&gt;1 &amp;&amp; b != 2"' in exported(editor)
+    assert 'text="A &amp; B"' in exported(editor)
+
+
 def test_what_is_not_taken_over_is_told(language: Language) -> None:
     editor, told = imported(
         language,
@@ -179,7 +192,7 @@ def test_what_is_not_taken_over_is_told(language: Language) -> None:
         "“_skipIf” of “B” is not taken over.",
         "The script “x := y + 1” is more than blocks can read.",
         "“failure_count” of “Parallel” is not taken over.",
-        "“soon” is no number that is needed here.",
+        "“msec” of “Timeout” is not taken over.",
     ]
     assert not check(editor.project, editor.language)
 

@@ -14,7 +14,9 @@ DEEPEST = 100
 MOST_ELEMENTS = 10_000
 
 _COMMENT = re.compile(rb"<!--.*?-->", re.DOTALL)
-"""BehaviorTree.CPP takes lines of dashes in them, which XML forbids: its own examples have them."""
+_LOOSE_AND = re.compile(rb"&(?!#?\w+;)")
+"""BehaviorTree.CPP takes lines of dashes in comments, and “&&” in scripts, as its own examples have
+them; XML forbids both."""
 
 _FROM_GROOT = "Is it a file that Groot or BehaviorTree.CPP wrote?"
 
@@ -58,7 +60,8 @@ def read_elements(content: bytes) -> Element:
         )
     builder = _Builder()
     try:
-        builder.parser.Parse(_COMMENT.sub(_blank, content), True)
+        plain = _LOOSE_AND.sub(b"&amp;", _COMMENT.sub(_blank, content))
+        builder.parser.Parse(plain, True)
     except expat.ExpatError as error:
         raise TreeFileError(
             "Line {line} is no XML: {reason}.",

@@ -154,11 +154,7 @@ class _Reader:
     def _tell_unread(self, element: Element) -> None:
         for attribute in element.attributes:
             if attribute.startswith("_"):
-                self._tell(
-                    "“{attribute}” of “{tag}” is not taken over.",
-                    attribute=attribute,
-                    tag=element.tag,
-                )
+                self._tell_left(element, attribute)
 
     def _part(self, element: Element) -> Made:
         tag = element.tag
@@ -184,28 +180,32 @@ class _Reader:
 
     def _limited(self, element: Element) -> Made:
         kind, slot, attributes = _LIMITED[element.tag]
-        text = next((element.attributes[a] for a in attributes if a in element.attributes), "-1")
+        attribute = next((a for a in attributes if a in element.attributes), "")
         made = Made(kind, bodies={"do": self._all(element.children)})
-        if text.strip() != "-1":
+        if element.attributes.get(attribute, "-1").strip() != "-1":
             made.groups["limit"] = 1
-            self._fill_number(made, f"{slot}.1", text, 1)
+            self._fill_number(made, f"{slot}.1", element, attribute, 1)
         for failures in ("failure_count", "failure_threshold"):
             if element.attributes.get(failures, "1").strip() != "1":
-                self._tell(
-                    "“{attribute}” of “{tag}” is not taken over.",
-                    attribute=failures,
-                    tag=element.tag,
-                )
+                self._tell_left(element, failures)
         return made
+
+    def _tell_left(self, element: Element, attribute: str) -> None:
+        self._tell(
+            "“{attribute}” of “{tag}” is not taken over.", attribute=attribute, tag=element.tag
+        )
 
     def _timed(self, element: Element) -> Made:
         kind, attribute, per_second = _TIMED[element.tag]
         made = Made(kind, bodies={"do": self._all(element.children)})
-        self._fill_number(made, "seconds", element.attributes.get(attribute, ""), per_second)
+        self._fill_number(made, "seconds", element, attribute, per_second)
         return made
 
-    def _fill_number(self, made: Made, key: str, text: str, per_one: int) -> None:
+    def _fill_number(
+        self, made: Made, key: str, element: Element, attribute: str, per_one: int
+    ) -> None:
         """Put a number, or a value of the tree, into a slot; the slot keeps its own otherwise."""
+        text = element.attributes.get(attribute, "")
         if marked := _marked(text):
             value = _value_of(marked)
             if per_one != 1:
@@ -216,7 +216,7 @@ class _Reader:
             number = number_of(typed_number(text.strip()))
             made.fields[key] = int(number // per_one) if number % per_one == 0 else number / per_one
         else:
-            self._tell("“{text}” is no number that is needed here.", text=text)
+            self._tell_left(element, attribute)
 
     def _sub_tree(self, element: Element) -> Made:
         name = element.attributes.get("ID", element.tag)
@@ -346,6 +346,8 @@ def _models(root: Element, trees: list[Element], names: dict[str, str]) -> dict[
         model = models.setdefault(key, Model())
         if element.tag in ("Action", "Condition"):
             model.kind = element.tag
+        elif element.tag == "ScriptCondition":
+            model.kind = "Condition"
         for attribute in element.attributes:
             is_port = attribute not in _NOT_PORTS and not attribute.startswith("_")
             if is_port and attribute not in model.outputs:
