@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import random
+from itertools import pairwise
 
 import pytest
 
@@ -115,6 +116,16 @@ def test_what_a_file_names_becomes_own_blocks_to_be_filled(language: Language) -
     assert "def FindFace(who):\n    # fill in here what this does\n    set_tree_value(" in text
     assert "def BatteryLow():\n    # find out here whether this is so\n    return True" in text
     assert 'Say("Hello", 0.5)' in text
+
+
+def test_stacks_are_put_below_each_other(language: Language) -> None:
+    editor, _ = imported(language, PATROL)
+
+    stacks = sorted(editor.project.pages["behaviour"], key=lambda stack: stack.y)
+    for upper, lower in pairwise(stacks):
+        blocks = [b.type for b in editor.project.within(upper.body)]
+        rows = [one for one in blocks if not one.startswith(("tree.value", "logic.", "my.call"))]
+        assert lower.y - upper.y > 40 * len(rows)
 
 
 def test_an_import_is_one_step_that_is_taken_back(language: Language) -> None:

@@ -109,6 +109,7 @@ class _Reader:
         self._names = dict(_new_names(editor, trees))
         self._models = _models(root, trees, self._names)
         self._own: dict[str, Procedure] = {}
+        self._free_y = _below(editor, page)
 
     def read(self) -> Imported:
         for include in self._root.named("include"):
@@ -123,7 +124,7 @@ class _Reader:
             runs = "at_start" if name == main else "when_asked"
             hat = Made("tree.tree", {"name": self._names[name], "runs": runs})
             chain = [hat, *self._all(tree.children)]
-            made.append(create_chain(self._editor, chain, page=self._page))
+            made.append(self._put(chain))
         return Imported(tuple(made), tuple(self._told.values()))
 
     def _main(self) -> str:
@@ -304,8 +305,14 @@ class _Reader:
         if is_condition:
             truth = Made("logic.truth", {"truth": "true"})
             chain.append(Made(RETURN, inputs={"value": truth}))
-        create_chain(self._editor, chain, page=self._page)
+        self._put(chain)
         return procedure
+
+    def _put(self, chain: list[Made]) -> str:
+        """Make a stack below all that are on the page; gives its first block."""
+        first = create_chain(self._editor, chain, (_MARGIN, self._free_y), self._page)
+        self._free_y += _height_of(chain)
+        return first
 
 
 # What a file says before its trees are read.
@@ -353,6 +360,30 @@ def _models(root: Element, trees: list[Element], names: dict[str, str]) -> dict[
             if is_port and attribute not in model.outputs:
                 model.inputs[attribute] = None
     return models
+
+
+# Where stacks are put: how high they are drawn is not known yet, so that it is reckoned roughly.
+
+_MARGIN, _ROW, _GAP = 40.0, 44.0, 80.0
+
+
+def _below(editor: Editor, page: str) -> float:
+    """A height on a page below all of its stacks."""
+    project = editor.project
+    ends = [
+        stack.y + _GAP + _ROW * sum(1 + len(b.bodies) for b in project.within(stack.body))
+        for stack in project.pages[page]
+    ]
+    return max(ends, default=_MARGIN)
+
+
+def _height_of(chain: Iterable[Made]) -> float:
+    waiting, rows = list(chain), 0
+    while waiting:
+        made = waiting.pop()
+        rows += 1 + len(made.bodies)
+        waiting += [one for inside in made.bodies.values() for one in inside]
+    return _GAP + _ROW * rows
 
 
 # Small pieces of blocks.
