@@ -119,5 +119,5 @@ class _Builder:
     def _refuse_declarations(self, *_declared: object) -> None:
         raise TreeFileError(
             "The file declares things of its own (DOCTYPE), as no file of behaviour trees does.",
-            checklist=("Take the lines with “<!DOCTYPE” out.", _FROM_GROOT),
+            checklist=("Take the lines with “DOCTYPE” out.", _FROM_GROOT),
         )
