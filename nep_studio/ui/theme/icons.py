@@ -28,6 +28,7 @@ CATEGORY_ICONS = {
     "colours": "palette",
     "code": "code",
     "goals": "target",
+    "plans": "map",
     "nodes": "network",
     "robots": "plug",
     "robot_events": "hand",
