@@ -7,7 +7,7 @@ from collections.abc import Iterator
 
 import pytest
 
-from faults import plain
+from faults import fault_of, plain
 from nep_core.wire import messages as m
 from nep_studio.blocks.language import Language
 from nep_studio.commands.run import Printer
@@ -167,3 +167,33 @@ def test_the_end_of_a_node_is_told_once_in_each_of_its_lives(timeline: Timeline)
 
     assert [told("stopped"), told("alive"), told("stopped", "watch was stopped")] == [1, 0, 0]
     assert [told("ready"), told("stopped", "watch was stopped"), told("stopped")] == [1, 1, 0]
+
+
+def test_a_plan_is_told_with_its_steps(language: Language) -> None:
+    plan = [m.PlannedStep("go_to", ["hall", 2]), m.PlannedStep("greet", ["Anna"])]
+    failed = m.told(
+        fault_of("The step “{step}” did not work: {reason}", step="greet", reason="No.")
+    )
+    told = [
+        line
+        for event, step, more in (
+            ("plan_made", 0, {}),
+            ("plan_step", 2, {}),
+            ("plan_step", 9, {}),  # another program may tell of steps that are not there
+            ("plan_step_failed", 2, failed),
+            ("plan_done", 0, {}),
+        )
+        for line in Timeline(language).lines(
+            m.ProgramState(program="p", event=event, rule="joy", plan=plan, step=step, **more)
+        )
+    ]
+    empty = Timeline(language).lines(m.ProgramState(program="p", event="plan_made", rule="joy"))
+
+    assert [words for _, words in told] == [
+        "plans to reach “joy”: go to hall 2, greet Anna",
+        "step 2 of 2: greet Anna",
+        "step 2 of 2: greet Anna",
+        "The step “greet” did not work: No.",
+        "has followed its plan to “joy”",
+    ]
+    assert [words for _, words in empty] == ["need not plan: “joy” is true already"]
