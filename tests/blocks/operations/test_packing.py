@@ -264,17 +264,23 @@ def test_there_is_no_update_without_an_older_copy(author, language):
 # Other languages, and help
 
 
-def test_an_own_block_speaks_the_languages_that_its_pack_brings(author):
+def test_an_own_block_speaks_the_languages_that_its_pack_brings(author, language):
     german = studio_language("de")
     own = author.project.procedures[own_named(author, "greet (who)")]
     parameter = own.parts[1].id
-    author.replace_procedure(replace(own, sentences={"de": "{" + parameter + "} begrüßen"}))
+    place = "{" + parameter + "}"
+    said_otherwise = {"de": f"{place} begrüßen", "en": f"please greet {place}"}
+    author.replace_procedure(replace(own, sentences=said_otherwise))
     pack = share(author)
     other = Editor(Project("Other"), german)
 
     new = use(other, again(pack, german), pack.about.offers[0], **{parameter: "Ada"})
 
     assert sentence(other.project, german, new) == "Ada begrüßen"
+    english = Editor(project_from(project_bytes(other.project), "p.nep", language), language)
+    assert sentence(english.project, language, new) == "please greet Ada", (
+        "also where it is English"
+    )
     other.change_procedure(
         own_named(other, "greet (who)"),
         ["welcome", *other.project.procedures[own_named(other, "greet (who)")].parts[1:]],

@@ -13,8 +13,10 @@ from pytestqt.qtbot import QtBot
 from nep_studio.blocks.edits.content import SetField
 from nep_studio.blocks.operations.packing import packed
 from nep_studio.blocks.packs import ENDING, About
+from nep_studio.blocks.places import InStack
 from nep_studio.blocks.procedures import CALL, DEFINE, header_of
 from nep_studio.project.library import Library, read_pack, write_pack
+from nep_studio.run.gate import concerns_of
 from nep_studio.ui.canvas.editing.menu import menu_for
 from nep_studio.ui.plugins.library.dialog import ShareDialog
 from nep_studio.ui.shell.main_window import MainWindow
@@ -277,6 +279,28 @@ def test_without_own_blocks_nothing_is_shared(window: MainWindow, qtbot: QtBot) 
 
 
 # Take in, and update
+
+
+@pytest.mark.strangers
+def test_python_of_a_pack_stays_a_strangers(mine: MainWindow, tmp_path: Path) -> None:
+    editor = mine.files.document.editor
+    header_stack = editor.project.stack_of(header(mine))
+    add(editor, B("code.lines", {"code": "import shutil"}), InStack(header_stack.id, 1))
+    path = file_of(mine, tmp_path / "waving.nepblocks")
+    begin_another(mine)  # what was typed is the person's: the pack of somebody else is read here
+    path.write_bytes(path.read_bytes().replace(b"import shutil", b"import ctypes"))
+    mine.files.open(path)
+    assert "Python" in mine.message_area.cards[-1].message.sentence
+    palette = palette_of(mine)
+    palette.fill()
+
+    palette.use(next(one for one in palette.shelf.entries if palette.shelf.pack_of(one)))
+    document = mine.files.document
+    document.save(tmp_path / "mine.nep")
+
+    concerns = concerns_of(document.project, document.editor.language, tmp_path)
+    assert [one.text for one in concerns] == ["import ctypes"]
+    assert mine.services.runner.gate.unapproved(concerns) == concerns
 
 
 def file_of(window: MainWindow, path: Path, version: int = 1, says: str = "") -> Path:
