@@ -14,7 +14,7 @@ from types import CodeType
 from typing import TypeVar
 
 from faults import Text, Words, text_of
-from nep_core.program.variables import SHARED_OBJECTS
+from nep_studio.blocks.shared_objects import SHARED_OBJECTS
 
 from .definitions import PYTHON_KINDS, Definition
 from .errors import BlocksError

@@ -5,6 +5,7 @@ from __future__ import annotations
 import pytest
 from block_building import B, build, read_program
 
+from nep_core.program import variables
 from nep_studio.blocks.editor import Editor
 from nep_studio.blocks.edits.project import RenameVariable, SetScope
 from nep_studio.blocks.files import from_bytes, to_bytes
@@ -12,6 +13,7 @@ from nep_studio.blocks.from_python.updating import update_from_python
 from nep_studio.blocks.generate.program import generate_program
 from nep_studio.blocks.operations.copying import copy, paste
 from nep_studio.blocks.program import Project
+from nep_studio.blocks.shared_objects import SHARED_OBJECTS
 
 
 def get(variable="v1"):
@@ -111,6 +113,10 @@ def test_an_older_project_goes_on_sharing_what_several_stacks_use(language):
         data = to_bytes(editor.project).replace(b'"version": 3', b'"version": 2')
         assert from_bytes(data, "x", language).variables[0].scope == scope
         assert from_bytes(to_bytes(editor.project), "x", language).variables[0].scope == ""
+
+
+def test_the_objects_of_blocks_are_those_that_a_running_program_is_asked_for():
+    assert SHARED_OBJECTS == variables.SHARED_OBJECTS
 
 
 def test_what_is_called_as_the_object_has_another_name(language):

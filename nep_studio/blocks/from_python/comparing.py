@@ -9,13 +9,13 @@ from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence, Set
 from dataclasses import dataclass, field
 
-from nep_core.program.variables import SHARED_OBJECTS
 from nep_studio.blocks.code_text import CodeTextRefused, compile_quietly
 from nep_studio.blocks.editor import Editor
 from nep_studio.blocks.errors import CodeRefused
 from nep_studio.blocks.generate.names import API
 from nep_studio.blocks.generate.program import ProgramGenerator, generate_program
 from nep_studio.blocks.generate.source_map import Code
+from nep_studio.blocks.shared_objects import SHARED_OBJECTS
 
 from ..program import SCOPE_PROGRAM
 from .joined import as_joined, told_in_braces

@@ -10,11 +10,11 @@ from collections import Counter
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 
-from nep_core.program.variables import SHARED_OBJECTS
 from nep_studio.blocks.code_text import made_by, outside_functions
 from nep_studio.blocks.edits.content import AddProcedure, SetExtra, SetField
 from nep_studio.blocks.edits.project import RenameProject, SetScope
 from nep_studio.blocks.procedures import DEFINE, parameters, words
+from nep_studio.blocks.shared_objects import SHARED_OBJECTS
 
 from ..deployment import can_be_stopped, names_used, robot_entries
 from ..editor import Editor

@@ -10,7 +10,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass, field
 from functools import lru_cache
 
-from nep_core.program.variables import SHARED_OBJECTS
+from nep_studio.blocks.shared_objects import SHARED_OBJECTS
 
 VALUES = frozenset(
     {

@@ -9,7 +9,6 @@ from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 
-from nep_core.program.variables import SHARED_OBJECTS
 from nep_studio.blocks.code_text import CodeText, read_outside
 from nep_studio.blocks.deployment import (
     OUTSIDE_BLOCK,
@@ -23,6 +22,7 @@ from nep_studio.blocks.errors import CodeRefused
 from nep_studio.blocks.language import Language
 from nep_studio.blocks.procedures import DEFINE, parameters, procedure_of, words
 from nep_studio.blocks.program import ALL_ROBOTS, LANGUAGES, Block, Project
+from nep_studio.blocks.shared_objects import SHARED_OBJECTS
 from nep_studio.blocks.sharing import Chain, Sharing, look_at, sharing_of
 from nep_studio.blocks.slices import Steps, at_once
 from nep_studio.blocks.slots import Setting, constant

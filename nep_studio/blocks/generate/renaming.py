@@ -11,7 +11,6 @@ from contextlib import contextmanager
 from dataclasses import dataclass, field, replace
 
 from faults import Words
-from nep_core.program.variables import SHARED_OBJECTS
 from nep_studio.blocks.code_text import (
     CodeTextRefused,
     made_by,
@@ -25,6 +24,7 @@ from nep_studio.blocks.errors import EditRefused
 from nep_studio.blocks.language import Language
 from nep_studio.blocks.procedures import DEFINE, parameters, procedure_of
 from nep_studio.blocks.program import Block, Project
+from nep_studio.blocks.shared_objects import SHARED_OBJECTS
 
 from .kinds import FactReader, Facts
 from .names import ProgramNames

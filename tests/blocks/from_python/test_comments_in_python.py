@@ -52,9 +52,9 @@ def assert_same_again(editor) -> None:
         ("pass\n# one\n# two", "# one\n# two\npass"),
         ("try:\n    wait(1)\nexcept ValueError:\n    wait(2)\n    # end", None),
         ("try:\n    wait(1)\nfinally:\n    wait(2)\n    # end\n# below\nwait(3)", None),
-        ("with open('a'):\n    if x:\n        wait(2)\n        # in\n    # end", None),
-        ("while x:\n    wait(1)\nelse:\n    wait(2)\n    # one\n    # two", None),
-        ("while x:\n    for i in range(2):\n        print(i)\n        # end", None),
+        ("with open('a'):\n    if program.x:\n        wait(2)\n        # in\n    # end", None),
+        ("while program.x:\n    wait(1)\nelse:\n    wait(2)\n    # one\n    # two", None),
+        ("while program.x:\n    for i in range(2):\n        print(i)\n        # end", None),
         ("def inner():\n    return 1\n    # end\n\ninner()", None),
         ("wait(1)\n    # further in", None),
         ("for _ in range(2):\n    wait(1)\n    # one\n    # two", None),
@@ -78,7 +78,7 @@ def test_a_comment_stays_wherever_it_stands(language, written, made):
     [
         "    if 1 < 2:\n# zero\n        wait(1)",
         "    if 1 < 2:\n        wait(1)\n  # zero\n        wait(2)",
-        "    if x:\n        wait(1)\n    else:\n# zero\n        wait(2)",
+        "    if program.x:\n        wait(1)\n    else:\n# zero\n        wait(2)",
         "    for _ in range(2):\n# zero\n        wait(1)",
         "    for i, y in enumerate([1]):\n# zero\n        print(y)",
         "    for i, y in enumerate([1]):\n        print(y)\n# zero\n        print(i)",
@@ -113,7 +113,7 @@ COMMENTS = [
 
 
 @pytest.mark.parametrize("comment", COMMENTS)
-@pytest.mark.parametrize("above", ["wait(1)\n", "print('a')\n", "if x:\n    wait(1)\n    "])
+@pytest.mark.parametrize("above", ["wait(1)\n", "print('a')\n", "if program.x:\n    wait(1)\n    "])
 @pytest.mark.parametrize("below", ["", "\nwait(2)", "\nprint('b')"])
 def test_a_comment_is_kept_to_the_letter(language, above, comment, below):
     margin = above.rpartition("\n")[2]
