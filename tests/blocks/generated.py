@@ -27,6 +27,8 @@ HATS_AND_ROBOTS = {
     *("at", "days", "every", "when_told", "wait"),
     *("goal", "when_goal", "when_heard", "when_noticed", "when_true", "when_idle", "source"),
     *("tree", "runs", "reactive", "keeps_place"),
+    *("state", "first", "machine", "transition", "told", "after", "done", "go_to", "is_in"),
+    "state_now",
     *("priority", "stop", "interrupted", "ask", "wait_for_word", "seconds", "sees", "seen_name"),
 }
 """What the generator functions of robot blocks, goals and trees name."""
