@@ -40,6 +40,7 @@ if TYPE_CHECKING:
         until_state,
         was_seen,
     )
+    from .program.kept import Kept
     from .program.messages import tell, told_value
     from .program.plans import reach, the_plan
     from .program.robot import Robot, as_robot, colour_from, mix_colours
@@ -137,6 +138,7 @@ if TYPE_CHECKING:
         to_nearest,
         to_power,
     )
+    from .program.variables import Variables
     from .wire.pubsub import Publisher, Subscriber
 
 _HOMES = {
@@ -154,6 +156,7 @@ _HOMES = {
         "program.goals": "fail_goal goal_value",
         "program.human": "heard_word human_state is_remembered remember times_seen until_state "
         "was_seen",
+        "program.kept": "Kept",
         "program.messages": "tell told_value",
         "program.plans": "reach the_plan",
         "program.robot": "Robot as_robot colour_from mix_colours",
@@ -171,30 +174,31 @@ _HOMES = {
         "list_with mean_of median_of number_in parts_of place_in_text place_of "
         "random_whole remove_item replace_part set_item smallest_of sorted_items "
         "sum_of take_item title_case to_nearest to_power",
+        "program.variables": "Variables",
         "wire.pubsub": "Publisher Subscriber",
     }.items()
     for name in names.split()
 }
 
 __all__ = ["Behavior", "Broker", "BrokerNetwork", "Check", "CoolDown", "Delay", "DirectNetwork"]
-__all__ += ["Fallback", "ForceFailure", "ForceSuccess", "Input", "Invert", "Launcher", "Master"]
-__all__ += ["NepError", "Node", "Output", "Parallel", "PeerNetwork", "Publisher", "Repeat", "Retry"]
-__all__ += ["Robot", "Sequence", "Step", "SubTree", "Subscriber", "TimeLimit", "WhileTrue"]
-__all__ += ["add_item", "append_text", "as_list", "as_number", "as_robot", "as_table", "as_text"]
-__all__ += ["at_once", "change_at", "colour_from", "count_down", "count_from", "count_up"]
-__all__ += ["date_today", "deviation_of", "do_tree", "emotion_state", "end_actions", "fact"]
-__all__ += ["fail_goal", "fail_step", "goal_value", "has_item", "has_key", "has_part", "heard_word"]
-__all__ += ["human_state", "in_turn", "insert_item", "is_at_least", "is_at_most", "is_less"]
-__all__ += ["is_more", "is_remembered", "is_same", "is_true", "item_of", "items_between"]
-__all__ += ["join_items", "largest_of", "length_of", "letter_of", "list_with", "makes_true"]
-__all__ += ["makes_untrue", "mean_of", "median_of", "mix_colours", "names_in", "needs"]
-__all__ += ["no_longer_true", "now_true", "number_in", "one_of", "parts_of", "place_in_text"]
-__all__ += ["place_of", "random_whole", "reach", "remember", "remove_item", "remove_key"]
-__all__ += ["replace_part", "set_at", "set_item", "set_priority", "set_tree_value", "smallest_of"]
-__all__ += ["sorted_items", "start_timer", "stop_program", "stop_rule", "sum_of", "table_of"]
-__all__ += ["take_item", "tell", "the_plan", "time_now", "time_part", "timer_seconds", "times_seen"]
-__all__ += ["title_case", "to_nearest", "to_power", "together", "told_value", "tree_value"]
-__all__ += ["true_while", "until_state", "value_at", "wait", "wait_until", "was_seen"]
+__all__ += ["Fallback", "ForceFailure", "ForceSuccess", "Input", "Invert", "Kept", "Launcher"]
+__all__ += ["Master", "NepError", "Node", "Output", "Parallel", "PeerNetwork", "Publisher"]
+__all__ += ["Repeat", "Retry", "Robot", "Sequence", "Step", "SubTree", "Subscriber", "TimeLimit"]
+__all__ += ["Variables", "WhileTrue", "add_item", "append_text", "as_list", "as_number", "as_robot"]
+__all__ += ["as_table", "as_text", "at_once", "change_at", "colour_from", "count_down"]
+__all__ += ["count_from", "count_up", "date_today", "deviation_of", "do_tree", "emotion_state"]
+__all__ += ["end_actions", "fact", "fail_goal", "fail_step", "goal_value", "has_item", "has_key"]
+__all__ += ["has_part", "heard_word", "human_state", "in_turn", "insert_item", "is_at_least"]
+__all__ += ["is_at_most", "is_less", "is_more", "is_remembered", "is_same", "is_true", "item_of"]
+__all__ += ["items_between", "join_items", "largest_of", "length_of", "letter_of", "list_with"]
+__all__ += ["makes_true", "makes_untrue", "mean_of", "median_of", "mix_colours", "names_in"]
+__all__ += ["needs", "no_longer_true", "now_true", "number_in", "one_of", "parts_of"]
+__all__ += ["place_in_text", "place_of", "random_whole", "reach", "remember", "remove_item"]
+__all__ += ["remove_key", "replace_part", "set_at", "set_item", "set_priority", "set_tree_value"]
+__all__ += ["smallest_of", "sorted_items", "start_timer", "stop_program", "stop_rule", "sum_of"]
+__all__ += ["table_of", "take_item", "tell", "the_plan", "time_now", "time_part", "timer_seconds"]
+__all__ += ["times_seen", "title_case", "to_nearest", "to_power", "together", "told_value"]
+__all__ += ["tree_value", "true_while", "until_state", "value_at", "wait", "wait_until", "was_seen"]
 __all__ += ["weekday_today", "what_went_wrong"]
 
 

@@ -23,13 +23,19 @@ def simplify(tree: ast.Module) -> ast.Module:
     for node in ast.walk(tree):
         if isinstance(node, ast.FunctionDef) and not node.decorator_list and node in tree.body:
             _simplify_function(node, names)
-    for node in list(ast.walk(tree)):
+    inside = [node for top in tree.body if isinstance(top, _FUNCTION) for node in ast.walk(top)]
+    for node in inside:
         for field in ("body", "orelse", "finalbody"):
             lines = getattr(node, field, None)
             if isinstance(lines, list):
                 lines[:] = [made for line in lines for made in _statements(line, names)]
-    _Values(names).visit(tree)
+    values = _Values(names)
+    for node in reversed(list(ast.walk(tree))):  # what is inside first, without recursion
+        values.put_into(node)
     return tree
+
+
+_FUNCTION = ast.FunctionDef | ast.AsyncFunctionDef
 
 
 def is_made(node: ast.stmt) -> bool:
@@ -69,8 +75,8 @@ def _statements(node: ast.stmt, names: Names) -> list[ast.stmt]:
         if (made := simpler(node, names)) is not None:
             return _all_at(node, made)
     for begun in (_with_what_is_kept, _with_item):
-        if (first := begun(node, names)) is not None:
-            assert isinstance(node, ast.For)
+        first = begun(node, names)
+        if first is not None and isinstance(node, ast.For):
             node.body.insert(0, _at(node, first))
     return [node]
 
@@ -120,9 +126,10 @@ def _in_turn(targets: list[str], values: list[ast.expr], names: Names) -> list[a
         if any(_reads(later, target) for later in values[number + 1 :]):
             before[target] = names.new(f"{target}_before")
             lines.append(_set(before[target], ast.Name(target, ast.Load())))
-        lines.append(_set(target, _Renamed(before).visit(value)))
-        if before.get(target) and not any(_reads(one, target) for one in values[number + 1 :]):
-            return None
+        for inner in ast.walk(value):
+            if isinstance(inner, ast.Name) and inner.id != before.get(target):
+                inner.id = before.get(inner.id, inner.id)
+        lines.append(_set(target, value))
     return lines
 
 
@@ -132,17 +139,6 @@ def _set(name: str, value: ast.expr) -> ast.Assign:
 
 def _reads(node: ast.expr, name: str) -> bool:
     return any(isinstance(one, ast.Name) and one.id == name for one in ast.walk(node))
-
-
-class _Renamed(ast.NodeTransformer):
-    """Gives names that are read other names."""
-
-    def __init__(self, names: dict[str, str]) -> None:
-        self._names = names
-
-    def visit_Name(self, node: ast.Name) -> ast.Name:
-        node.id = self._names.get(node.id, node.id)
-        return node
 
 
 def _taken_out(node: ast.stmt, names: Names) -> list[ast.stmt] | None:
@@ -307,52 +303,73 @@ def _negated(test: ast.expr) -> ast.expr:
 # Values.
 
 
-class _Values(ast.NodeTransformer):
+class _Values:
     """Puts values into simpler words."""
 
     def __init__(self, names: Names) -> None:
         self._names = names
 
-    def visit_Compare(self, node: ast.Compare) -> ast.expr:
-        """``0 < x < 10``, ``x not in names`` and ``happy == True``."""
-        self.generic_visit(node)
-        made: ast.expr = node
-        if len(node.ops) > 1 and all(map(may_be_asked_twice, node.comparators[:-1])):
-            pairs = zip([node.left, *node.comparators], node.ops, node.comparators, strict=False)
-            parts = [self._one(ast.Compare(copy.deepcopy(a), [o], [b])) for a, o, b in pairs]
-            made = ast.BoolOp(ast.And(), [ast.copy_location(part, node) for part in parts])
-        elif len(node.ops) == 1:
-            made = self._one(node)
-        return made if made is node else ast.copy_location(made, node)
+    def put_into(self, node: ast.AST) -> None:
+        """Put the values directly in a node into simpler words, in place."""
+        for field, held in ast.iter_fields(node):
+            if isinstance(held, ast.expr):
+                setattr(node, field, self._simpler(held))
+            elif isinstance(held, list):
+                held[:] = [self._simpler(o) if isinstance(o, ast.expr) else o for o in held]
 
-    def _one(self, node: ast.Compare) -> ast.expr:
+    def _simpler(self, node: ast.expr) -> ast.expr:
+        match node:
+            case ast.Compare():
+                made = self._compared(node)
+            case ast.Call():
+                made = self._called(node)
+            case ast.Name(name) if name in self._names.imported:
+                made = self._imported(node)
+            case _:
+                return node
+        for inner in ast.walk(made) if made is not node else ():
+            if isinstance(inner, ast.expr) and not hasattr(inner, "lineno"):
+                ast.copy_location(inner, node)
+        return made
+
+    def _compared(self, node: ast.Compare) -> ast.expr:
+        """``0 < x < 10``, ``x not in names`` and ``happy == True``."""
+        if len(node.ops) == 1:
+            return self._compared_once(node)
+        if not all(map(may_be_asked_twice, node.comparators[:-1])):
+            return node
+        lefts = [node.left, *map(copy.deepcopy, node.comparators[:-1])]
+        pairs = zip(lefts, node.ops, node.comparators, strict=True)
+        parts = [self._compared_once(ast.Compare(a, [sign], [b])) for a, sign, b in pairs]
+        return ast.BoolOp(ast.And(), parts)
+
+    def _compared_once(self, node: ast.Compare) -> ast.expr:
         match node:
             case ast.Compare(left, [ast.NotIn()], [right]):
-                inner = ast.copy_location(ast.Compare(left, [ast.In()], [right]), left)
-                return ast.UnaryOp(ast.Not(), inner)
-            case ast.Compare(ast.Name(name) as asked, [ast.Eq() | ast.NotEq() as sign], [right]):
-                if isinstance(right, ast.Constant) and type(right.value) is bool:
-                    if self._names.is_truth(name):
-                        is_so = right.value is isinstance(sign, ast.Eq)
-                        return asked if is_so else ast.UnaryOp(ast.Not(), asked)
+                return ast.UnaryOp(ast.Not(), ast.Compare(left, [ast.In()], [right]))
+            case ast.Compare(
+                ast.Name(name) as asked,
+                [ast.Eq() | ast.NotEq() as sign],
+                [ast.Constant(value=bool(wanted))],
+            ) if self._names.is_truth(name):
+                is_so = wanted is isinstance(sign, ast.Eq)
+                return asked if is_so else ast.UnaryOp(ast.Not(), asked)
         return node
 
-    def visit_Call(self, node: ast.Call) -> ast.expr:
-        """``sleep(2)``, ``randint(1, 6)`` and ``nao.say(5)``."""
-        self.generic_visit(node)
+    def _called(self, node: ast.Call) -> ast.expr:
+        """``sleep(2)`` and ``nao.say(5)``."""
         match node:
-            case ast.Call(ast.Attribute(ast.Name(robot), "say"), [ast.Constant(value=int(n)), *_]):
-                if type(n) is int and robot in self._names.robots:
-                    node.args[0] = ast.copy_location(ast.Constant(str(n)), node.args[0])
-            case ast.Call(ast.Attribute(ast.Name("time"), "sleep"), [_], []):
+            case ast.Call(
+                ast.Attribute(ast.Name(robot), "say"), [ast.Constant(value=int(told)), *more]
+            ) if type(told) is int and robot in self._names.robots:
+                return ast.Call(node.func, [ast.Constant(str(told)), *more], node.keywords)
+            case ast.Call(ast.Attribute(ast.Name("time"), "sleep"), [seconds], []):
                 if self._names.is_module("time") and self._names.is_free("wait"):
-                    node.func = ast.copy_location(ast.Name("wait", ast.Load()), node.func)
+                    return ast.Call(ast.Name("wait", ast.Load()), [seconds], [])
         return node
 
-    def visit_Name(self, node: ast.Name) -> ast.expr:
+    def _imported(self, node: ast.Name) -> ast.expr:
         """A function of a module that is imported alone, by its whole name."""
-        module, name = self._names.imported.get(node.id, ("", ""))
-        if not module:
-            return node
-        held = ast.copy_location(ast.Name(module, ast.Load()), node)
-        return ast.copy_location(ast.Attribute(held, name, ast.Load()) if name else held, node)
+        module, name = self._names.imported[node.id]
+        held = ast.Name(module, ast.Load())
+        return ast.Attribute(held, name, ast.Load()) if name else held

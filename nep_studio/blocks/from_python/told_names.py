@@ -25,7 +25,9 @@ _FRESH = frozenset({"list", "sorted", "split", "copy"})
 
 def may_be_asked_twice(node: ast.expr) -> bool:
     """Whether it makes no difference how often, and when, a value is worked out."""
-    for inner in ast.walk(node):
+    for number, inner in enumerate(ast.walk(node)):
+        if number >= MOST_ASKED_TWICE:
+            return False
         if isinstance(inner, ast.Call):
             name = getattr(inner.func, "id", "")
             if name not in _ASKING - {"print"} or inner.keywords:
@@ -35,6 +37,8 @@ def may_be_asked_twice(node: ast.expr) -> bool:
     return True
 
 
+MOST_ASKED_TWICE = 60
+"""Parts of a value that is worked out twice."""
 _HARMLESS = (
     *(ast.Name, ast.Constant, ast.Subscript, ast.Attribute, ast.BinOp, ast.UnaryOp, ast.BoolOp),
     *(ast.Compare, ast.operator, ast.unaryop, ast.boolop, ast.cmpop, ast.expr_context, ast.List),

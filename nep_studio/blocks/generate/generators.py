@@ -552,7 +552,7 @@ def note_names(code: Expressions, read: CodeText) -> None:
         if name in named:
             code.variables.add(variable_id)  # a variable that is used is there
     code.robots.update(robot for robot, name in code.names.robots.items() if name in read.read)
-    code.api.update(API & read.read - read.made)
+    code.api.update(API & read.read - read.made - code.names.outside)
     code.modules.update(MODULES & read.read - read.made)
 
 
