@@ -26,6 +26,7 @@ from .outside import HEADERS, Part, is_frame
 from .reading import as_block
 from .scoping import is_beginning, with_shared_names
 from .source import Source, begin_of, end_of, read_source
+from .told_names import is_taken_over
 
 
 @dataclass(frozen=True, slots=True)
@@ -74,6 +75,8 @@ def lost_lines(
         raise CodeUnread(refused.sentence, 1, checklist=checklist) from refused
     made = _made_source(code)
     _require_own_names(source, parts)
+    if lines := _imports_needed(source, made):
+        return Lost(lines, generator.kinds())
     if names := _names_shared(editor, code, made, functions) - apart:
         return Lost(set(), generator.kinds(), apart=names)
     again = _functions_made(editor, code, made)
@@ -92,6 +95,22 @@ def lost_lines(
         if node.lineno in around and _may_begin(node) and not any(_same(node, m) for m in as_made)
     }
     return Lost(lines, generator.kinds(), places, around, begun=begun)
+
+
+def _imports_needed(source: Source, made: Source) -> set[int]:
+    """The lines that import what the program would, did Python in it not name it otherwise."""
+    named = {node.id for node in ast.walk(made.tree) if isinstance(node, ast.Name)}
+    named -= {name for node in made.tree.body for name in _imported(node)}
+    return {
+        begin_of(node)
+        for node in source.tree.body
+        if is_taken_over(node) and not named.isdisjoint(_imported(node))
+    }
+
+
+def _imported(node: ast.stmt) -> Iterator[str]:
+    if isinstance(node, ast.Import | ast.ImportFrom):
+        yield from (alias.asname or alias.name for alias in node.names)
 
 
 def _made_source(code: Code) -> Source:

@@ -7,6 +7,7 @@ the same: so each form says what the blocks have to know of the values.
 from __future__ import annotations
 
 import ast
+import copy
 from collections.abc import Iterator
 
 from nep_studio.blocks.slots import constant
@@ -20,7 +21,7 @@ def other_values(node: ast.expr) -> Iterator[ast.expr]:
     """The other forms of a value."""
     match node:
         case ast.Subscript(held, ast.Slice(low, high, None)) if low is not None or high is not None:
-            last = call("len", held) if high is None else high
+            last = call("len", copy.deepcopy(held)) if high is None else high
             yield call("items_between", one_more(low or constant(0)), last, held)
         case ast.Subscript(held, ast.Slice()):
             return
@@ -42,7 +43,7 @@ def _in_list_or_text(held: ast.expr, index: ast.expr) -> Iterator[ast.expr]:
     elif place >= 0:
         yield call("letter_of", constant(place + 1), held)
     elif place == -1:
-        yield call("letter_of", call("len", held), held)
+        yield call("letter_of", call("len", copy.deepcopy(held)), held)
 
 
 def other_statements(node: ast.stmt) -> Iterator[ast.stmt]:
@@ -60,7 +61,8 @@ def other_statements(node: ast.stmt) -> Iterator[ast.stmt]:
         case ast.Delete([ast.Subscript(held, index)]) if not isinstance(index, ast.Slice):
             yield _done(node, call("remove_item", one_more(index), held))
         case ast.Expr(ast.Call(ast.Attribute(held, "remove"), [item], [])):
-            yield _done(node, call("remove_item", call("place_of", item, held), held))
+            place = call("place_of", item, copy.deepcopy(held))
+            yield _done(node, call("remove_item", place, held))
 
 
 def _counted(given: list[ast.expr]) -> ast.expr | None:

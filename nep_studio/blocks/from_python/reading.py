@@ -20,6 +20,7 @@ from .equal_forms import other_statements
 from .learning import CodeUnread, Made, beginning, blocks_of, learned
 from .naming import Hints, SourceNames, Turns, names_in
 from .outside import Part
+from .simpler import is_made, with_more
 from .source import Source, end_of
 from .values import ValueReader, match
 
@@ -68,6 +69,11 @@ class StatementReader:
         code: list[ast.stmt] = []
         begin, left = after, _without_global(nodes)
         while left:
+            count = with_more(left)
+            if not self._are_blocks(left[:count], begin):
+                code += left[:count]
+                del left[:count]
+                continue
             found = self._statement(left, begin)
             is_end = found is None or not _without_end(left[found[1] :])
             if found is None or (self._language.definitions[found[0].type].is_last and not is_end):
@@ -88,6 +94,19 @@ class StatementReader:
             Made(note, {"text": line}, text=comment_line(line)) for line in said if line and note
         ]
         return made
+
+    def _are_blocks(self, nodes: Sequence[ast.stmt], begin: int) -> bool:
+        """Whether the simpler statements of one line are all blocks: else they stay Python.
+
+        Raises _NotSaid for one that stands on no line of its own, and is none.
+        """
+        if len(nodes) == 1 and not is_made(nodes[0]):
+            return True
+        found = [self._statement([node], begin) for node in nodes]
+        are_blocks = all(one is not None and not one[0].written for one in found)
+        if is_made(nodes[0]) and not are_blocks:
+            raise _NotSaid
+        return are_blocks
 
     def rule(self, node: ast.FunctionDef, after: int) -> list[Made]:
         """The blocks of a function: the hat first."""
@@ -165,8 +184,11 @@ class StatementReader:
         if found is None:
             return None
         made, count, bodies = found
-        for key, body in bodies.items():
-            made.bodies[key] = self.body(body)
+        try:
+            for key, body in bodies.items():
+                made.bodies[key] = self.body(body)
+        except _NotSaid:
+            return None
         return made, count
 
     def _ways(self, nodes: Sequence[ast.stmt]) -> list[_Candidate]:
@@ -222,9 +244,15 @@ class StatementReader:
         return end
 
     def _describe(self, made: Made, nodes: Sequence[ast.stmt], begin: int) -> None:
+        if is_made(nodes[0]):
+            return
         made.comment = self._source.comment_of(nodes[0], begin)
         first = self._source.first_line(nodes[0], begin)
         made.text = self._source.text(first, self._source.end_inside(nodes[-1]))
+
+
+class _NotSaid(Exception):
+    """A statement that stands on no line of its own is no block."""
 
 
 def as_block(node: ast.stmt) -> ast.stmt:

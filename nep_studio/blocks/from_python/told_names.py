@@ -46,6 +46,11 @@ _HARMLESS = (
 )
 
 
+def is_taken_over(node: ast.stmt) -> bool:
+    """Whether this imports nothing but what the program does by itself for its blocks."""
+    return hasattr(node, "is_taken_over")
+
+
 class Names:
     """The names of a text, each with what may be said of it wherever it stands."""
 
@@ -80,6 +85,7 @@ class Names:
         for node in tree.body:
             if isinstance(node, ast.Import | ast.ImportFrom) and self._is_taken_over(node):
                 node.is_taken_over = True  # type: ignore[union-attr]
+
 
     def _all_set(self) -> Iterator[tuple[str, ast.expr | None]]:
         """Every name to which something is put, with that value where it is said as such."""
