@@ -19,7 +19,7 @@ from nep_studio.blocks.shared_objects import SHARED_OBJECTS
 
 from ..program import SCOPE_PROGRAM
 from .joined import as_joined, told_in_braces
-from .equal_forms import is_gone_through
+from .equal_forms import as_said, is_gone_through
 from .learning import CodeUnread
 from .naming import functions_of, locals_of, names_made, stopped_in
 from .outside import HEADERS, Part, is_frame
@@ -504,7 +504,7 @@ def _as_compared(node: object) -> object:
     """Other ways to write a block count as the block."""
     if isinstance(node, ast.With) or (isinstance(node, ast.For) and not _names_its_list(node)):
         return as_block(node)
-    return as_joined(node)
+    return as_said(node) if isinstance(node, ast.Call) else as_joined(node)
 
 
 def _names_its_list(loop: ast.For) -> bool:

@@ -17,6 +17,10 @@ from ..generate.kinds import TABLE, TEXT, are, kinds_of
 from ..generate.positions import one_less, one_more
 
 
+SAY = "say"
+"""What a robot is asked that tells any value as str() does."""
+
+
 def other_values(node: ast.expr) -> Iterator[ast.expr]:
     """The other forms of a value."""
     match node:
@@ -56,6 +60,12 @@ def other_statements(node: ast.stmt) -> Iterator[ast.stmt]:
             yield _through(node, call("list", held))
         case ast.For(iter=items):
             yield _through(node, call("list", items))
+        case ast.AugAssign(ast.Name(), ast.Sub(), value):
+            number = known_whole(value)
+            less = ast.UnaryOp(ast.USub(), value) if number is None else constant(-number)
+            if isinstance(value, ast.Constant) and isinstance(value.value, float):
+                less = constant(-value.value)
+            yield ast.copy_location(ast.AugAssign(node.target, ast.Add(), less), node)
         case ast.Assign([ast.Subscript(held, index)], value) if not isinstance(index, ast.Slice):
             yield _done(node, call("set_item", one_more(index), held, value))
         case ast.Delete([ast.Subscript(held, index)]) if not isinstance(index, ast.Slice):
@@ -129,3 +139,11 @@ def _only_asked(node: ast.AST) -> Iterator[ast.expr]:
             yield from others
         case ast.Call(ast.Name("len"), [held]):
             yield held
+
+
+def as_said(node: ast.Call) -> ast.Call:
+    """What a robot says, without what it does itself: it tells any value as str() does."""
+    match node:
+        case ast.Call(ast.Attribute(_, "say"), [ast.Call(ast.Name("str"), [told], []), *more]):
+            return ast.Call(node.func, [told, *more], node.keywords)
+    return node

@@ -219,19 +219,21 @@ class StatementReader:
                     if is_best_enough and not made.written:
                         return
         for form in (first, *other_statements(first)):
-            for one in self._of_patterns([form, *nodes[1:]]):
+            for one in self._of_patterns([form, *nodes[1:]], is_other=form is not first):
                 yield one
                 if is_best_enough and not _written(one):
                     return
 
-    def _of_patterns(self, nodes: Sequence[ast.stmt]) -> Iterator[_Candidate]:
+    def _of_patterns(self, nodes: Sequence[ast.stmt], *, is_other: bool) -> Iterator[_Candidate]:
         """The blocks that the first statements are by their patterns."""
         for pattern in self._learned.statements.get(beginning(nodes[0]), ()):
             count = len(pattern.nodes)
             is_kept = any(node.lineno in self._kept for node in nodes[:count])
             found = match(pattern, nodes[:count]) if count <= len(nodes) and not is_kept else None
-            made_from = self.values.made_from(pattern, found) if found is not None else None
-            if made_from is not None and found is not None:
+            if found is None:
+                continue
+            made_from = self.values.made_from(pattern, found, is_other=is_other)
+            if made_from is not None:
                 yield made_from, count, found.bodies
 
     def _keep_code(self, made: list[Made], code: list[ast.stmt], begin: int) -> int:

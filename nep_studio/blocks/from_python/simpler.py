@@ -11,6 +11,7 @@ import ast
 import copy
 from collections.abc import Callable, Iterator, Sequence
 
+from .robot_calls import CALLS, as_blocks_write
 from .told_names import Names, may_be_asked_twice
 
 _LESS_SHORT = (ast.Mult, ast.Div, ast.FloorDiv, ast.Mod, ast.Pow)
@@ -357,12 +358,10 @@ class _Values:
         return node
 
     def _called(self, node: ast.Call) -> ast.expr:
-        """``sleep(2)`` and ``nao.say(5)``."""
+        """``sleep(2)`` and ``nao.say("Hi", "explain")``."""
         match node:
-            case ast.Call(
-                ast.Attribute(ast.Name(robot), "say"), [ast.Constant(value=int(told)), *more]
-            ) if type(told) is int and robot in self._names.robots:
-                return ast.Call(node.func, [ast.Constant(str(told)), *more], node.keywords)
+            case ast.Call(ast.Attribute(ast.Name(robot), method)) if robot in self._names.robots:
+                return _of_robot(node, method)
             case ast.Call(ast.Attribute(ast.Name("time"), "sleep"), [seconds], []):
                 if self._names.is_module("time") and self._names.is_free("wait"):
                     return ast.Call(ast.Name("wait", ast.Load()), [seconds], [])
@@ -373,3 +372,12 @@ class _Values:
         module, name = self._names.imported[node.id]
         held = ast.Name(module, ast.Load())
         return ast.Attribute(held, name, ast.Load()) if name else held
+
+
+def _of_robot(node: ast.Call, method: str) -> ast.Call:
+    """What a robot is asked; a whole number is said by its digits."""
+    made = as_blocks_write(node, method) if method in CALLS else node
+    match made.args:
+        case [ast.Constant(value=int(told)), *more] if method == "say" and type(told) is int:
+            return ast.Call(made.func, [ast.Constant(str(told)), *more], made.keywords)
+    return made

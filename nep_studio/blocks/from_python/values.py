@@ -8,15 +8,15 @@ from dataclasses import dataclass, field
 from functools import lru_cache, partial
 
 from nep_studio.blocks.code_text import CodeTextRefused, read_value
-from nep_studio.blocks.definitions import Definition, Slot
+from nep_studio.blocks.definitions import Call, Definition, Slot
 from nep_studio.blocks.language import Language
 from nep_studio.blocks.procedures import CALL, PARAMETER, parameters
 from nep_studio.blocks.program import split_slot
 from nep_studio.blocks.slots import TEXT_RESULTS, FieldValue, constant
 
-from ..generate.expressions import known_whole
+from ..generate.expressions import call, known_whole
 from ..generate.kinds import ANY, NUMBER, RESULT_KINDS, TABLE, TEXT, WHOLE, Seen, are, kinds_of
-from .equal_forms import other_values
+from .equal_forms import SAY, other_values
 from .joined import TOLD
 from .learning import (
     BODY,
@@ -324,7 +324,7 @@ class ValueReader:
             node.keywords
         ):
             return None
-        if not all(map(partial(self.fill, made), wanted.arguments, node.args)):
+        if not all(map(partial(self.fill, made), wanted.arguments, self._as_given(node, wanted))):
             return None
         for name, argument in given.items():
             key = wanted.keywords[str(name)]
@@ -334,6 +334,15 @@ class ValueReader:
             if is_unsaid and made.fields.get(key) == definition.defaults[key]:
                 return None  # the block would not write it
         return made if self._choose_masters(made) else None
+
+    def _as_given(self, node: ast.Call, wanted: Call) -> list[ast.expr]:
+        """The values of a call by their place; a robot says a whole number as str() tells it."""
+        match node.args:
+            case [told, *more] if wanted.on and wanted.name == SAY:
+                kinds = kinds_of(told, self._seen)
+                is_number = bool(kinds) and are(kinds, WHOLE) and _constant(told) is None
+                return [call("str", told), *more] if is_number else node.args
+        return node.args
 
     def called(self, node: ast.Call) -> Iterator[Made]:
         """The blocks of a call, whether they give a value or not."""
@@ -349,10 +358,14 @@ class ValueReader:
             if all(self.fill(made, parameter.id, value) for parameter, value in pairs):
                 yield made
 
-    def made_from(self, pattern: Pattern, found: Found) -> Made | None:
-        """The block of a pattern with what was found in it but its bodies, or None."""
+    def made_from(self, pattern: Pattern, found: Found, *, is_other: bool = False) -> Made | None:
+        """The block of a pattern with what was found in it but its bodies, or None.
+
+        ``is_other``: it was found in another form of the text than it is written in.
+        """
         made = Made(pattern.definition.id, dict(pattern.fields), groups=dict(pattern.groups))
-        if pattern.fractions and not pattern.free and _are_whole(found, pattern.fractions):
+        is_careful = bool(pattern.fractions) and not pattern.free and not is_other
+        if is_careful and _are_whole(found, pattern.fractions):
             return None
         if not _may_be_table(pattern, found):
             return None
@@ -432,7 +445,9 @@ class ValueReader:
         for form in (node, *other_values(node)):
             for pattern in self._learned.values.get(beginning(form), ()):
                 found = match(pattern, [form])
-                made_from = self.made_from(pattern, found) if found is not None else None
+                if found is None:
+                    continue
+                made_from = self.made_from(pattern, found, is_other=form is not node)
                 if made_from is not None:
                     yield made_from, pattern.definition.result
         if isinstance(node, ast.JoinedStr) and (joined := self._f_string(node)) is not None:

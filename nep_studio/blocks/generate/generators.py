@@ -559,6 +559,18 @@ def note_names(code: Expressions, read: CodeText) -> None:
 _NO_ARGUMENTS = ast.arguments([], [], None, [], [], None, [])
 
 
+_ARITHMETIC = _by_choice(*_CHOSEN["arithmetic"])
+
+
+def _arithmetic(code: Expressions, block: Block) -> ast.expr:
+    """Squares and cubes are no larger than other products: nothing has to look at them first."""
+    made = _ARITHMETIC(code, block)
+    match made:
+        case ast.Call(func=ast.Name(id="to_power"), args=[base, ast.Constant(value=2 | 3)]):
+            return ast.BinOp(base, ast.Pow(), made.args[1])
+    return made
+
+
 REPORTERS: dict[str, ValueGenerator] = {
     **{name: _python(text) for name, text in _LINES.items()},
     **{name: _by_choice(slot, texts) for name, (slot, texts) in _CHOSEN.items()},
@@ -567,6 +579,7 @@ REPORTERS: dict[str, ValueGenerator] = {
     "junction": _junction,
     "not": _not,
     "compare": _compare,
+    "arithmetic": _arithmetic,
     "random_integer": _random_integer,
     "random_item": _random_item,
     "text_length": _text_length,
