@@ -5,6 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
+from ..generate.kinds import TEXT, kinds_of
 from .naming import within
 
 TOLD = ("as_text", "str")
@@ -60,8 +61,9 @@ def _parts(node: ast.expr) -> Iterator[ast.expr]:
 
 
 def _is_text(node: ast.expr) -> bool:
-    """Whether Python shows by itself that a value is a text: then a sum with it is one."""
+    """Whether Python shows that a value is a text, or all of the text does: a sum with it is one."""
     is_typed = isinstance(node, ast.Constant) and isinstance(node.value, str)
+    is_typed = is_typed or (isinstance(node, ast.Name) and kinds_of(node) == TEXT)
     return is_typed or isinstance(node, ast.JoinedStr) or within(node, TOLD) is not node
 
 

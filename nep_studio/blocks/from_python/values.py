@@ -367,7 +367,7 @@ class ValueReader:
         is_careful = bool(pattern.fractions) and not pattern.free and not is_other
         if is_careful and _are_whole(found, pattern.fractions):
             return None
-        if not _may_be_table(pattern, found):
+        if not _may_be_table(pattern, found) or not _may_be_place(pattern, found):
             return None
         is_join = pattern.definition.generator == "join"
         clear = frozenset() if is_join else pattern.clear
@@ -549,6 +549,13 @@ def _may_be_table(pattern: Pattern, found: Found) -> bool:
         return True
     table, key = found.slots["table"], found.slots["key"]
     return kinds_of(key) == TEXT or are(kinds_of(within(table, _MADE["table"])), TABLE)
+
+
+def _may_be_place(pattern: Pattern, found: Found) -> bool:
+    """Whether the index of an item or a letter is that of a place: from below 0 it is from the end."""
+    number = known_whole(found.slots["number"]) if "number" in found.slots else None
+    is_index = any(isinstance(n, ast.Subscript) for one in pattern.nodes for n in ast.walk(one))
+    return number is None or number > 0 or not is_index
 
 
 def _is_no_text(made: tuple[Made, str]) -> tuple[int, bool]:
