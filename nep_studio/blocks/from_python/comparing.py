@@ -19,7 +19,7 @@ from nep_studio.blocks.shared_objects import SHARED_OBJECTS
 
 from ..program import SCOPE_PROGRAM
 from .joined import as_joined, told_in_braces
-from .equal_forms import as_said, is_gone_through
+from .equal_forms import as_said, is_gone_through, told_by_robot
 from .learning import CodeUnread
 from .naming import functions_of, locals_of, names_made, stopped_in
 from .outside import HEADERS, Part, is_frame
@@ -472,10 +472,14 @@ def _same(one: object, other: object) -> bool:
     left = [(one, other)]
     while left:
         ours, theirs = map(_as_compared, left.pop())
+        if isinstance(ours, ast.BinOp) and isinstance(theirs, ast.JoinedStr):
+            ours = as_joined(ours, knows_texts=True)
         if type(ours) is not type(theirs):
             return False
         if isinstance(ours, ast.FormattedValue) and isinstance(theirs, ast.FormattedValue):
             left += told_in_braces(ours, theirs)
+        elif isinstance(ours, ast.Call) and (told := told_by_robot(ours, theirs)):
+            left += told
         elif isinstance(ours, ast.For) and is_gone_through(ours, theirs):
             left += [(getattr(ours, n), getattr(theirs, n)) for n in ("target", "body", "orelse")]
         elif isinstance(ours, ast.AST):

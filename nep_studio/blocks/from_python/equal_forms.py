@@ -15,6 +15,7 @@ from nep_studio.blocks.slots import constant
 from ..generate.expressions import call, known_whole
 from ..generate.kinds import TABLE, TEXT, are, kinds_of
 from ..generate.positions import one_less, one_more
+from .joined import is_number
 
 
 SAY = "say"
@@ -103,6 +104,8 @@ def is_gone_through(ours: ast.For, theirs: ast.For) -> bool:
     Letters, and the keys of a table, are the same in a list of them: a table to which something is
     added meanwhile ends its loop by an error. All else must not be changed in the loop.
     """
+    if ast.dump(_without_keys(ours.iter)) == ast.dump(theirs.iter):
+        return True
     match theirs.iter:
         case ast.Call(ast.Name("list"), [inner], []):
             plain = _without_keys(ours.iter)
@@ -147,3 +150,15 @@ def as_said(node: ast.Call) -> ast.Call:
         case ast.Call(ast.Attribute(_, "say"), [ast.Call(ast.Name("str"), [told], []), *more]):
             return ast.Call(node.func, [told, *more], node.keywords)
     return node
+
+
+def told_by_robot(ours: ast.Call, theirs: ast.Call) -> list[tuple[object, object]]:
+    """What must be the same where a robot says a number: it tells it as blocks do."""
+    match ours, theirs:
+        case (
+            ast.Call(ast.Attribute(_, "say"), [told, *more]),
+            ast.Call(ast.Attribute(_, "say"), [ast.Call(ast.Name("as_text"), [shown], [])]),
+        ) if is_number(told):
+            words = [(ours.func, theirs.func), (ours.keywords, theirs.keywords)]
+            return [(told, shown), (more, []), *words]
+    return []

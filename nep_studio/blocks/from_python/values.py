@@ -17,7 +17,7 @@ from nep_studio.blocks.slots import TEXT_RESULTS, FieldValue, constant
 from ..generate.expressions import call, known_whole
 from ..generate.kinds import ANY, NUMBER, RESULT_KINDS, TABLE, TEXT, WHOLE, Seen, are, kinds_of
 from .equal_forms import SAY, other_values
-from .joined import TOLD
+from .joined import TOLD, is_number
 from .learning import (
     BODY,
     PART,
@@ -336,12 +336,11 @@ class ValueReader:
         return made if self._choose_masters(made) else None
 
     def _as_given(self, node: ast.Call, wanted: Call) -> list[ast.expr]:
-        """The values of a call by their place; a robot says a whole number as str() tells it."""
+        """The values of a call by their place; a robot tells a number itself."""
         match node.args:
             case [told, *more] if wanted.on and wanted.name == SAY:
-                kinds = kinds_of(told, self._seen)
-                is_number = bool(kinds) and are(kinds, WHOLE) and _constant(told) is None
-                return [call("str", told), *more] if is_number else node.args
+                is_known = _constant(told) is not None or not is_number(told)
+                return node.args if is_known else [call("str", told), *more]
         return node.args
 
     def called(self, node: ast.Call) -> Iterator[Made]:
@@ -397,7 +396,8 @@ class ValueReader:
         told, clear = set[str](), set[str]()
         for key, node in found.slots.items():
             inner = within(node, TOLD)
-            is_text = key not in made.inputs or (
+            is_text = key not in made.inputs or kinds_of(node, self._seen) == TEXT
+            is_text = is_text or (
                 self.language.definitions[made.inputs[key].type].result in TEXT_RESULTS
             )
             if is_text or (inner is not node and kinds_of(inner) != TEXT):
