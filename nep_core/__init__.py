@@ -167,8 +167,8 @@ _HOMES = {
         "program.tree": "Check CoolDown Delay Fallback ForceFailure ForceSuccess Input Invert "
         "Output Parallel Repeat Retry Sequence Step SubTree TimeLimit WhileTrue "
         "do_tree fail_step set_tree_value tree_value",
-        "program.values": "add_item append_text as_list as_number as_text count_down count_from count_up "
-        "deviation_of "
+        "program.values": "add_item append_text as_list as_number as_text count_down count_from "
+        "count_up deviation_of "
         "has_item has_part insert_item is_at_least is_at_most is_less is_more "
         "is_same item_of items_between join_items largest_of length_of letter_of "
         "list_with mean_of median_of number_in parts_of place_in_text place_of "

@@ -37,8 +37,8 @@ class Chain:
     """What the blocks of one chain do to variables and lists, and which own blocks they call.
 
     ``sets`` and ``calls`` have the paths of the blocks, by variable and by own block; ``python``
-    those of code blocks, by the names that they set. ``lists`` are the variables whose lists or tables are
-    changed, ``any_list`` says that one without a name is, or by written code.
+    those of code blocks, by the names that they set. ``lists`` are the variables whose lists or
+    tables are changed, ``any_list`` says that one without a name is, or by written code.
     """
 
     sets: Places = field(default_factory=dict)

@@ -18,8 +18,8 @@ from nep_studio.blocks.generate.source_map import Code
 from nep_studio.blocks.shared_objects import SHARED_OBJECTS
 
 from ..program import SCOPE_PROGRAM
+from .equal_forms import as_power, as_said, is_gone_through, told_by_robot
 from .joined import as_joined, told_in_braces
-from .equal_forms import as_said, is_gone_through, told_by_robot
 from .learning import CodeUnread
 from .naming import functions_of, locals_of, names_made, stopped_in
 from .outside import HEADERS, Part, is_frame
@@ -474,6 +474,8 @@ def _same(one: object, other: object) -> bool:
         ours, theirs = map(_as_compared, left.pop())
         if isinstance(ours, ast.BinOp) and isinstance(theirs, ast.JoinedStr):
             ours = as_joined(ours, knows_texts=True)
+        if isinstance(ours, ast.BinOp) and isinstance(theirs, ast.Call):
+            ours = as_power(ours)
         if type(ours) is not type(theirs):
             return False
         if isinstance(ours, ast.FormattedValue) and isinstance(theirs, ast.FormattedValue):

@@ -17,7 +17,6 @@ from ..generate.kinds import TABLE, TEXT, are, kinds_of
 from ..generate.positions import one_less, one_more
 from .joined import is_number
 
-
 SAY = "say"
 """What a robot is asked that tells any value as str() does."""
 
@@ -162,3 +161,10 @@ def told_by_robot(ours: ast.Call, theirs: ast.Call) -> list[tuple[object, object
             words = [(ours.func, theirs.func), (ours.keywords, theirs.keywords)]
             return [(told, shown), (more, []), *words]
     return []
+
+
+def as_power(node: ast.BinOp) -> ast.expr:
+    """A power of numbers as blocks write it; they refuse what is no number, or far too long."""
+    if isinstance(node.op, ast.Pow) and is_number(node.left) and is_number(node.right):
+        return ast.Call(ast.Name("to_power", ast.Load()), [node.left, node.right], [])
+    return node

@@ -192,7 +192,7 @@ class Learner(Expressions):
         return self._known.shows_text
 
     def knows_text(self, node: ast.expr) -> bool:
-        """As this variant has it: a slot that must show that it holds a text does so by its block."""
+        """No: a slot that must show that it holds a text does so by its block here."""
         return False
 
     def f_string(self, parts: Sequence[ast.expr]) -> None:

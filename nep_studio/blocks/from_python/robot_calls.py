@@ -1,4 +1,4 @@
-"""What robots are asked in Python, put as blocks write it: some values by their place, some by name."""
+"""What robots are asked in Python, as blocks write it: some values by place, some by name."""
 
 from __future__ import annotations
 

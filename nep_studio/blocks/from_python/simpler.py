@@ -87,9 +87,9 @@ def _in_full(node: ast.stmt, _names: Names) -> list[ast.stmt] | None:
     match node:
         case ast.AugAssign(ast.Name(name), op, value) if isinstance(op, _LESS_SHORT):
             held: ast.expr = ast.Name(name, ast.Load())
-        case ast.AugAssign(ast.Subscript(ast.Name() as items, index), op, value) if (
-            not isinstance(index, ast.Slice) and may_be_asked_twice(index)
-        ):
+        case ast.AugAssign(ast.Subscript(ast.Name() as items, index), op, value) if not isinstance(
+            index, ast.Slice
+        ) and may_be_asked_twice(index):
             held = ast.Subscript(copy.deepcopy(items), copy.deepcopy(index), ast.Load())
         case _:
             return None

@@ -16,8 +16,8 @@ from nep_studio.blocks.generate.expressions import comment_line, comment_text
 
 from .learning import CodeUnread
 from .mistakes import checklist_of, too_deep
-from .simpler import simplify
 from .scoping import with_beginnings
+from .simpler import simplify
 
 LONGEST_PROGRAM = 2_000_000
 

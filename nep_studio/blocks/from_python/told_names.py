@@ -1,4 +1,4 @@
-"""What the whole of a Python text tells of its names: what is imported, what is a list or a truth."""
+"""What the whole of a Python text tells of its names: what is imported, a list or a truth."""
 
 from __future__ import annotations
 
@@ -86,7 +86,6 @@ class Names:
             if isinstance(node, ast.Import | ast.ImportFrom) and self._is_taken_over(node):
                 node.is_taken_over = True  # type: ignore[union-attr]
 
-
     def _all_set(self) -> Iterator[tuple[str, ast.expr | None]]:
         """Every name to which something is put, with that value where it is said as such."""
         plain = set[int]()
@@ -96,9 +95,9 @@ class Names:
                     plain.add(id(target))
                     yield name, value
         for node in self._nodes:
-            if isinstance(node, ast.Name) and not isinstance(node.ctx, ast.Load):
-                if id(node) not in plain:
-                    yield node.id, None
+            is_set = isinstance(node, ast.Name) and not isinstance(node.ctx, ast.Load)
+            if isinstance(node, ast.Name) and is_set and id(node) not in plain:
+                yield node.id, None
 
     def _imported(self) -> Iterator[tuple[str, tuple[str, str]]]:
         free = self._taken - self._set.keys() - self._given - self._defined

@@ -552,7 +552,7 @@ def _may_be_table(pattern: Pattern, found: Found) -> bool:
 
 
 def _may_be_place(pattern: Pattern, found: Found) -> bool:
-    """Whether the index of an item or a letter is that of a place: from below 0 it is from the end."""
+    """Whether an index is that of a place from the start: one below 0 is from the end."""
     number = known_whole(found.slots["number"]) if "number" in found.slots else None
     is_index = any(isinstance(n, ast.Subscript) for one in pattern.nodes for n in ast.walk(one))
     return number is None or number > 0 or not is_index

@@ -65,8 +65,8 @@ from .kinds import (
     result_key,
 )
 from .names import API, MODULES
-from .positions import index_of, one_less, one_more
 from .plans import FACT_LINES, FACT_VALUES
+from .positions import index_of, one_less, one_more
 from .tables import TABLE_STATEMENTS, TABLE_VALUES
 from .trees import TREE_PARTS
 

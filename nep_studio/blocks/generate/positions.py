@@ -36,7 +36,7 @@ def index_of(number: ast.expr) -> ast.expr | None:
 
 
 def _is_last(index: ast.expr) -> bool:
-    """Whether it is ``len(names) - 1``: of an empty list there is no item −1 either."""
+    """Whether it is ``len(names) - 1``: of an empty list there is no item at -1 either."""
     match index:
         case ast.BinOp(ast.Call(func=ast.Name(id="len")), ast.Sub(), ast.Constant(value=1)):
             return True
