@@ -21,7 +21,7 @@ from ..program import SCOPE_PROGRAM
 from .equal_forms import as_power, as_said, is_gone_through, told_by_robot
 from .joined import as_joined, told_in_braces
 from .learning import CodeUnread
-from .naming import functions_of, locals_of, names_made, stopped_in
+from .naming import functions_of, locals_of, names_made, note_anew, stopped_in
 from .outside import HEADERS, Part, is_frame
 from .reading import as_block
 from .scoping import is_beginning, with_shared_names
@@ -83,6 +83,7 @@ def lost_lines(
     both = [(there, again[stack]) for stack, there in functions.items() if stack in again]
     if lines := {there.lineno for there, other in both if not _require_same_scope(there, other)}:
         return Lost(lines, generator.kinds())
+    note_anew(source.tree, generator.kinds())
     lost, places = _lost_functions(editor, source, code, made, functions)
     around = _lost_around(source, made)
     places = places or _setting(source, around)

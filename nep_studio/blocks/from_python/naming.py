@@ -359,6 +359,14 @@ def _all_kinds(kinds: Iterator[int]) -> int:
     return functools.reduce(operator.or_, kinds, 0)
 
 
+def note_anew(tree: ast.Module, kinds: Mapping[str, int]) -> None:
+    """Note the kinds that are known by now, and no others."""
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Name | ast.Call) and hasattr(node, "kinds"):
+            del node.kinds
+    _note_kinds(tree, kinds)
+
+
 def _note_kinds(tree: ast.Module, kinds: Mapping[str, int]) -> None:
     """Note the kinds of variables, and of values of own blocks, wherever they stand in a text."""
     for top in tree.body:

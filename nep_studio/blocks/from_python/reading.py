@@ -118,7 +118,11 @@ class StatementReader:
         if nodes and (node.lineno in self._kept or _is_one_piece(node)):
             last = self._source.last_line(node.body)
             return [hat, self.code(nodes, self._source.line_before(node.body), last)]
-        return [hat, *self.body(node.body)]
+        try:
+            return [hat, *self.body(node.body)]
+        except _NotSaid:
+            last = self._source.last_line(node.body)
+            return [hat, self.code(nodes, self._source.line_before(node.body), last)]
 
     def code(self, nodes: Sequence[ast.stmt], after: int, until: int = 0) -> Made:
         """A code block that keeps the text of statements, and of comments below them."""

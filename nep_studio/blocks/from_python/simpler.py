@@ -239,11 +239,15 @@ def _own(function: ast.FunctionDef) -> Iterator[ast.AST]:
 
 def _keep_given(function: ast.FunctionDef, names: Names) -> None:
     """Let a value that a function changes be a variable that begins with what was given."""
-    stored = {
+    counted = {id(target): name for node in _own(function) for target, name in _counted(node)}
+    others = {
         node.id
         for node in _own(function)
-        if isinstance(node, ast.Name) and isinstance(node.ctx, ast.Store)
+        if isinstance(node, ast.Name)
+        and not isinstance(node.ctx, ast.Load)
+        and id(node) not in counted
     }
+    stored = set(counted.values()) - others
     inner = [node for node in _own(function) if isinstance(node, ast.FunctionDef | ast.Lambda)]
     if inner or names.is_called_by_words(function.name):
         return
@@ -252,6 +256,15 @@ def _keep_given(function: ast.FunctionDef, names: Names) -> None:
             name, argument.arg = argument.arg, names.new(f"{argument.arg}_given")
             first = _set(name, ast.Name(argument.arg, ast.Load()))
             function.body.insert(_has_docstring(function), _at(function, first))
+
+
+def _counted(node: ast.AST) -> Iterator[tuple[ast.expr, str]]:
+    """What a statement counts with, such as ``n = n - 1``."""
+    match node:
+        case ast.AugAssign(ast.Name(name) as target) | ast.Assign(
+            [ast.Name(name) as target], ast.BinOp()
+        ):
+            yield target, name
 
 
 def _has_docstring(function: ast.FunctionDef) -> int:
@@ -363,7 +376,7 @@ class _Values:
             case ast.Call(ast.Attribute(ast.Name(robot), method)) if robot in self._names.robots:
                 return _of_robot(node, method)
             case ast.Call(ast.Attribute(ast.Name("time"), "sleep"), [seconds], []):
-                if self._names.is_module("time") and self._names.is_free("wait"):
+                if self._names.may_wait():
                     return ast.Call(ast.Name("wait", ast.Load()), [seconds], [])
         return node
 
@@ -371,7 +384,7 @@ class _Values:
         """A function of a module that is imported alone, by its whole name."""
         module, name = self._names.imported[node.id]
         held = ast.Name(module, ast.Load())
-        return ast.Attribute(held, name, ast.Load()) if name else held
+        return ast.Attribute(held, name, ast.Load())
 
 
 def _of_robot(node: ast.Call, method: str) -> ast.Call:

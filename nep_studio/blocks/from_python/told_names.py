@@ -11,6 +11,12 @@ from ..generate.names import MODULES
 _TIME = "time"
 _TAKEN_OVER = MODULES | {_TIME}
 """The modules whose functions blocks know."""
+_USUAL = {
+    "sleep": (_TIME, "sleep"),
+    "randint": ("random", "randint"),
+    "choice": ("random", "choice"),
+}
+"""What people call without its module, also when a program imports that by itself by now."""
 
 _ASKING = frozenset(
     {
@@ -74,13 +80,6 @@ class Names:
         }
         self.imported = dict(self._imported())
         """What a name stands for that was imported: a module, and what of it."""
-        self._modules = {
-            alias.name
-            for node in tree.body
-            if isinstance(node, ast.Import)
-            for alias in node.names
-            if not alias.asname
-        }
         self._kept_by_others = self._lent()
         for node in tree.body:
             if isinstance(node, ast.Import | ast.ImportFrom) and self._is_taken_over(node):
@@ -95,55 +94,50 @@ class Names:
                     plain.add(id(target))
                     yield name, value
         for node in self._nodes:
+            if isinstance(node, ast.Import | ast.ImportFrom) and node not in self._tree.body:
+                yield from ((alias.asname or alias.name, None) for alias in node.names)
             is_set = isinstance(node, ast.Name) and not isinstance(node.ctx, ast.Load)
             if isinstance(node, ast.Name) and is_set and id(node) not in plain:
                 yield node.id, None
 
     def _imported(self) -> Iterator[tuple[str, tuple[str, str]]]:
+        """Functions of modules by their own names, also where a text does not import them."""
         free = self._taken - self._set.keys() - self._given - self._defined
+        made = set[str]()
         for node in self._tree.body:
             match node:
                 case ast.ImportFrom(module=str(module), names=names, level=0):
-                    if module not in _TAKEN_OVER or module in self._set or "*" in names[0].name:
+                    made |= {alias.asname or alias.name for alias in names}
+                    if module not in _TAKEN_OVER or module in self._set:
                         continue
                     for alias in names:
-                        name = alias.asname or alias.name
-                        if name in free and (module != _TIME or alias.name == "sleep"):
+                        is_known = module != _TIME or alias.name == "sleep"
+                        if (name := alias.asname or alias.name) in free and is_known:
                             yield name, (module, alias.name)
-                case ast.Import(names=names):
-                    for alias in names:
-                        if alias.asname in free and alias.name in _TAKEN_OVER:
-                            yield str(alias.asname), (alias.name, "")
+        yield from ((name, _USUAL[name]) for name in free & _USUAL.keys() - made)
 
     def _is_taken_over(self, node: ast.Import | ast.ImportFrom) -> bool:
         """Whether the program imports by itself what blocks use of this."""
         if isinstance(node, ast.ImportFrom):
-            names = [alias.asname or alias.name for alias in node.names]
-            known = node.module in _TAKEN_OVER and not node.level
-            return known and all(n in self.imported or n not in self._taken for n in names)
-        return all(
-            (alias.asname in self.imported)
-            or (alias.name == _TIME and not alias.asname and self._only_sleeps())
-            for alias in node.names
+            return all((alias.asname or alias.name) in self.imported for alias in node.names)
+        return all(alias.name == _TIME and not alias.asname for alias in node.names) and (
+            self._only_sleeps()
         )
 
     def _only_sleeps(self) -> bool:
-        used = sum(isinstance(n, ast.Name) and n.id == _TIME for n in self._nodes)
-        match_sleep = [
-            node
-            for node in self._nodes
-            if isinstance(node, ast.Attribute)
+        used = sum(isinstance(node, ast.Name) and node.id == _TIME for node in self._nodes)
+        sleeps = sum(
+            isinstance(node, ast.Attribute)
             and node.attr == "sleep"
             and isinstance(node.value, ast.Name)
             and node.value.id == _TIME
-        ]
-        return used == len(match_sleep)
+            for node in self._nodes
+        )
+        return 0 < used == sleeps
 
-    def is_module(self, name: str) -> bool:
-        """Whether a name is a module's, wherever it stands."""
-        is_there = name in self._modules or (name, "sleep") in self.imported.values()
-        is_there = is_there or (name, "") in self.imported.values()
-        return is_there and not (name in self._set or name in self._given)
+    def may_wait(self) -> bool:
+        """Whether “time” is the module, and “wait” what nep_core calls so, wherever they stand."""
+        return self.is_free(_TIME) and self.is_free("wait")
 
     def is_free(self, name: str) -> bool:
         """Whether nothing in the text has this name but what nep_core calls so."""

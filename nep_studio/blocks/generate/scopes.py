@@ -76,7 +76,7 @@ def _parameters(
 
     ``written`` are the names that Python of a person has, and the ids of variables in it.
     """
-    others = {*names.robots.values(), *names.procedures.values(), *names.outside, *written}
+    others = {*names.robots.values(), *names.procedures.values(), *names.outside}
     variables = names.variables.items()
     others |= {name.rpartition(".")[2] for v, name in variables if {v, name} & written}
     for key, one in facts.items():
