@@ -335,7 +335,10 @@ def _kinds_given(tree: ast.Module, names: SourceNames) -> dict[str, int]:
     same: dict[str, set[str]] = {}
     for node in ast.walk(tree):
         match node:
-            case ast.Assign(targets=[ast.Name(id=name)], value=ast.Name(id=other)):
+            case (
+                ast.Assign(targets=[ast.Name(id=name)], value=ast.Name(id=other))
+                | ast.AugAssign(target=ast.Name(id=name), value=ast.Name(id=other))
+            ):
                 same.setdefault(name, set()).add(other)
             case ast.Assign(targets=[ast.Name(id=name)], value=value):
                 found[name] = found.get(name, 0) | kinds_of(value)

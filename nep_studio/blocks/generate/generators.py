@@ -566,7 +566,9 @@ def _arithmetic(code: Expressions, block: Block) -> ast.expr:
     """Squares and cubes are no larger than other products: nothing has to look at them first."""
     made = _ARITHMETIC(code, block)
     match made:
-        case ast.Call(func=ast.Name(id="to_power"), args=[base, ast.Constant(value=2 | 3)]):
+        case ast.Call(func=ast.Name(id="to_power"), args=[base, ast.Constant(value=2 | 3)]) if (
+            known_whole(base) is None  # ten to the power of a number is a block by itself
+        ):
             return ast.BinOp(base, ast.Pow(), made.args[1])
     return made
 

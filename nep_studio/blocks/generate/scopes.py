@@ -72,13 +72,14 @@ def scoped(
 def _parameters(
     names: ProgramNames, facts: Mapping[str, Facts], project: Project, written: Set[str]
 ) -> Iterator[tuple[str, str]]:
-    """What the values of own blocks are called: a variable of another stack may be called so, too.
+    """What the values of own blocks are called: a variable of another rule may be called so, too.
 
     ``written`` are the names that Python of a person has, and the ids of variables in it.
     """
     others = {*names.robots.values(), *names.procedures.values(), *names.outside}
     variables = names.variables.items()
-    others |= {name.rpartition(".")[2] for v, name in variables if {v, name} & written}
+    is_plain = {v: name in names.locals and not {v, name} & written for v, name in variables}
+    others |= {name.rpartition(".")[2] for v, name in variables if not is_plain[v]}
     for key, one in facts.items():
         header = project.blocks[project.stacks[key].body[0] if key in project.stacks else key]
         procedure = procedure_of(header.type)
