@@ -1,0 +1,230 @@
+"""Plays programs of blocks: their real Python in a process, fast robots, and people in the test."""
+
+from __future__ import annotations
+
+import contextlib
+import subprocess
+import tempfile
+import threading
+from collections.abc import Callable, Iterator
+from contextlib import ExitStack, contextmanager
+from pathlib import Path
+
+import msgspec
+import pytest
+
+from nep_core.networks.endpoints import MASTER_VARIABLE
+from nep_core.networks.master import Master
+from nep_core.networks.zmq_networks import PeerNetwork
+from nep_core.places import ROBOT_FILES_VARIABLE
+from nep_core.wire.messages import (
+    ACTION_REQUEST,
+    ACTION_RESULT,
+    HUMAN_BEHAVIOR,
+    PROGRAM_CONTROL,
+    PROGRAM_STATE,
+    SENSE_REQUEST,
+    ActionRequest,
+    ActionResult,
+    HumanBehavior,
+    ProgramControl,
+    ProgramState,
+    SenseRequest,
+)
+from nep_core.wire.pubsub import Publisher, Subscriber
+from nep_studio.blocks.generate.program import generate_program
+from nep_studio.blocks.program import Project
+from tests.node_running import NodeRunner
+from tests.stories.programs_in_blocks import LANGUAGE
+
+SPEED = 20
+"""How many times faster than real time the robots live."""
+WAIT_S = 20.0
+ROBOTS = ("NAO", "NAO2")
+
+
+class BlockTheatre(NodeRunner):
+    """Two robots on the screen for one program after the other, and all that was told of them."""
+
+    def __init__(self, network: PeerNetwork, folder: Path) -> None:
+        super().__init__(network)
+        self._folder = folder
+        self._played = 0
+        self._program = ""
+        self._events: list[msgspec.Struct] = []
+        self._seen = 0
+        self._came = threading.Condition()
+        self._senses = Publisher(SENSE_REQUEST, network=network)
+        self._person = Publisher(HUMAN_BEHAVIOR, network=network)
+        self._control = Publisher(PROGRAM_CONTROL, network=network)
+        self._requests = Publisher(ACTION_REQUEST, network=network)
+        for topic, kind in (
+            (ACTION_REQUEST, ActionRequest),
+            (ACTION_RESULT, ActionResult),
+            (PROGRAM_STATE, ProgramState),
+        ):
+            Subscriber(topic, kind, network=network, callback=self._hear)
+        for robot in ROBOTS:
+            self.start_node("action/nao", robot, robot=robot, speed=SPEED)
+        for robot in ROBOTS:
+            self.state("ready", node=robot)
+        assert self._senses.wait_for_subscribers(len(ROBOTS), WAIT_S)
+
+    @contextmanager
+    def plays(self, project: Project, *, prepare: str = "") -> Iterator[None]:
+        """Run a project until the test is through; ``prepare`` is Python that is done before."""
+        self._played += 1
+        self._program = f"program_{self._played}"
+        file = self._folder / f"{self._program}.py"
+        language = LANGUAGE.of(project)
+        file.write_text(generate_program(project, language).text, encoding="utf-8")
+        self.prepare = prepare
+        process = self.start_node("cognitive/program", self._program, file=str(file), hold=True)
+        self.prepare = ""
+        self._events, self._seen = [], 0
+        try:
+            self.state("ready", node=self._program)
+            assert self._control.wait_for_subscribers(1, WAIT_S)
+            self._order("start")
+            self._wait_for(lambda: self._told("started"))
+            yield
+        finally:
+            self._order("stop")
+            with contextlib.suppress(subprocess.TimeoutExpired):
+                process.wait(5)
+            self._calm_down()
+
+    # What a person does.
+
+    def touch(self, part: str) -> None:
+        """Touch a part of the robot, and let it go."""
+        for value in (1.0, 0.0):
+            self._senses.send(SenseRequest(robot="NAO", sense=part, value=value))
+
+    def feel(self, sensor: str, value: float) -> None:
+        """Let a sensor of the robot measure this from now on."""
+        self._senses.send(SenseRequest(robot="NAO", sense=sensor, value=value))
+
+    def show(self, thing: str) -> None:
+        """Let the robot see something, until the end of the program."""
+        self._senses.send(SenseRequest(robot="NAO", sense=thing))
+
+    def tell(self, word: str) -> None:
+        """Say a word that a rule waits for."""
+        self._senses.send(SenseRequest(robot="NAO", sense="word", name=word))
+
+    def answer(self, *words: str) -> None:
+        """Answer the next questions, each once the robot listens."""
+        for word in words:
+            self.does("listen")
+            self.tell(word)
+
+    def person_is(self, state: str) -> None:
+        """Let a person do something that a recogniser has seen."""
+        self._person.send(HumanBehavior(human_state=state))
+
+    # What the program does, each behind what was waited for before.
+
+    def says(self, *sentences: str, robot: str = "NAO") -> None:
+        """Wait until the robot begins to say each of these, one after the other."""
+        for sentence in sentences:
+            self.does("say", robot, text=sentence)
+
+    def hears(self, robot: str = "NAO") -> str:
+        """Wait for the next sentence of the robot, whatever it is, and return it."""
+        return str(self.does("say", robot).args["text"])
+
+    def does(self, action: str, robot: str = "NAO", **wanted: object) -> ActionRequest:
+        """Wait until the robot begins an action with these arguments."""
+
+        def is_it(event: msgspec.Struct) -> bool:
+            if not isinstance(event, ActionResult) or event.state != "started":
+                return False
+            asked = self._request(event.id)
+            return (
+                asked is not None
+                and (event.robot, asked.action) == (robot, action)
+                and {key: asked.args.get(key) for key in wanted} == wanted
+            )
+
+        found: list[ActionRequest | None] = []
+
+        def look() -> bool:
+            while self._seen < len(self._events) and not found:
+                event = self._events[self._seen]
+                self._seen += 1
+                if is_it(event):
+                    assert isinstance(event, ActionResult)
+                    found.append(self._request(event.id))
+            return bool(found)
+
+        self._wait_for(look, f"{robot} {action} {wanted}")
+        assert found[0] is not None
+        return found[0]
+
+    def rests(self, rules: int) -> None:
+        """Wait until so many rules have come to their end since the start."""
+        self._wait_for(lambda: len(self._told("rule_finished")) >= rules, f"{rules} rules")
+
+    def ends(self) -> None:
+        """Wait until the program has ended by itself, and well."""
+        self._wait_for(lambda: self._told("finished", "failed"), "the end")
+        assert [event.event for event in self._told("finished", "failed")] == ["finished"]
+
+    def said(self, robot: str = "NAO") -> list[str]:
+        """All that the robot has begun to say since the start of the program."""
+        begun = [e for e in self._events if isinstance(e, ActionResult) and e.state == "started"]
+        asked = [self._request(e.id) for e in begun if e.robot == robot]
+        return [str(a.args["text"]) for a in asked if a is not None and a.action == "say"]
+
+    def failures(self) -> list[ProgramState]:
+        """What has gone wrong in the program since its start."""
+        return self._told("rule_failed", "failed", "warning")
+
+    # How it hears and waits.
+
+    def _hear(self, message: msgspec.Struct) -> None:
+        with self._came:
+            self._events.append(message)
+            self._came.notify_all()
+
+    def _wait_for(self, is_so: Callable[[], object], what: str = "") -> None:
+        with self._came:
+            assert self._came.wait_for(is_so, WAIT_S), (what, *self._events[-12:])
+
+    def _told(self, *kinds: str) -> list[ProgramState]:
+        """What this program has told of these kinds."""
+        told = [event for event in self._events if isinstance(event, ProgramState)]
+        return [e for e in told if e.event in kinds and e.program == self._program]
+
+    def _request(self, number: str) -> ActionRequest | None:
+        asked = (e for e in self._events if isinstance(e, ActionRequest) and e.id == number)
+        return next(asked, None)
+
+    def _order(self, command: str) -> None:
+        self._control.send(ProgramControl(command=command, program=self._program))
+
+    def _calm_down(self) -> None:
+        """Let the robots be as they were at the start, for the next program."""
+        stop = ActionRequest(id=f"calm_{self._played}", robots=list(ROBOTS), action="stop")
+        self._requests.send(stop)
+        for robot in ROBOTS:
+            for sense, value in (("usual", 1.0), ("face", 0.0)):
+                self._senses.send(SenseRequest(robot=robot, sense=sense, value=value))
+
+
+@contextmanager
+def block_theatre() -> Iterator[BlockTheatre]:
+    """A theatre with a master and a network of its own, which is closed at the end."""
+    with ExitStack() as ending:
+        folder = ending.enter_context(tempfile.TemporaryDirectory())
+        patch = ending.enter_context(pytest.MonkeyPatch.context())
+        master = Master("tcp://127.0.0.1:*")
+        ending.callback(master.close)
+        patch.setenv(ROBOT_FILES_VARIABLE, folder)
+        patch.setenv(MASTER_VARIABLE, master.endpoint)  # the nodes find it there
+        network = PeerNetwork("outside", master=master.endpoint)
+        ending.callback(network.close)
+        theatre = BlockTheatre(network, Path(folder))
+        ending.callback(theatre.close)
+        yield theatre
