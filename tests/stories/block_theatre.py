@@ -51,6 +51,8 @@ class BlockTheatre(NodeRunner):
         self._folder = folder
         self._played = 0
         self._program = ""
+        self._names: set[str] = set()
+        """What the program that is played is called: as a node, and by itself."""
         self._events: list[msgspec.Struct] = []
         self._seen = 0
         self._came = threading.Condition()
@@ -75,6 +77,7 @@ class BlockTheatre(NodeRunner):
         """Run a project until the test is through; ``prepare`` is Python that is done before."""
         self._played += 1
         self._program = f"program_{self._played}"
+        self._names = {self._program, project.name}
         file = self._folder / f"{self._program}.py"
         language = LANGUAGE.of(project)
         file.write_text(generate_program(project, language).text, encoding="utf-8")
@@ -171,11 +174,25 @@ class BlockTheatre(NodeRunner):
         self._wait_for(lambda: self._told("finished", "failed"), "the end")
         assert [event.event for event in self._told("finished", "failed")] == ["finished"]
 
+    def enters(self, state: str, times: int = 1) -> None:
+        """Wait until the program has come into this state so often."""
+
+        def is_there() -> bool:
+            return [e.rule for e in self._told("state_entered")].count(state) >= times
+
+        self._wait_for(is_there, f"the state {state}")
+
+    def begun(self, action: str, robot: str = "NAO") -> list[ActionRequest]:
+        """All actions of this kind that the robot has begun since the start of the program."""
+        with self._came:
+            results = [e for e in self._events if isinstance(e, ActionResult)]
+        begun = [e for e in results if (e.state, e.robot) == ("started", robot)]
+        asked = [self._request(each.id) for each in begun]
+        return [each for each in asked if each is not None and each.action == action]
+
     def said(self, robot: str = "NAO") -> list[str]:
         """All that the robot has begun to say since the start of the program."""
-        begun = [e for e in self._events if isinstance(e, ActionResult) and e.state == "started"]
-        asked = [self._request(e.id) for e in begun if e.robot == robot]
-        return [str(a.args["text"]) for a in asked if a is not None and a.action == "say"]
+        return [str(request.args["text"]) for request in self.begun("say", robot)]
 
     def failures(self) -> list[ProgramState]:
         """What has gone wrong in the program since its start."""
@@ -195,7 +212,7 @@ class BlockTheatre(NodeRunner):
     def _told(self, *kinds: str) -> list[ProgramState]:
         """What this program has told of these kinds."""
         told = [event for event in self._events if isinstance(event, ProgramState)]
-        return [e for e in told if e.event in kinds and e.program == self._program]
+        return [e for e in told if e.event in kinds and e.program in self._names]
 
     def _request(self, number: str) -> ActionRequest | None:
         asked = (e for e in self._events if isinstance(e, ActionRequest) and e.id == number)
