@@ -54,7 +54,7 @@ class BlockTheatre(NodeRunner):
         self._names: set[str] = set()
         """What the program that is played is called: as a node, and by itself."""
         self._events: list[msgspec.Struct] = []
-        self._seen = 0
+        self._seen = dict.fromkeys(ROBOTS, 0)
         self._came = threading.Condition()
         self._senses = Publisher(SENSE_REQUEST, network=network)
         self._person = Publisher(HUMAN_BEHAVIOR, network=network)
@@ -68,7 +68,6 @@ class BlockTheatre(NodeRunner):
             Subscriber(topic, kind, network=network, callback=self._hear)
         for robot in ROBOTS:
             self.start_node("action/nao", robot, robot=robot, speed=SPEED)
-        for robot in ROBOTS:
             self.state("ready", node=robot)
         assert self._senses.wait_for_subscribers(len(ROBOTS), WAIT_S)
 
@@ -84,7 +83,7 @@ class BlockTheatre(NodeRunner):
         self.prepare = prepare
         process = self.start_node("cognitive/program", self._program, file=str(file), hold=True)
         self.prepare = ""
-        self._events, self._seen = [], 0
+        self._events, self._seen = [], dict.fromkeys(ROBOTS, 0)
         try:
             self.state("ready", node=self._program)
             assert self._control.wait_for_subscribers(1, WAIT_S)
@@ -140,30 +139,18 @@ class BlockTheatre(NodeRunner):
     def does(self, action: str, robot: str = "NAO", **wanted: object) -> ActionRequest:
         """Wait until the robot begins an action with these arguments."""
 
-        def is_it(event: msgspec.Struct) -> bool:
-            if not isinstance(event, ActionResult) or event.state != "started":
-                return False
-            asked = self._request(event.id)
-            return (
-                asked is not None
-                and (event.robot, asked.action) == (robot, action)
-                and {key: asked.args.get(key) for key in wanted} == wanted
-            )
+        def look() -> ActionRequest | None:
+            begun = self._begun(robot)
+            while self._seen[robot] < len(begun):
+                asked = begun[self._seen[robot]]
+                self._seen[robot] += 1
+                if asked.action == action and wanted.items() <= asked.args.items():
+                    return asked
+            return None
 
-        found: list[ActionRequest | None] = []
-
-        def look() -> bool:
-            while self._seen < len(self._events) and not found:
-                event = self._events[self._seen]
-                self._seen += 1
-                if is_it(event):
-                    assert isinstance(event, ActionResult)
-                    found.append(self._request(event.id))
-            return bool(found)
-
-        self._wait_for(look, f"{robot} {action} {wanted}")
-        assert found[0] is not None
-        return found[0]
+        found = self._wait_for(look, f"{robot} {action} {wanted}")
+        assert isinstance(found, ActionRequest)
+        return found
 
     def rests(self, rules: int) -> None:
         """Wait until so many rules have come to their end since the start."""
@@ -184,11 +171,7 @@ class BlockTheatre(NodeRunner):
 
     def begun(self, action: str, robot: str = "NAO") -> list[ActionRequest]:
         """All actions of this kind that the robot has begun since the start of the program."""
-        with self._came:
-            results = [e for e in self._events if isinstance(e, ActionResult)]
-        begun = [e for e in results if (e.state, e.robot) == ("started", robot)]
-        asked = [self._request(each.id) for each in begun]
-        return [each for each in asked if each is not None and each.action == action]
+        return [request for request in self._begun(robot) if request.action == action]
 
     def said(self, robot: str = "NAO") -> list[str]:
         """All that the robot has begun to say since the start of the program."""
@@ -205,18 +188,28 @@ class BlockTheatre(NodeRunner):
             self._events.append(message)
             self._came.notify_all()
 
-    def _wait_for(self, is_so: Callable[[], object], what: str = "") -> None:
+    def _wait_for(self, is_so: Callable[[], object], what: str = "") -> object:
         with self._came:
-            assert self._came.wait_for(is_so, WAIT_S), (what, *self._events[-12:])
+            so = self._came.wait_for(is_so, WAIT_S)
+            assert so, (what, *self._events[-12:])
+        return so
 
     def _told(self, *kinds: str) -> list[ProgramState]:
         """What this program has told of these kinds."""
         told = [event for event in self._events if isinstance(event, ProgramState)]
         return [e for e in told if e.event in kinds and e.program in self._names]
 
-    def _request(self, number: str) -> ActionRequest | None:
-        asked = (e for e in self._events if isinstance(e, ActionRequest) and e.id == number)
-        return next(asked, None)
+    def _begun(self, robot: str) -> list[ActionRequest]:
+        """What this robot has begun, as far as it is known: an answer may outrun its question."""
+        events = list(self._events)
+        asked = {each.id: each for each in events if isinstance(each, ActionRequest)}
+        begun: list[ActionRequest] = []
+        for event in events:
+            if isinstance(event, ActionResult) and (event.robot, event.state) == (robot, "started"):
+                if event.id not in asked:
+                    break
+                begun.append(asked[event.id])
+        return begun
 
     def _order(self, command: str) -> None:
         self._control.send(ProgramControl(command=command, program=self._program))

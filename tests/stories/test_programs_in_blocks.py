@@ -303,7 +303,7 @@ def told_problem(theatre: BlockTheatre) -> None:
 def touch_race(theatre: BlockTheatre) -> None:
     theatre.touch("hand_left")  # too early
     theatre.says("Go!")
-    theatre.rests(2)
+    theatre.rests(1)
     theatre.touch("hand_right")
     theatre.says("right was faster.", "In less than a minute.")
     theatre.ends()
