@@ -55,6 +55,7 @@ class BlockTheatre(NodeRunner):
         """What the program that is played is called: as a node, and by itself."""
         self._events: list[msgspec.Struct] = []
         self._seen = dict.fromkeys(ROBOTS, 0)
+        self._entered = 0
         self._came = threading.Condition()
         self._senses = Publisher(SENSE_REQUEST, network=network)
         self._person = Publisher(HUMAN_BEHAVIOR, network=network)
@@ -83,7 +84,7 @@ class BlockTheatre(NodeRunner):
         self.prepare = prepare
         process = self.start_node("cognitive/program", self._program, file=str(file), hold=True)
         self.prepare = ""
-        self._events, self._seen = [], dict.fromkeys(ROBOTS, 0)
+        self._events, self._seen, self._entered = [], dict.fromkeys(ROBOTS, 0), 0
         try:
             self.state("ready", node=self._program)
             assert self._control.wait_for_subscribers(1, WAIT_S)
@@ -161,13 +162,20 @@ class BlockTheatre(NodeRunner):
         self._wait_for(lambda: self._told("finished", "failed"), "the end")
         assert [event.event for event in self._told("finished", "failed")] == ["finished"]
 
-    def enters(self, state: str, times: int = 1) -> None:
-        """Wait until the program has come into this state so often."""
+    def enters(self, state: str) -> None:
+        """Wait until the program comes into this state, behind the one that was waited for before.
 
-        def is_there() -> bool:
-            return [e.rule for e in self._told("state_entered")].count(state) >= times
+        The first of all may be missed: a program that has just begun is not heard at once.
+        """
 
-        self._wait_for(is_there, f"the state {state}")
+        def look() -> bool:
+            entered = [event.rule for event in self._told("state_entered")]
+            if state not in entered[self._entered :]:
+                return False
+            self._entered += entered[self._entered :].index(state) + 1
+            return True
+
+        self._wait_for(look, f"the state {state}")
 
     def begun(self, action: str, robot: str = "NAO") -> list[ActionRequest]:
         """All actions of this kind that the robot has begun since the start of the program."""

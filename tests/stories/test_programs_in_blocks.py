@@ -263,11 +263,11 @@ def alarm_clock(theatre: BlockTheatre) -> None:
     theatre.says("Wake up!")
     theatre.touch("head_front")
     theatre.enters("snoozing")
-    theatre.enters("ringing", times=2)
+    theatre.enters("ringing")
     theatre.says("Wake up!")
     theatre.touch("hand_left")
     theatre.says("Good morning.")
-    theatre.enters("asleep", times=2)
+    theatre.enters("asleep")
 
 
 def hide_and_seek(theatre: BlockTheatre) -> None:
@@ -303,7 +303,6 @@ def told_problem(theatre: BlockTheatre) -> None:
 def touch_race(theatre: BlockTheatre) -> None:
     theatre.touch("hand_left")  # too early
     theatre.says("Go!")
-    theatre.rests(1)
     theatre.touch("hand_right")
     theatre.says("right was faster.", "In less than a minute.")
     theatre.ends()
