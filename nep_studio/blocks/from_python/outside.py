@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 import sys
 from collections import Counter
-from collections.abc import Collection, Iterator
+from collections.abc import Collection, Iterator, Set
 from dataclasses import dataclass, field
 
 from nep_studio.blocks.code_text import CodeTextRefused, read_outside
@@ -14,6 +14,7 @@ from nep_studio.blocks.generate.names import API, MODULES
 from nep_studio.blocks.generate.program import runs
 
 from .learning import CodeUnread
+from .scoping import is_beginning
 from .source import Source, begin_of, end_of
 
 HEADERS = ("Robot", "Behavior")
@@ -62,7 +63,7 @@ def _is_head(node: ast.stmt) -> bool:
     match node:
         case ast.Assign(targets=[ast.Name()], value=ast.Call(func=ast.Name(id=made))):
             return made in HEADERS
-    return isinstance(node, ast.ImportFrom) and is_frame(node)
+    return is_beginning(node) or (isinstance(node, ast.ImportFrom) and is_frame(node))
 
 
 def is_run(node: ast.stmt) -> bool:
@@ -77,12 +78,15 @@ def is_run(node: ast.stmt) -> bool:
     return False
 
 
-def parts_of(source: Source, kept: Collection[int] = ()) -> list[Part]:
+def parts_of(
+    source: Source, kept: Collection[int] = (), begun: Set[str] = frozenset()
+) -> list[Part]:
     """The parts of a text in their order, without what the program writes by itself.
 
-    The statements that begin in the lines ``kept`` are own Python in any case. Raises CodeUnread.
+    The statements that begin in the lines ``kept`` are own Python in any case, and so is what the
+    variables ``begun`` begin with. Raises CodeUnread.
     """
-    return _Splitter(source, kept).split()
+    return _Splitter(source, kept, begun).split()
 
 
 @dataclass(slots=True)
@@ -94,6 +98,7 @@ class _Splitter:
 
     source: Source
     kept: Collection[int]
+    begun: Set[str]
     parts: list[Part] = field(default_factory=list)
     lines: list[str] = field(default_factory=list)
     first: int = 0
@@ -172,6 +177,8 @@ class _Splitter:
         """Whether a statement is kept as it is written."""
         if node is self.run:
             return False
+        if is_beginning(node):
+            return not self.begun.isdisjoint(_named(node))
         if number >= self.end_from or (begin_of(node) in self.kept and not _is_head(node)):
             return True
         if number == 0 and _is_text(node):
@@ -203,6 +210,9 @@ class _Splitter:
         """
         begin, end = begin_of(node), end_of([node])
         above, below = self._ends_around(number)
+        if is_beginning(node):
+            self._put(begin, [ast.unparse(node)], place)
+            return end
         if above < begin and end < below:
             end = self.source.end_inside(node)
             self._put(begin, self.source.whole(begin, end).split("\n"), place)
