@@ -78,7 +78,7 @@ class BlockTheatre(NodeRunner):
         self._played += 1
         self._program = f"program_{self._played}"
         self._names = {self._program, project.name}
-        file = self._folder / f"{self._program}.py"
+        file = self._folder / f"{project.name}.py"  # beside it is what the program keeps
         language = LANGUAGE.of(project)
         file.write_text(generate_program(project, language).text, encoding="utf-8")
         self.prepare = prepare
