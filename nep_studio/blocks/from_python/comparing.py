@@ -84,7 +84,12 @@ def lost_lines(
     places = places or _setting(source, around)
     lines = lost | around or _lost_comments(source, made, functions)
     given = [node for node in source.tree.body if is_beginning(node)]
-    begun = {_target(node) for node in given if node.lineno in around and _may_begin(node)}
+    as_made = [node for node in made.tree.body if is_beginning(node)]
+    begun = {
+        _target(node)
+        for node in given  # all that one line makes have its number
+        if node.lineno in around and _may_begin(node) and not any(_same(node, m) for m in as_made)
+    }
     return Lost(lines, generator.kinds(), places, around, begun=begun)
 
 

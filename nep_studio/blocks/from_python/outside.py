@@ -117,6 +117,7 @@ class _Splitter:
         head, after = _end_of_head(body), 0
         for number, node in enumerate(body):
             begin = begin_of(node)
+            self._require_no_comment_inside(node)
             if isinstance(node, ast.FunctionDef) and self._is_function(node):
                 if number >= self.end_from:
                     raise _below_the_end(node)
@@ -190,6 +191,18 @@ class _Splitter:
         if isinstance(node, ast.Import) or _is_beginning(node):
             return bool(self._comments_of(number)) or not is_frame(node)
         return not is_frame(node)
+
+    def _require_no_comment_inside(self, node: ast.stmt) -> None:
+        """What the program writes in several lines has no place for comments between these."""
+        if not (is_beginning(node) or is_frame(node)):
+            return
+        for line in range(node.lineno, end_of([node])):
+            if line in self.source.comments:
+                raise CodeUnread(
+                    "A comment has no place here, between lines that the program writes by itself.",
+                    line,
+                    checklist=("Put the comment above these lines.",),
+                )
 
     def _wait_for(self, after: int, before: int) -> None:
         """Note the comments between two lines."""

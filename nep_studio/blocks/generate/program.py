@@ -5,6 +5,7 @@ from __future__ import annotations
 import ast
 import itertools
 import re
+import textwrap
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
@@ -379,7 +380,7 @@ class ProgramGenerator:
         held = {name: first for name, first in held.items() if name not in begun}
         api.update(CLASSES[one] for one in objects)
         head = [*(f"import {name}" for name in sorted(modules))]
-        head += [f"from nep_core import {', '.join(sorted(api))}", ""]
+        head += [*_import_lines(sorted(api)), ""]
         options: dict[str, ast.expr] = {}
         if self._project.ends_on_error:
             options["on_error"] = ast.Constant("end")
@@ -454,6 +455,22 @@ def give_names(
 def generate_program(project: Project, language: Language) -> Code:
     """The Python of a project; raises CodeRefused, which names the block."""
     return ProgramGenerator(project, language).generate()
+
+
+def _import_lines(names: Sequence[str]) -> list[str]:
+    """What is imported of nep_core, in as many lines as it needs to be read."""
+    line = f"from nep_core import {', '.join(names)}"
+    if len(line) <= LONGEST_LINE:
+        return [line]
+    margin = "    "
+    width = LONGEST_LINE - len(margin) - 1
+    wrapped = textwrap.wrap(", ".join(names), width, break_on_hyphens=False)
+    return [
+        "from nep_core import (",
+        *(f"{margin}{part}" for part in wrapped[:-1]),
+        f"{margin}{wrapped[-1]},",
+        ")",
+    ]
 
 
 LONGEST_LINE = 88
