@@ -12,6 +12,7 @@ import pytest
 
 from nep_studio.blocks.checks import check
 from nep_studio.blocks.generate.program import generate_program
+from nep_studio.help.texts import examples
 from tests.stories.block_theatre import BlockTheatre, block_theatre
 from tests.stories.programs_in_blocks import LANGUAGE, programs
 
@@ -408,4 +409,66 @@ def test_the_best_score_is_kept_for_the_next_run(theatre: BlockTheatre) -> None:
 
     with theatre.plays(project):
         plays_for(theatre, 1, "11", "The best is 12")
+        assert not theatre.failures()
+
+
+# The page of the help “Three ways to say it”: what is said three ways is done three ways.
+
+
+def karate_greeting(theatre: BlockTheatre) -> None:
+    for _ in range(2):
+        time.sleep(PAUSE_S)
+        theatre.person_is("gesture_karate")
+        theatre.does("play", animation="bow")
+        theatre.says("Impressive!")
+
+
+def quiz_rules(theatre: BlockTheatre) -> None:
+    theatre.touch("head_front")
+    theatre.answer("eight", "cat")
+    theatre.says("That is right.")
+
+
+def quiz_tree(theatre: BlockTheatre) -> None:
+    theatre.answer("eight")
+    theatre.says("That is right.")
+    theatre.ends()
+
+
+def quiz_states(theatre: BlockTheatre) -> None:
+    theatre.touch("head_front")
+    theatre.answer("eight")
+    theatre.says("That is right.")
+    assert "That is not right." not in theatre.said()
+
+
+def museum_guide(theatre: BlockTheatre) -> None:
+    theatre.show("face")
+    theatre.says("Welcome to the museum.", PICTURE)
+    theatre.touch("head_front")
+    theatre.says("The exit is over there.")
+
+
+PAUSE_S = 1.2
+"""So long there is no gesture: states are not entered yet, a tree would take it for the same one."""
+PICTURE = "On this side you see the oldest picture."
+GOES_ON = {"guide_rules": True, "guide_tree": True, "guide_states": False}
+"""Whether the tour goes on where it was, behind what has interrupted it."""
+WAYS: dict[str, Play] = {
+    **{f"karate_{way}": karate_greeting for way in ("rules", "tree", "states")},
+    "quiz_rules": quiz_rules,
+    "quiz_tree": quiz_tree,
+    "quiz_states": quiz_states,
+    **dict.fromkeys(GOES_ON, museum_guide),
+}
+
+
+@pytest.mark.parametrize("name", WAYS)
+def test_each_of_the_three_ways_does_what_the_page_says(theatre: BlockTheatre, name: str) -> None:
+    project = examples()[name].project(LANGUAGE, "en", name)
+
+    with theatre.plays(project):
+        WAYS[name](theatre)
+        if GOES_ON.get(name):
+            theatre.says(PICTURE)
         assert not theatre.failures()
