@@ -450,7 +450,7 @@ def museum_guide(theatre: BlockTheatre) -> None:
 
 
 PAUSE_S = 1.2
-"""So long there is no gesture: states are not entered yet, a tree would take it for the same one."""
+"""So long no gesture is made: states are not entered yet, and a tree would see the same one."""
 PICTURE = "On this side you see the oldest picture."
 GOES_ON = {"guide_rules": True, "guide_tree": True, "guide_states": False}
 """Whether the tour goes on where it was, behind what has interrupted it."""
