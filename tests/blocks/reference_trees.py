@@ -29,17 +29,18 @@ class Trees(Interpreter):
     def __init__(self, project: Project, language: Language) -> None:
         super().__init__(project, language)
         self.board: dict[str, Value] = {}
-        self._looks = 0
+        self._looked = 0
 
     def do(self, name: str) -> str:
         """Do a tree from a new beginning to its end."""
         run = _Run(self)
         around, self.board = self.board, {}
+        self._own = [self.begun(name)]
         try:
             tree = run.all(self.tree(name), ())
             while True:
-                self._looks += 1
-                if self._looks > MOST_STEPS:
+                self._looked += 1
+                if self._looked > MOST_STEPS:
                     raise GivenUp
                 try:
                     next(tree)
@@ -48,11 +49,18 @@ class Trees(Interpreter):
         finally:
             self.board = around
 
+    def begun(self, name: str) -> dict[str, Value]:
+        """The variables of one run of a tree."""
+        return self._begun(self._stack(name)[0])
+
     def tree(self, name: str) -> list[str]:
+        return self._stack(name)[1:]
+
+    def _stack(self, name: str) -> list[str]:
         for stack in self.project.pages["behaviour"]:
             block = self.project.blocks[stack.body[0]]
             if block.type == "tree.tree" and block.fields["name"] == name:
-                return stack.body[1:]
+                return stack.body
         raise Wrong("no such tree")
 
 
@@ -197,12 +205,15 @@ class _Run:
             for one in ports
             if one.type == "tree.input"
         }
-        inside = self.all(trees.tree(str(block.fields["name"])), path)
+        name = str(block.fields["name"])
+        inside, variables = self.all(trees.tree(name), path), trees.begun(name)
         while True:
             around, trees.board = trees.board, own
+            trees._own.append(variables)
             try:
                 end = _looked_at(inside)
             finally:
+                trees._own.pop()
                 trees.board = around
             if end is not None:
                 break
