@@ -403,7 +403,7 @@ _AS_KIND: dict[str, Callable[[Value], Value]] = {
     "table": table,
     "any": lambda value: value,
 }
-_SIDE_BY_SIDE_OR_BY_TURNS = ("control.together", "goal.one_of", "goal.in_turn", "tree.parallel")
+_SIDE_BY_SIDE_OR_BY_TURNS = ("control.together", "goal.one_of", "goal.in_turn", "tree.step")
 _AS_IT_IS = ("text.length", "text.is_empty")
 """Blocks that take any value for what it is, in a place for a text."""
 

@@ -35,7 +35,7 @@ class Trees(Interpreter):
         """Do a tree from a new beginning to its end."""
         run = _Run(self)
         around, self.board = self.board, {}
-        self._own = [self.begun(name)]
+        self._own = [{}]  # what steps use belongs to the whole program
         try:
             tree = run.all(self.tree(name), ())
             while True:
@@ -49,18 +49,11 @@ class Trees(Interpreter):
         finally:
             self.board = around
 
-    def begun(self, name: str) -> dict[str, Value]:
-        """The variables of one run of a tree."""
-        return self._begun(self._stack(name)[0])
-
     def tree(self, name: str) -> list[str]:
-        return self._stack(name)[1:]
-
-    def _stack(self, name: str) -> list[str]:
         for stack in self.project.pages["behaviour"]:
             block = self.project.blocks[stack.body[0]]
             if block.type == "tree.tree" and block.fields["name"] == name:
-                return stack.body
+                return stack.body[1:]
         raise Wrong("no such tree")
 
 
@@ -205,15 +198,12 @@ class _Run:
             for one in ports
             if one.type == "tree.input"
         }
-        name = str(block.fields["name"])
-        inside, variables = self.all(trees.tree(name), path), trees.begun(name)
+        inside = self.all(trees.tree(str(block.fields["name"])), path)
         while True:
             around, trees.board = trees.board, own
-            trees._own.append(variables)
             try:
                 end = _looked_at(inside)
             finally:
-                trees._own.pop()
                 trees.board = around
             if end is not None:
                 break
