@@ -87,6 +87,10 @@ class DrawingBoard(QWidget, Generic[Key]):
         """What is at a place of the drawing."""
         return next((key for key, rect in self.rects().items() if rect.contains(place)), None)
 
+    def beginning(self) -> QRectF | None:
+        """What is shown of a drawing that is too wide; None: the side where reading begins."""
+        return None
+
     def words_of(self, key: Key) -> str:
         """What an item is: a line or several."""
         raise NotImplementedError
@@ -125,12 +129,13 @@ class DrawingBoard(QWidget, Generic[Key]):
         if self._is_fitted:
             self.fit()
 
-    def select(self, key: Key | None) -> None:
-        """Choose something, and bring it into view."""
+    def select(self, key: Key | None, *, is_told: bool = True) -> None:
+        """Choose something, and bring it into view; a screen reader says what, if it is told."""
         self.selected = key
         if key is not None and key in self.rects():
             self._bring_into_view(self.rects()[key])
-            announce(self, self.words_of(key).replace("\n", ". "))
+            if is_told:
+                announce(self, self.words_of(key).replace("\n", ". "))
         self.update()
 
     def fit(self) -> None:
@@ -145,8 +150,12 @@ class DrawingBoard(QWidget, Generic[Key]):
         self.scale = max(fitting, SMALLEST_FIT)
         self._corner = bounds.center() - QPointF(self.width(), self.height()) / (2 * self.scale)
         if bounds.width() * self.scale > self.width():
-            end = bounds.right() - self.width() / self.scale
-            self._corner.setX(end if is_right_to_left() else bounds.left())
+            end, first = bounds.right() - self.width() / self.scale, self.beginning()
+            x = end if is_right_to_left() else bounds.left()
+            if first is not None:
+                middle = first.center().x() - self.width() / self.scale / 2
+                x = min(max(middle, bounds.left()), end)
+            self._corner.setX(x)
         if bounds.height() * self.scale > self.height():
             self._corner.setY(bounds.top())
         self.update()

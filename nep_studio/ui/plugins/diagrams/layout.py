@@ -14,14 +14,17 @@ Lengths are pixels at scale 1, y goes down. The same graph always has the same p
 from __future__ import annotations
 
 import itertools
+import math
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import NamedTuple
 
 SWEEPS = 12
 """How often the layers are sorted, down and up; the best order that was met is taken."""
-PULLS = 8
+PULLS = 24
 """How often the boxes are pulled to their neighbours."""
+STRAIGHTENED = 3
+"""How often each long arrow is straightened: where it goes others may have made room."""
 STRAIGHT = 6.0
 """How much more a long arrow pulls at its own places than at boxes: it shall not have bends."""
 
@@ -99,7 +102,7 @@ class _Spot:
 
     extent: Extent
     layer: int
-    box: str = ""
+    box: str | None = None
     x: float = 0.0
 
 
@@ -203,6 +206,9 @@ class _Layered:
                 self._pull(layer, gaps, near.__getitem__)
         for layer in self.layers:
             self._pull(layer, gaps, lambda spot: [*self.above[spot], *self.below[spot]])
+        for _ in range(STRAIGHTENED):
+            for chain in self.chains.values():
+                self._straighten(chain[1:-1], gaps)
         heights = [max(self.spots[s].extent.height for s in layer) for layer in self.layers]
         self._middles, y = list[float](), 0.0
         for height in heights:
@@ -225,14 +231,47 @@ class _Layered:
         for spot, x in zip(layer, in_order(wanted, steps, weights), strict=True):
             self.spots[spot].x = x
 
+    def _straighten(self, spots: Sequence[int], gaps: Gaps) -> None:
+        """Let an arrow go straight through as many layers as it has room to."""
+        run, low, high = list[int](), -math.inf, math.inf
+        for spot in spots:
+            left, right = self._room(spot, gaps)
+            if run and max(low, left) > min(high, right):
+                self._align(run, low, high)
+                run, low, high = [], -math.inf, math.inf
+            run.append(spot)
+            low, high = max(low, left), min(high, right)
+        self._align(run, low, high)
+
+    def _align(self, run: Sequence[int], low: float, high: float) -> None:
+        if run:
+            mean = sum(self.spots[spot].x for spot in run) / len(run)
+            for spot in run:
+                self.spots[spot].x = min(max(mean, low), high)
+
+    def _room(self, number: int, gaps: Gaps) -> tuple[float, float]:
+        """How far a spot can go to both sides before it meets the next one."""
+        spot = self.spots[number]
+        layer = self.layers[spot.layer]
+        index = layer.index(number)
+        low, high = -math.inf, math.inf
+        if index > 0:
+            other = self.spots[layer[index - 1]]
+            low = other.x + other.extent.right + gaps.beside + spot.extent.left
+        if index + 1 < len(layer):
+            other = self.spots[layer[index + 1]]
+            high = other.x - other.extent.left - gaps.beside - spot.extent.right
+        return min(low, spot.x), max(high, spot.x)  # where it is there is room for it
+
     def _weight(self, one: int, other: int) -> float:
-        return 1.0 if self.spots[one].box or self.spots[other].box else STRAIGHT
+        ends = (self.spots[one].box, self.spots[other].box)
+        return STRAIGHT if ends == (None, None) else 1.0
 
     # The drawing
 
     def drawing(self) -> Drawing:
         """What has become of it."""
-        boxes = {s.box: Point(s.x, self._middles[s.layer]) for s in self.spots if s.box}
+        boxes = {s.box: Point(s.x, self._middles[s.layer]) for s in self.spots if s.box is not None}
         words = {key: self._middle(number) for key, number in self._with_words.items()}
         down, up = self._doors(self.below, 1), self._doors(self.above, -1)
         ways = {}
