@@ -160,19 +160,25 @@ class _Layered:
             is_down = sweep % 2 == 0
             numbers = range(1, len(self.layers))
             for number in numbers if is_down else reversed(range(len(self.layers) - 1)):
-                self._sort_layer(number, self.above if is_down else self.below)
+                near = self.above if is_down else self.below
+                self._sort_layer(number, near, turns_ties=sweep // 2 % 2 == 1)
             count = self._crossings()
             if count < fewest:
                 best, fewest = [list(layer) for layer in self.layers], count
         self.layers = best
 
-    def _sort_layer(self, number: int, neighbours: Sequence[Sequence[int]]) -> None:
+    def _sort_layer(
+        self, number: int, neighbours: Sequence[Sequence[int]], *, turns_ties: bool
+    ) -> None:
+        """Sort by the neighbours; those that are equal stay, or change places to get unstuck."""
         place = {spot: index for layer in self.layers for index, spot in enumerate(layer)}
 
         def mean(spot: int) -> float:
             near = [place[other] for other in neighbours[spot]]
             return sum(near) / len(near) if near else float(place[spot])
 
+        if turns_ties:
+            self.layers[number].reverse()
         self.layers[number].sort(key=mean)
 
     def _crossings(self) -> int:

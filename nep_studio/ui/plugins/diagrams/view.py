@@ -58,7 +58,7 @@ class DiagramView(DrawingBoard[Key]):
         labelled(
             self,
             name="Diagram",
-            description="The arrow keys go from box to box, with Shift to arrows too. "
+            description="The arrow keys go from box to box, with Shift from arrow to arrow. "
             "Enter shows the block, Space folds a part of a tree.",
         )
         self.follow_words()
@@ -261,7 +261,7 @@ class DiagramView(DrawingBoard[Key]):
         is_shift = bool(event.modifiers() & Qt.KeyboardModifier.ShiftModifier)
         item = self.item_of(chosen)
         if key in ARROWS:
-            self._step(*ARROWS[key], with_arrows=is_shift)
+            self._step(*ARROWS[key], "arrow" if is_shift else "box")
         elif event.matches(QKeySequence.StandardKey.Copy):
             self.copy_wanted.emit()
         elif key == Qt.Key.Key_F2 and item is not None and item.shape == "state":
@@ -276,14 +276,13 @@ class DiagramView(DrawingBoard[Key]):
         else:
             super().keyPressEvent(event)
 
-    def _step(self, dx: int, dy: int, *, with_arrows: bool) -> None:
-        rects = self.shapes.rects
-        chosen = self.selected
+    def _step(self, dx: int, dy: int, kind: str) -> None:
+        """Go to the next box, or the next arrow, in a direction."""
+        rects, chosen = self.shapes.rects, self.selected
         if chosen is None or chosen not in rects:
             self.select(next(iter(self._in_order()), None))
             return
-        if not with_arrows:
-            rects = {key: rect for key, rect in rects.items() if key[0] == "box" or key == chosen}
+        rects = {key: rect for key, rect in rects.items() if key[0] == kind or key == chosen}
         if (following := next_to(rects, chosen, dx, dy)) is not None:
             self.select(following)
 
