@@ -85,7 +85,7 @@ def delete_arrow(editor: Editor, block_id: str) -> None:
     """Delete what leads to a state: a transition with its blocks, or "go to the state" alone."""
     block = editor.project.blocks.get(block_id)
     if block is None or block.type not in (*TRANSITIONS, GO):
-        raise EditRefused("This arrow is not there any more.")
+        raise EditRefused("This arrow is not there any more.", checklist=("Choose another arrow.",))
     count = 1 if block.type == GO else len(editor.project.stack_of(block_id).body)
     editor.apply(DeleteBlocks(block_id, count), "delete an arrow")
 

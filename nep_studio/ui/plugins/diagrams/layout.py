@@ -330,16 +330,16 @@ def _turned(
         while waiting:
             name, ways = waiting[-1]
             parts.setdefault(name, 0 if is_reached else 1)
-            edge = next(ways, None)
-            if edge is None:
+            way = next(ways, None)
+            if way is None:
                 waiting.pop()
                 on_way.discard(name)
                 done.add(name)
-            elif edge.end in on_way or (parts.get(edge.end) == 0 and not is_reached):
-                turned.add(edge.key)  # also one from what cannot be reached: that is below
-            elif edge.end not in done:
-                on_way.add(edge.end)
-                waiting.append((edge.end, iter(leaving[edge.end])))
+            elif way.end in on_way or (parts.get(way.end) == 0 and not is_reached):
+                turned.add(way.key)  # also one from what cannot be reached: that is below
+            elif way.end not in done:
+                on_way.add(way.end)
+                waiting.append((way.end, iter(leaving[way.end])))
     return frozenset(turned)
 
 

@@ -344,7 +344,7 @@ class DiagramPage(QWidget):
             with whole_file(path) as file:
                 file.write(data)
         except OSError as error:
-            tell_not_saved(self._services.messages, path, tr(reason_of(error)))
+            tell_not_saved(self._services.messages, str(path), reason_of(error))
             return
         self._services.messages.confirm(tr("Saved “{name}”.", name=path.name))
 

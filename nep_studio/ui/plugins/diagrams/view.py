@@ -15,11 +15,12 @@ from PySide6.QtGui import (
     QPainterPathStroker,
 )
 
+from nep_studio.blocks.states import ANY
 from nep_studio.ui.labels import labelled
 from nep_studio.ui.widgets.drawing_board import ARROWS, DrawingBoard, next_to
 from nep_studio.ui.words import count_words, is_right_to_left, tr
 
-from .model import ANY, Diagram, Item, Key
+from .model import Diagram, Item, Key
 from .painting import DiagramPainter, Marks
 from .shapes import Measures, Shapes, shapes_of
 
