@@ -40,6 +40,7 @@ if TYPE_CHECKING:
         until_state,
         was_seen,
     )
+    from .program.kept import Kept
     from .program.messages import tell, told_value
     from .program.plans import reach, the_plan
     from .program.robot import Robot, as_robot, colour_from, mix_colours
@@ -135,6 +136,7 @@ if TYPE_CHECKING:
         to_nearest,
         to_power,
     )
+    from .program.variables import Variables
     from .wire.pubsub import Publisher, Subscriber
 
 _HOMES = {
@@ -152,6 +154,7 @@ _HOMES = {
         "program.goals": "fail_goal goal_value",
         "program.human": "heard_word human_state is_remembered remember times_seen until_state "
         "was_seen",
+        "program.kept": "Kept",
         "program.messages": "tell told_value",
         "program.plans": "reach the_plan",
         "program.robot": "Robot as_robot colour_from mix_colours",
@@ -168,19 +171,20 @@ _HOMES = {
         "list_with mean_of median_of number_in parts_of place_in_text place_of "
         "random_whole remove_item replace_part set_item smallest_of sorted_items "
         "sum_of take_item title_case to_nearest to_power",
+        "program.variables": "Variables",
         "wire.pubsub": "Publisher Subscriber",
     }.items()
     for name in names.split()
 }
 
 __all__ = ["Behavior", "Broker", "BrokerNetwork", "Check", "CoolDown", "Delay", "DirectNetwork"]
-__all__ += ["Fallback", "ForceFailure", "ForceSuccess", "Input", "Invert", "Launcher", "Master"]
-__all__ += ["NepError", "Node", "Output", "Parallel", "PeerNetwork", "Publisher", "Repeat"]
-__all__ += ["Retry", "Robot", "Sequence", "Step", "SubTree", "Subscriber", "TimeLimit"]
-__all__ += ["WhileTrue", "add_item", "append_text", "as_list", "as_number", "as_robot"]
-__all__ += ["as_table", "as_text", "at_once", "change_at", "colour_from", "count_from"]
-__all__ += ["date_today", "deviation_of", "do_tree", "emotion_state", "end_actions", "fact"]
-__all__ += ["fail_goal", "fail_step", "goal_value", "has_item", "has_key", "has_part"]
+__all__ += ["Fallback", "ForceFailure", "ForceSuccess", "Input", "Invert", "Kept", "Launcher"]
+__all__ += ["Master", "NepError", "Node", "Output", "Parallel", "PeerNetwork", "Publisher"]
+__all__ += ["Repeat", "Retry", "Robot", "Sequence", "Step", "SubTree", "Subscriber", "TimeLimit"]
+__all__ += ["Variables", "WhileTrue", "add_item", "append_text", "as_list", "as_number"]
+__all__ += ["as_robot", "as_table", "as_text", "at_once", "change_at", "colour_from"]
+__all__ += ["count_from", "date_today", "deviation_of", "do_tree", "emotion_state", "end_actions"]
+__all__ += ["fact", "fail_goal", "fail_step", "goal_value", "has_item", "has_key", "has_part"]
 __all__ += ["heard_word", "human_state", "in_turn", "insert_item", "is_at_least", "is_at_most"]
 __all__ += ["is_less", "is_more", "is_remembered", "is_same", "is_true", "item_of"]
 __all__ += ["items_between", "join_items", "largest_of", "length_of", "letter_of", "list_with"]

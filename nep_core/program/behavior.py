@@ -35,6 +35,7 @@ from nep_core.wire.states import state_of_thing, state_of_word, word_of_state
 
 from .goals import Goal, GoalEvent, Goals, Interrupted
 from .human import human_listener
+from .kept import keep_now, take_troubles
 from .machines import Machines, Transition
 from .messages import Run, heard_by, own_run
 from .plans import tell_by
@@ -416,7 +417,8 @@ class Behavior:
             for part in self._parts:
                 part.join(1.0)
             PROGRAM.end_undone()
-            self._tell_drops()
+            keep_now()
+            self._tell_troubles()
             self._states.close()
             words.close()
         if self._first_error is not None and not PROGRAM.cancelled.is_set():
@@ -451,7 +453,7 @@ class Behavior:
             if self._ends_on_error and self._first_error is not None:
                 return
             if time.monotonic() - self._told_drops_s >= TELL_AGAIN_S:
-                self._tell_drops()
+                self._tell_troubles()
 
     def _play(self, action: Action, rule: str) -> None:
         """Do something; an error in it is told, and ends nothing else than the program says."""
@@ -475,6 +477,12 @@ class Behavior:
 
     def _entered(self, machine: str, state: str) -> None:
         self._tell("state_entered", state, machine=machine)
+
+    def _tell_troubles(self) -> None:
+        """Tell what a person should look at: what was left out, what could not be kept."""
+        self._tell_drops()
+        for fault in take_troubles():
+            self._tell("warning", "", 0, fault)
 
     def _tell_drops(self) -> None:
         """Tell of the starts that did not fit into a queue since that was last told."""

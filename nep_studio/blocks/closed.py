@@ -12,6 +12,7 @@ REASONS = {
     "page": Text("robots and nodes are there before the program begins"),
     "code": Text("Python is written here, not worked out"),
     "variable": Text("it says which variable is meant, not what that holds"),
+    "rule": Text("it says which rule is meant"),
     "note": Text("it is a note for people"),
     "trigger": Text("what a rule waits for is fixed when the program begins"),
     "form": Text("it decides what the block does"),
@@ -49,8 +50,8 @@ class Closing:
             return "page"
         if kind.name in PYTHON_KINDS and (self.holds_python or self.is_silent):
             return "code" if self.holds_python else "note"
-        if kind.name == "variable":
-            return "variable"
+        if kind.name in ("variable", "rule"):
+            return kind.name
         if kind.is_number or kind.name in _ALWAYS_WORKED_OUT or not kind.typed:
             return ""
         if (self.generator, slot.name) in _WORKED_OUT:

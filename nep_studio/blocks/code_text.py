@@ -11,8 +11,10 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 from types import CodeType
+from typing import TypeVar
 
 from faults import Text, Words, text_of
+from nep_studio.blocks.shared_objects import SHARED_OBJECTS
 
 from .definitions import PYTHON_KINDS, Definition
 from .errors import BlocksError
@@ -165,12 +167,35 @@ def parse_lines(text: str) -> ast.Module:
 def _parse(text: str, mode: str) -> ast.Module | ast.Expression:
     try:
         with warnings.catch_warnings(action="ignore"):
-            return ast.parse(text, mode=mode)  # type: ignore[return-value]
+            tree: ast.Module | ast.Expression = ast.parse(text, mode=mode)  # type: ignore[assignment]
+            return as_names(tree)
     except SyntaxError as error:
         line = error.lineno or 1
         raise CodeTextRefused(_syntax_sentence(error), line) from error
     except (ValueError, RecursionError, MemoryError, OverflowError) as error:
         raise CodeTextRefused("Python cannot read this.") from error
+
+
+_Tree = TypeVar("_Tree", bound=ast.AST)
+
+
+def as_names(tree: _Tree) -> _Tree:
+    """The same tree, in which a variable of the whole program is a name: ``program.score``."""
+    for node in ast.walk(tree):
+        for key, value in ast.iter_fields(node):
+            if isinstance(value, ast.Attribute):
+                setattr(node, key, _as_name(value))
+            elif isinstance(value, list) and any(isinstance(v, ast.Attribute) for v in value):
+                made = [_as_name(v) if isinstance(v, ast.Attribute) else v for v in value]
+                setattr(node, key, made)
+    return tree
+
+
+def _as_name(node: ast.Attribute) -> ast.expr:
+    match node.value:
+        case ast.Name(id=owner) if owner in SHARED_OBJECTS:
+            return ast.copy_location(ast.Name(f"{owner}.{node.attr}", node.ctx), node)
+    return node
 
 
 def _visible_lines(text: str) -> list[str]:

@@ -22,7 +22,7 @@ from .edits.content import (
     SetField,
 )
 from .edits.placing import CreateBlocks, DeleteBlocks, MoveBlocks
-from .edits.project import AddVariable, MoveStack, RemovePage, RenameVariable
+from .edits.project import AddVariable, MoveStack, RemovePage, RenameVariable, SetScope
 from .errors import EditRefused
 from .generate.renaming import NO_ROBOTS, names_followed
 from .language import Language
@@ -290,7 +290,7 @@ class Editor:
         reason = why_not(edit, self.project, self.language)
         if reason is not None:
             raise EditRefused(reason)
-        if isinstance(edit, RenameVariable | ChangeProcedure):
+        if isinstance(edit, RenameVariable | SetScope | ChangeProcedure):
             with self.transaction(label or edit.label), self.renaming():
                 self.history.apply(edit)
             return
@@ -317,10 +317,10 @@ class Editor:
         self.apply(CreateBlocks((block.id,), (block,), place))
         return block.id
 
-    def add_variable(self, name: str) -> str:
+    def add_variable(self, name: str, scope: str = "") -> str:
         """Make a variable; gives its id."""
         variable_id = self.project.new_id("v")
-        self.apply(AddVariable(variable_id, name, len(self.project.variables)))
+        self.apply(AddVariable(variable_id, name, len(self.project.variables), scope))
         return variable_id
 
     def new_stack(self, page: str, x: float, y: float) -> NewStack:
@@ -393,11 +393,23 @@ class Editor:
         if choices != self._offered:
             self._offered = dict(choices)
             changes.whole = True
-        for block in self.project.blocks.values() if changes.stacks else ():
+        if not self._may_begin_otherwise(changes):
+            return
+        for block in self.project.blocks.values():
             rule = block.fields.get(RULE_SLOT)
             if rule and self._is_renamed(str(rule), changes):
                 changes.stacks.add(self.project.stack_of(block.id).id)
                 changes.owners.add(block.id)
+
+    def _may_begin_otherwise(self, changes: Changes) -> bool:
+        """Whether a stack has come or gone, or another first block; most edits are inside."""
+        project = self.project
+        if any(stack not in project.stacks for stack in changes.stacks):
+            return True
+        firsts = (project.stacks[stack].body[0] for stack in changes.stacks)
+        return any(owner not in project.blocks for owner in changes.owners) or any(
+            first in changes.owners for first in firsts
+        )
 
     def _is_renamed(self, hat: str, changes: Changes) -> bool:
         """Whether what a rule begins with may say something else."""

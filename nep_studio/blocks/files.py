@@ -29,6 +29,7 @@ from .edit_rules import (
 from .edits.content import see_ids
 from .errors import ProjectFileError
 from .file_text import OLD_COPY, Flaw, decode, in_words, is_deeper, place_in
+from .generate.scopes import share_as_before
 from .language import Language
 from .own_animations import PREFIX, why_not_animation
 from .own_gestures import why_not_kept
@@ -42,7 +43,11 @@ from .slots import why_not_name, why_not_text
 # two versions of a program compare well.
 
 FORMAT = "nep-studio-project"
-VERSION = 2
+VERSION = 3
+
+
+_ALL_SHARED = 2
+"""The version in which stacks always shared the variables that several of them used."""
 
 
 def to_bytes(project: Project) -> bytes:
@@ -132,7 +137,7 @@ class _File(msgspec.Struct):
     """The file; what one that was written by hand leaves out is empty."""
 
     format: str
-    version: Literal[2]  # VERSION
+    version: Literal[2, 3]  # VERSION
     name: str
     pages: dict[str, list[Stack]]
     blocks: list[dict[str, Any]]
@@ -204,6 +209,8 @@ def _project(decoded: dict[str, Any], language: Language) -> Project:
     for stack in project.stacks.values():
         if (fault := why_not_stack(stack.body, project.blocks, language)) is not None:
             raise Flaw(fault[1], fault[0])
+    if file.version == _ALL_SHARED:
+        share_as_before(project, language)
     return project
 
 

@@ -56,7 +56,7 @@ class Language:
     choices: Tables = field(repr=False)
     profiles: tuple[RobotProfile, ...]
     words: Mapping[str, str] = field(default_factory=dict, repr=False)
-    code: str = ""
+    code: str = "en"
     robots: Mapping[str, RobotChoices] = field(default_factory=dict, repr=False)
     _base: Language | None = field(default=None, repr=False, compare=False)
     _own: WeakKeyDictionary[Project, _Own] = field(
@@ -283,7 +283,7 @@ def translated(language: Language, table: Table, code: str = "") -> Language:
         {name: _choices(name, known, table) for name, known in language.choices.items()},
         tuple(_profile(profile, table) for profile in language.profiles),
         words=_texts(table, "words"),
-        code=code,
+        code=code or language.code,
     )
 
 

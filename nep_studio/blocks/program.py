@@ -85,11 +85,20 @@ class Stack(msgspec.Struct):
     body: list[str]
 
 
-class Variable(msgspec.Struct):
-    """A value with a name that the whole program shares; blocks name it by its id."""
+SCOPE_PROGRAM, SCOPE_KEPT = "program", "kept"
+"""Scopes of variables that belong to the whole program, and to all its runs."""
+
+
+class Variable(msgspec.Struct, omit_defaults=True):
+    """A value with a name; blocks name it by its id.
+
+    ``scope`` says where it is known: usually (an empty text, or one that this version does not
+    know) by itself wherever it is always set first, else in the whole program.
+    """
 
     id: str
     name: str
+    scope: str = ""
 
 
 class Parameter(msgspec.Struct, frozen=True):

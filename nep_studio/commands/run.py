@@ -20,6 +20,7 @@ import msgspec
 from nep_core.cli.console import seconds, visible
 from nep_core.errors import NepError
 from nep_core.processes.node import STOP_SIGNALS
+from nep_core.program.kept import SUFFIX
 from nep_core.wire.messages import ProgramState
 from nep_studio.blocks import text
 from nep_studio.blocks.checks.diagnostic import Diagnostic
@@ -118,7 +119,8 @@ def main(arguments: list[str]) -> int:
     except (BlocksError, NepError) as error:
         explain(error)
         return UNUSABLE
-    subject = Subject(project, language, Path(options.file).resolve().parent, choices)
+    file = Path(options.file).resolve()
+    subject = Subject(project, language, file.parent, choices, file.with_suffix(SUFFIX))
     play = _Play(subject, Printer(language, as_json=options.json), options.seconds)
     if options.trust:
         play.trust()

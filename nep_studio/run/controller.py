@@ -55,14 +55,16 @@ AT_ONCE = frozenset((triggers.KEY, surroundings.KEY))
 class Subject:
     """What is to be run: a project, where its files are, and who plays its robots.
 
-    ``is_in_order``: it was checked as it is now, and nothing is wrong; ``code``: its Python, and
-    ``known``: its nodes, where these were made already.
+    ``kept`` is the file of its variables that are kept. ``is_in_order``: it was checked as it is
+    now, and nothing is wrong; ``code``: its Python, and ``known``: its nodes, where these were made
+    already.
     """
 
     project: Project
     language: Language
     folder: Path
     choices: Choices = field(default_factory=Choices)
+    kept: Path | None = None
     is_in_order: bool = False
     code: Code | None = None
     known: Sequence[PlannedNode] | None = None
@@ -78,14 +80,15 @@ class Subject:
 class Request:
     """A program that is ready to be started: its code, and the nodes that it needs.
 
-    ``is_shown``: its blocks are those on the canvas. ``is_watched``: it pauses at some of them,
-    and goes at the pace that a person wants.
+    ``kept`` is the file of its variables that are kept. ``is_shown``: its blocks are those on the
+    canvas. ``is_watched``: it pauses at some of them, and goes at the pace that a person wants.
     """
 
     code: Code
     nodes: tuple[PlannedNode, ...]
     is_shown: bool = True
     is_watched: bool = True
+    kept: Path | None = None
 
 
 # What is told of a run, one after the other, in the thread of whoever owns the controller.
@@ -221,7 +224,9 @@ class RunController:
                 self._generate(subject, is_shown=True)
             else:
                 try:
-                    self.begin(subject, Request(subject.code, tuple(subject.nodes())))
+                    self.begin(
+                        subject, Request(subject.code, tuple(subject.nodes()), kept=subject.kept)
+                    )
                 except (BlocksError, NepError) as error:
                     self._tell(Refused(error, is_shown=True))
 
@@ -255,7 +260,9 @@ class RunController:
             elif self._code is not None and self._code.run(slice_s):
                 assert self._prepared is not None
                 nodes = tuple(self._prepared.nodes())
-                request = Request(self._code.result, nodes, self._is_shown)
+                request = Request(
+                    self._code.result, nodes, self._is_shown, kept=self._prepared.kept
+                )
                 subject, self._prepared, self._code = self._prepared, None, None
                 if not self.begin(subject, request):
                     self._set_state("idle")
@@ -336,7 +343,9 @@ class RunController:
         watching = self._watching() if self._is_traced else None
         from .session import Session  # it takes a while to load
 
-        self._session = Session(request.nodes, self._network(), watching=watching)
+        self._session = Session(
+            request.nodes, self._network(), kept=request.kept, watching=watching
+        )
         self._set_state("starting")
         play = partial(self._play, self._session, request.code)
         self._thread = threading.Thread(target=play, name="nep-studio-run", daemon=True)

@@ -41,11 +41,13 @@ class Session:
         network: LocalNetwork,
         *,
         program: Path = Path(),
+        kept: Path | None = None,
         watching: Watching | None = None,
     ) -> None:
         self.network = network
         self.program = program
         """The file that it runs; it may be another until the session is entered."""
+        self._kept = kept
         self._nodes = nodes
         self._watching = watching
         self._ending: Ending | None = None
@@ -116,6 +118,8 @@ class Session:
             if not self._is_over.is_set():
                 # It listens, but does not act yet: no robot moves before every node is there
                 settings: dict[str, Value] = {"file": str(self.program), "hold": True}
+                if self._kept is not None:
+                    settings["kept"] = str(self._kept)
                 if self._watching is not None:
                     settings["trace"] = True
                 launcher, kind = self.network.launcher, "cognitive/program"

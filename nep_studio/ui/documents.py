@@ -9,6 +9,7 @@ from pathlib import Path
 
 from PySide6.QtCore import QObject, QTimer, Signal
 
+from nep_core.program.kept import SUFFIX
 from nep_studio import settings
 from nep_studio.blocks import files
 from nep_studio.blocks.editor import Editor
@@ -122,6 +123,13 @@ class Document(QObject):
         if self._journal is not None:
             self._journal.close(keep=keep)
             self._journal, self.is_kept = None, False
+
+    @property
+    def kept_file(self) -> Path | None:
+        """Where its program keeps variables: beside the project, else with what is unsaved."""
+        if self.path is not None:
+            return self.path.with_suffix(SUFFIX)
+        return self._journal.folder / f"program{SUFFIX}" if self._journal is not None else None
 
     def _brought_by(self, block: Block) -> Sequence[Concern | Brought]:
         return brought_by(block, self.project, self.editor.language, self.folder)

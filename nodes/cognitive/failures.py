@@ -18,6 +18,7 @@ from faults import Fault, Text, Words, fault_of, filled, told
 from faults.files import read_toml
 from nep_core.errors import NepError, NodeStartError
 from nep_core.program.values import spoken_language
+from nep_core.program.variables import variables_in
 from nodes.resources import resource_folder
 
 log = logging.getLogger(__name__)
@@ -83,7 +84,7 @@ def _values(node: ast.AST, frame: FrameType) -> dict[str, Words]:
     match node:
         case (
             ast.BinOp(left=left, op=sign, right=right)
-            | ast.AugAssign(target=ast.Name() as left, op=sign, value=right)
+            | ast.AugAssign(target=ast.Name() | ast.Attribute() as left, op=sign, value=right)
         ):
             return _sides(left, right, frame) | {"sign": _SIGNS.get(type(sign), "?")}
         case ast.Compare(left=left, comparators=[right]):
@@ -122,7 +123,10 @@ def _place(items: ast.expr, index: ast.expr, frame: FrameType) -> dict[str, Word
 
 def _in_words(node: ast.expr) -> str:
     """What a list is called: a variable by the words of its name, as it has them in the blocks."""
-    return node.id.replace("_", " ").strip() if isinstance(node, ast.Name) else ast.unparse(node)
+    match node:
+        case ast.Name(id=name) | ast.Attribute(value=ast.Name(), attr=name):
+            return name.replace("_", " ").strip()
+    return ast.unparse(node)
 
 
 def _value(node: ast.expr, frame: FrameType) -> object:
@@ -134,6 +138,8 @@ def _value(node: ast.expr, frame: FrameType) -> object:
             return _named(name, frame)
         case ast.Subscript(value=items, slice=index):
             return _kept(_value(items, frame), _value(index, frame))
+        case ast.Attribute(value=ast.Name(id=owner), attr=name):
+            return _of_program(owner, name, frame)
         case ast.UnaryOp(op=ast.USub(), operand=operand):
             return -_number(operand, frame)
         case ast.BinOp(left=left, op=ast.Add(), right=right):
@@ -165,6 +171,14 @@ def _named(name: str, frame: FrameType) -> object:
     for names in (frame.f_locals, frame.f_globals):
         if name in names and type(names[name]) in _PLAIN:
             return names[name]
+    raise _Unknown
+
+
+def _of_program(owner: str, name: str, frame: FrameType) -> object:
+    """What a variable of the whole program holds."""
+    held = variables_in(frame.f_globals.get(owner))
+    if name in held and type(held[name]) in _PLAIN:
+        return held[name]
     raise _Unknown
 
 
@@ -226,6 +240,12 @@ SENTENCES = (
     Explanation(
         NameError,
         r"'(?P<name>\w+)'",
+        'Something called "{name}" was used before it had a value.',
+        (GIVE_FIRST, CHECK_NAME),
+    ),
+    Explanation(
+        AttributeError,
+        r"'(?:Variables|Kept)' object has no attribute '(?P<name>\w+)'",
         'Something called "{name}" was used before it had a value.',
         (GIVE_FIRST, CHECK_NAME),
     ),

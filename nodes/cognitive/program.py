@@ -23,6 +23,7 @@ from nep_core.processes.node import STOP_SIGNALS, Node
 from nep_core.processes.node_log import BUSY_S, GOES_ON
 from nep_core.program.behavior import explain_by, translate_by
 from nep_core.program.human import human_listener
+from nep_core.program.kept import keep_in
 from nep_core.program.tasks import PROGRAM, Cancelled, RuleStopped, wait_until
 from nep_core.wire.messages import (
     PROGRAM_CONTROL,
@@ -44,11 +45,12 @@ PART_OF_MEMORY = 0.5
 """A program that would take more than that of the computer's memory gets a MemoryError."""
 
 
-def run(node: Node, *, file: str, hold: bool, trace: bool) -> None:
+def run(node: Node, *, file: str, kept: str, hold: bool, trace: bool) -> None:
     """Run the Python program ``file`` until it ends, fails or is stopped.
 
     ``node`` is this node. With ``hold`` it is ready first, and begins when the studio says start.
-    With ``trace`` it tells where it is, and can be paused.
+    ``kept`` is the file of its variables that are kept, if it is another than the usual one. With
+    ``trace`` it tells where it is, and can be paused.
     """
     if not Path(file).is_file():
         raise ProgramFailed(
@@ -61,6 +63,8 @@ def run(node: Node, *, file: str, hold: bool, trace: bool) -> None:
             checklist=("Choose a file whose name ends in .py.",),
             file=file,
         )
+    if kept:
+        keep_in(Path(kept))
     states = node.publisher(PROGRAM_STATE)
     tracer = _tracer(states, node, file) if trace else None
     begin = threading.Event()

@@ -8,12 +8,13 @@ from dataclasses import dataclass, field
 
 from nep_studio.blocks.editor import Editor
 from nep_studio.blocks.edits.content import AddGroup, SetField
+from nep_studio.blocks.edits.project import SetScope
 from nep_studio.blocks.files import to_bytes
 from nep_studio.blocks.from_python.reading import scratch_of
 from nep_studio.blocks.from_python.updating import update_from_python
 from nep_studio.blocks.language import Language
 from nep_studio.blocks.places import InBody, InInput, InStack
-from nep_studio.blocks.program import Project
+from nep_studio.blocks.program import SCOPE_PROGRAM, Project
 from nep_studio.blocks.slots import FieldValue
 
 
@@ -46,6 +47,18 @@ def build(
         for index, block in enumerate(stack[1:], start=1):
             add(editor, block, InStack(place.stack, index))
     return editor
+
+
+def held(space: dict[str, object]) -> dict[str, object]:
+    """The names in a program that was run, with its variables."""
+    shared = space.get("program")
+    return {**space, **(vars(shared) if shared is not None else {})}
+
+
+def share_variables(editor: Editor) -> None:
+    """Let all variables be the whole program's, so that they hold something at its end."""
+    for variable in editor.project.variables:
+        editor.apply(SetScope(variable.id, SCOPE_PROGRAM))
 
 
 def add(editor: Editor, block: B, place) -> str:

@@ -27,6 +27,8 @@ HATS_AND_ROBOTS = {
     *("at", "days", "every", "when_told", "wait"),
     *("goal", "when_goal", "when_heard", "when_noticed", "when_true", "when_idle", "source"),
     *("tree", "runs", "reactive", "keeps_place"),
+    *("state", "first", "machine", "transition", "told", "after", "done", "go_to", "is_in"),
+    "state_now",
     *("priority", "stop", "interrupted", "ask", "wait_for_word", "seconds", "sees", "seen_name"),
 }
 """What the generator functions of robot blocks, goals and trees name."""
@@ -66,6 +68,8 @@ def names_made(tree: ast.AST) -> set[str]:
             made.add(node.id)
         elif isinstance(node, ast.arg):
             made.add(node.arg)
+        elif isinstance(node, ast.Call) and getattr(node.func, "id", "") in ("Variables", "Kept"):
+            made |= {given.arg for given in node.keywords if given.arg}
     return made
 
 
@@ -86,7 +90,7 @@ def assert_tame(text: str, language: Language) -> ast.Module:
         - {"again", "when_started"}
     )
     assert not strange, strange
-    for name in made - {"behavior", "answer", "_"}:
+    for name in made - {"behavior", "answer", "program", "kept", "_"}:
         assert name not in RESERVED and not hasattr(builtins, name) and not keyword.iskeyword(name)
         assert unicodedata.normalize("NFKC", name) == name
     return tree

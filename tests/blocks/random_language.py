@@ -13,6 +13,7 @@ from block_building import B, add, build
 
 from nep_studio.blocks.editor import Editor
 from nep_studio.blocks.edits.content import SetExtra, SetFlag
+from nep_studio.blocks.edits.project import SetScope
 from nep_studio.blocks.language import Language
 from nep_studio.blocks.places import InStack
 from nep_studio.blocks.program import LANGUAGE, LANGUAGES, Parameter, Project
@@ -80,8 +81,12 @@ class Maker:
         self.where = Inside(variables=list(self.kinds))
         if self._chance(0.2):
             self.editor.apply(SetExtra(LANGUAGE, self.dice.choice(LANGUAGES[1:])))
+        for variable in self.kinds:
+            if self._chance(0.2):
+                self.editor.apply(SetScope(variable, self.dice.choice(["program", "kept", "new"])))
         begin = [self._begin(v) for v in self.kinds if self._chance(0.85)]
-        end = [self._say(B("variable.get", {"variable": v})) for v in self.kinds]
+        told = [v for v in self.kinds if self._chance(0.8)]
+        end = [self._say(B("variable.get", {"variable": v})) for v in told]
         rule = [B("event.started"), *begin, *self._chain(self.dice.randint(2, 6)), *end]
         build(self.editor.language, rule, editor=self.editor)
         for message in self.messages:
@@ -125,6 +130,10 @@ class Maker:
     def _define(self, procedure: Procedure) -> None:
         self.where = Inside(procedure=procedure, variables=list(self.kinds))
         chain = self._chain(self.dice.randint(1, 3))
+        if self._chance(0.3):  # it may have all of them for itself
+            begun = [v for v in self.kinds if self._chance(0.9)]
+            told = [self._say(B("variable.get", {"variable": v})) for v in begun[:2]]
+            chain = [*map(self._begin, begun), *told, *chain]
         if self._chance(0.3) and procedure.gives_value:
             chain.insert(0, self._recursion(procedure))
         if procedure.gives_value and self._chance(0.9):

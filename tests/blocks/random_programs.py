@@ -31,6 +31,7 @@ from nep_studio.blocks.edits.project import (
     RenamePage,
     RenameProject,
     RenameVariable,
+    SetScope,
 )
 from nep_studio.blocks.places import InBody, InInput, InStack, NewStack
 from nep_studio.blocks.procedures import PARAMETER_KINDS
@@ -149,7 +150,7 @@ class Dice:
     def edit(self) -> Edit:
         kinds = [CreateBlocks] * 12 + [MoveBlocks] * 6 + [SetField] * 3 + [AddGroup] * 2
         kinds += [DeleteBlocks, RemoveGroup, SetFlag, SetComment, MoveStack, RenameProject]
-        kinds += [AddVariable, RemoveVariable, RenameVariable, Whole, Whole, Own, Own]
+        kinds += [AddVariable, RemoveVariable, RenameVariable, SetScope, Whole, Whole, Own, Own]
         kind = self.draw(st.sampled_from(kinds))
         if kind is Whole:
             return self.whole_edit()
@@ -190,6 +191,8 @@ class Dice:
         variable = self.one(v.id for v in self.project.variables)
         if kind is RemoveVariable:
             return RemoveVariable(variable)
+        if kind is SetScope:
+            return SetScope(variable, self.draw(st.sampled_from(["", "program", "kept", "new"])))
         return RenameVariable(variable, self.draw(NAMES))
 
     def whole_edit(self) -> Edit:

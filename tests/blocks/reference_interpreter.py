@@ -66,6 +66,10 @@ class GivenBack(Exception):
         self.value = value
 
 
+UNSET, BEFORE, HERE, NOWHERE = range(4)
+"""A variable at a place: perhaps not set, set before this round of a loop, in it; no such place."""
+
+
 class Interpreter:
     """Runs the rule that begins at the start, and keeps what robots say."""
 
@@ -77,12 +81,11 @@ class Interpreter:
         self._turns: dict[str, int] = {}
         self.facts: list[Value] = []
         self._parameters: list[dict[str, Value]] = []
-        self._own: list[dict[str, Value]] = []
         self._told: list[tuple[str, Value]] = []
         """The rules that run because of a message, each with what came with it."""
         self.wrong: list[str] = []
         """What went wrong, where something else is done instead."""
-        self._locals = self._variables_of_calls()
+        self._locals = self._variables_of_stacks()
         self.variables: dict[str, Value] = {v.id: self._first(v.id) for v in project.variables}
 
     def run(self) -> list[str]:
@@ -93,6 +96,7 @@ class Interpreter:
             for stack in self.project.pages["behaviour"]
             if self.project.blocks[stack.body[0]].type == "event.started"
         )
+        self._own = [self._begun(start.body[0])]
         try:
             self._chain(start.body[1:])
         except Wrong:
@@ -138,41 +142,53 @@ class Interpreter:
         ]
         return {str(b.fields.get("variable")) for b in plugged if b and b.type == "variable.get"}
 
-    def _variables_of_calls(self) -> dict[str, set[str]]:
-        """The variables that belong to the calls of own blocks, by the own block."""
-        users: dict[str, set[str]] = {}
+    def _variables_of_stacks(self) -> dict[str, set[str]]:
+        """The variables that belong to the runs and calls of each stack, by its first block."""
+        users: dict[str, list[list[str]]] = {}
         for stack in self.project.pages["behaviour"]:
-            head = self.project.blocks[stack.body[0]].type
-            for block in self.project.within(stack.body, enabled=True):
-                if variable := block.fields.get("variable"):
-                    users.setdefault(str(variable), set()).add(
-                        procedure_of(head) if head.startswith("my.define.") else ""
-                    )
-        found: dict[str, set[str]] = {}
-        for variable, places in users.items():
-            if len(places) == 1 and (owner := next(iter(places))) and self._is_set(variable, owner):
-                found.setdefault(owner, set()).add(variable)
+            blocks = self.project.within(stack.body, enabled=True)
+            for variable in {str(b.fields["variable"]) for b in blocks if "variable" in b.fields}:
+                users.setdefault(variable, []).append(stack.body)
+        found: dict[str, set[str]] = {
+            stack.body[0]: set() for stack in self.project.stacks.values()
+        }
+        for variable in self.project.variables:
+            stacks = users.get(variable.id, [])
+            if variable.scope in ("program", "kept"):
+                continue
+            try:
+                uses = [self._use(variable.id, stack) for stack in stacks]
+            except Wrong:  # read before it is set, or used in parts
+                continue
+            if len(stacks) == 1 or uses == [{HERE}] * len(stacks):
+                for stack in stacks:
+                    found[stack[0]].add(variable.id)
         return found
 
-    def _is_set(self, variable: str, procedure: str) -> bool:
-        """Whether the definition of an own block always sets a variable before it reads it."""
-        header = header_of(self.project, procedure)
-        body = self.project.stack_of(header).body[1:]
-        try:
-            self._sets(body, variable, False)
-        except Wrong:
-            return False
-        return True
+    def _begun(self, first_block: str) -> dict[str, Value]:
+        """The variables of one run or call of a stack, before anything is set."""
+        return {variable: self._first(variable) for variable in self._locals[first_block]}
 
-    def _sets(self, chain: list[str], variable: str, known: bool) -> bool:
-        """Whether a variable is set after a chain; raises Wrong where it is read before that."""
+    def _use(self, variable: str, stack: list[str]) -> set[int]:
+        """How far away from where it is set a stack reads a variable: in which states."""
+        self._reads: set[int] = set()
+        self._look(self.project.blocks[stack[0]], variable, UNSET)
+        self._sets(stack[1:], variable, UNSET)
+        return self._reads
+
+    def _sets(self, chain: list[str], variable: str, state: int) -> int:
+        """What is known of a variable after a chain; raises Wrong where it is read unset."""
+        reached = True
         for block_id in chain:
             block = self.project.blocks[block_id]
             if not block.disabled:
-                known = self._sets_it(block, variable, known)
-        return known
+                after = self._sets_it(block, variable, state)
+                reached = reached and after != NOWHERE
+                state = state if after == NOWHERE else after
+        return state if reached else NOWHERE
 
-    def _sets_it(self, block: Block, variable: str, known: bool) -> bool:
+    def _look(self, block: Block, variable: str, state: int) -> None:
+        """Note how a block itself reads a variable."""
         plugged = [self.project.blocks[b] for b in block.inputs.values()]
         reads = any(
             b.fields.get("variable") == variable
@@ -180,20 +196,38 @@ class Interpreter:
             for b in self.project.within([value.id], enabled=True)
         )
         is_it = block.fields.get("variable") == variable
-        reads = reads or (is_it and block.type in ("variable.change", "text.append"))
-        if reads and not known:
-            raise Wrong("read before it is set")
+        if reads or (is_it and block.type in ("variable.change", "text.append")):
+            if state == UNSET:
+                raise Wrong("read before it is set")
+            is_again = block.type in ("control.while", "control.repeat_until", "control.wait_until")
+            self._reads.add(min(state, BEFORE) if is_again and reads else state)
+
+    def _sets_it(self, block: Block, variable: str, state: int) -> int:
+        self._look(block, variable, state)
+        is_it = block.fields.get("variable") == variable
         if block.type == "variable.set" and is_it:
-            return True
-        loops = is_it and block.type in ("control.count", "control.for_each")
-        ends = [self._sets(c, variable, known or loops) for c in block.bodies.values()]
-        if block.type == "control.if" and block.groups.get("otherwise"):
-            slots = 2 + block.groups.get("also", 0)
-            return known or (len(ends) == slots and all(ends))
-        return known
+            return HERE
+        inside = [b for chain in block.bodies.values() for b in chain]
+        within = list(self.project.within(inside, enabled=True))
+        is_inside = any(b.fields.get("variable") == variable for b in within)
+        if is_inside and block.type in ("control.together", "goal.one_of", "goal.in_turn"):
+            raise Wrong("used in parts")
+        is_if = block.type in ("control.if", "robot_speech.ask")
+        inner = state if is_if else min(state, BEFORE)
+        if is_it and block.type in ("control.count", "control.for_each"):
+            inner = HERE
+        ends = [self._sets(c, variable, inner) for c in block.bodies.values()]
+        if block.type == "control.if":
+            slots = 1 + block.groups.get("also", 0) + block.groups.get("otherwise", 0)
+            whole = block.groups.get("otherwise") and len(ends) == slots
+            return min(ends if whole else [*ends, state])
+        if self.language.definitions[block.type].shape == "cap" and not block.bodies:
+            return NOWHERE
+        is_left = any(b.type == "control.leave_loop" for b in within)
+        return NOWHERE if block.type == "control.forever" and not is_left else state
 
     def _place_of_variable(self, variable: str) -> dict[str, Value]:
-        if self._own and variable in self._own[-1]:
+        if variable in self._own[-1]:
             return self._own[-1]
         return self.variables
 
@@ -273,8 +307,7 @@ class Interpreter:
             raise GivenUp
         header = header_of(self.project, procedure.id)
         self._parameters.append(values)
-        own = self._locals.get(procedure.id, set())
-        self._own.append({variable: self._first(variable) for variable in own})
+        self._own.append(self._begun(header))
         try:
             self._chain(self.project.stack_of(header).body[1:])
         except GivenBack as given:

@@ -23,18 +23,17 @@ def get(variable):
 
 KARATE = '''\
 """Karate greeting. Made with NEP Studio."""
-from nep_core import Behavior, Robot, together
+from nep_core import Behavior, Robot, Variables, together
 
 nao = Robot("NAO")
 behavior = Behavior("Karate greeting")
-times = 0
+program = Variables(times=0)
 
 
 @behavior.when_started
 def when_started():
-    global times
     nao.do("posture_stand")
-    times = 0
+    program.times = 0
     nao.say("Show me karate", gesture="explain")
 
 
@@ -46,9 +45,8 @@ def when_gesture_karate():
         nao.play("karate")
 
     def part_2():
-        global times
-        times += 1
-        nao.say(f"Karate number {times}")
+        program.times += 1
+        nao.say(f"Karate number {program.times}")
 
     together(part_1, part_2)
 

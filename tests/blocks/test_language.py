@@ -22,6 +22,7 @@ from nep_core.program.facts import FACTS
 from nep_core.program.messages import Run, heard_by
 from nep_core.program.tasks import Part, RuleStopped, Task
 from nep_core.program.values import speak
+from nep_core.program.variables import Variables
 from nep_studio.blocks.errors import CodeRefused
 from nep_studio.blocks.generate.program import generate_program
 from nep_studio.blocks.language import Language
@@ -105,6 +106,7 @@ def stand_ins(monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
     with monkeypatch.context() as patched:
         patched.setattr(nep_core, "Robot", Listener, raising=False)
         patched.setattr(nep_core, "Behavior", Runner, raising=False)
+        patched.setattr(nep_core, "Kept", Variables, raising=False)  # writes no files
         yield
     speak("en")
 

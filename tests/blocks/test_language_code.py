@@ -17,13 +17,14 @@ def get(variable="v1"):
 
 
 def lines(language, *blocks, variables=("items", "n", "word")):
-    """The lines of a rule with these blocks."""
+    """The lines of a rule with these blocks, whoever their variables belong to."""
     editor = build(language, [B("event.started"), *blocks], variables=variables)
     text = generate_program(editor.project, language).text
     parse(text)
     assert_mapped(generate_program(editor.project, language), editor.project, language)
     body = text.partition("def when_started():\n")[2].partition("\n\n\nbehavior.run")[0]
-    return [line[4:] for line in body.splitlines() if not line.startswith("    global")]
+    found = [line[4:] for line in body.splitlines() if not line.startswith("    global")]
+    return [line.replace("program.", "") for line in found]
 
 
 def value(language, block):
@@ -173,7 +174,10 @@ def test_lists_are_changed_in_place_and_begin_empty(language):
         ),
         *("del items[-1]", 'word += "!"'),
     ]
-    assert 'items = []\nword = ""\n' in generate_program(editor.project, language).text
+    assert (
+        'program = Variables(items=[], word="")\n'
+        in generate_program(editor.project, language).text
+    )
 
 
 def test_written_code_is_printed_as_it_is_where_it_is(language):

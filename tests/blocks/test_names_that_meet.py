@@ -22,7 +22,7 @@ def test_asking_does_not_overwrite_a_variable_called_answer(language):
     text = code_of(editor)
 
     assert "    answer = nao.ask(" in text
-    assert "        answer_ += 1" in text and "global answer_" in text
+    assert "        program.answer_ += 1" in text and "Variables(answer_=0)" in text
 
 
 def test_own_blocks_may_have_parameters_of_the_same_name(language):

@@ -168,7 +168,7 @@ def test_the_words_of_an_answer_are_worked_out_once(language: Language) -> None:
 
     text = generate_program(editor.project, language).text
 
-    assert text.count("random.choice(words)") == 1
+    assert text.count("random.choice(program.words)") == 1
     assert "if answer == expected_words[0]:" in text
     project = read_program(text, language)
     assert generate_program(project, language.of(project)).text == text

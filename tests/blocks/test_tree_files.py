@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import random
+from itertools import pairwise
 
 import pytest
 
@@ -117,6 +118,16 @@ def test_what_a_file_names_becomes_own_blocks_to_be_filled(language: Language) -
     assert 'Say("Hello", 0.5)' in text
 
 
+def test_stacks_are_put_below_each_other(language: Language) -> None:
+    editor, _ = imported(language, PATROL)
+
+    stacks = sorted(editor.project.pages["behaviour"], key=lambda stack: stack.y)
+    for upper, lower in pairwise(stacks):
+        blocks = [b.type for b in editor.project.within(upper.body)]
+        rows = [one for one in blocks if not one.startswith(("tree.value", "logic.", "my.call"))]
+        assert lower.y - upper.y > 40 * len(rows)
+
+
 def test_an_import_is_one_step_that_is_taken_back(language: Language) -> None:
     editor = Editor(Project("Trees"), language)
     before = to_bytes(editor.project)
@@ -163,6 +174,19 @@ def test_files_of_version_3_are_read(language: Language) -> None:
     assert exported(imported(language, text)[0]) == text
 
 
+def test_scripts_may_have_two_signs_that_xml_forbids(language: Language) -> None:
+    editor, told = imported(
+        language,
+        """<root BTCPP_format="4"><BehaviorTree ID="T"><Sequence>
+        <ScriptCondition code="a>1 && b != 2"/><Say text="A &amp; B"/>
+        </Sequence></BehaviorTree></root>""",
+    )
+
+    assert not told
+    assert '<Condition ID="ScriptCondition" code="a&gt;1 &amp;&amp; b != 2"' in exported(editor)
+    assert 'text="A &amp; B"' in exported(editor)
+
+
 def test_what_is_not_taken_over_is_told(language: Language) -> None:
     editor, told = imported(
         language,
@@ -179,7 +203,7 @@ def test_what_is_not_taken_over_is_told(language: Language) -> None:
         "“_skipIf” of “B” is not taken over.",
         "The script “x := y + 1” is more than blocks can read.",
         "“failure_count” of “Parallel” is not taken over.",
-        "“soon” is no number that is needed here.",
+        "“msec” of “Timeout” is not taken over.",
     ]
     assert not check(editor.project, editor.language)
 

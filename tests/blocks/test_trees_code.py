@@ -168,3 +168,19 @@ def test_a_tree_too_deep_for_python_is_told(language: Language) -> None:
         part = B("tree.retry", bodies={"do": [part]})
 
     assert "too_deep" in kinds(language, tree(part))
+
+
+def test_a_class_of_a_persons_own_that_is_called_like_a_part_stays_theirs(
+    language: Language,
+) -> None:
+    own = "class Step:\n    def __init__(self, name):\n        self.name = name"
+    editor = build(
+        language,
+        [B("code.program", {"code": own})],
+        [B("event.started"), B("code.lines", {"code": 'print(Step("a").name)'})],
+    )
+
+    text = generate_program(editor.project, language).text
+    (imported,) = [line for line in text.split("\n") if line.startswith("from nep_core")]
+    assert "class Step:" in text
+    assert "Step" not in imported

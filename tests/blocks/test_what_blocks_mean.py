@@ -5,16 +5,18 @@ from __future__ import annotations
 import math
 
 import pytest
-from block_building import B, build
+from block_building import B, build, share_variables
 
 from nep_core.errors import ValueRefused
 from nep_core.program import values
 from nep_core.program.behavior import Behavior
 from nep_studio.blocks.editor import Editor
 from nep_studio.blocks.edits.content import SetExtra
+from nep_studio.blocks.edits.project import SetScope
 from nep_studio.blocks.files import from_bytes, to_bytes
 from nep_studio.blocks.generate.program import generate_program
-from nep_studio.blocks.program import LANGUAGE, Project
+from nep_studio.blocks.program import LANGUAGE, SCOPE_PROGRAM, Project
+from tests.blocks.block_building import held as held_in
 from tests.blocks.block_building import read_program
 
 NAMES = ("out", "l", "w", "n", "i")
@@ -62,6 +64,7 @@ def note(value, many=LIST):
 def run(language, *chain, variables=NAMES):
     """What the variables hold after a rule; its Python becomes blocks and the same Python again."""
     editor = build(language, [B("event.started"), *chain], variables=variables)
+    share_variables(editor)
     text = generate_program(editor.project, language).text
     assert generate_program(read_program(text, language), language).text == text
     return ran(text)
@@ -72,7 +75,7 @@ def ran(text):
     held = {}
     exec(compile(text.replace("\nbehavior.run()\n", "\n"), "program.py", "exec"), held)
     held["when_started"]()
-    return held
+    return held_in(held)
 
 
 def told(language, value, *before):
@@ -332,7 +335,7 @@ def test_a_variable_begins_as_what_it_is_set_to_looks(language, given_to, first)
     read = [put(OUT, get(WORD)), put(WORD, given_to)]
     editor = build(language, [B("event.started"), *read], variables=NAMES)
 
-    assert f"\nw = {first}\n" in generate_program(editor.project, language).text
+    assert f"\nprogram = Variables(w={first}" in generate_program(editor.project, language).text
 
 
 # Where the kinds are known, the Python stays plain.
@@ -343,7 +346,7 @@ def body(language, *chain):
     editor = build(language, [B("event.started"), *chain], variables=NAMES)
     text = generate_program(editor.project, language).text
     lines = text.partition("def when_started():\n")[2].partition("\n\n\nbehavior.run")[0]
-    return [line[4:] for line in lines.splitlines() if not line.startswith("    global")]
+    return [line[4:] for line in lines.splitlines()]
 
 
 def test_what_is_known_stays_plain_python(language):
@@ -407,6 +410,7 @@ def leaves(language, *, more=()):
     define = [B(f"my.define.{own}"), *chain, with_slots("my.return", None, value=get(kept))]
     call = put(out, B(f"my.call.{own}", {depth.id: 4}))
     build(language, define, [B("event.started"), call], editor=editor)
+    editor.apply(SetScope(out, SCOPE_PROGRAM))
     return editor.project
 
 
@@ -414,8 +418,8 @@ def test_a_variable_of_one_own_block_belongs_to_each_of_its_calls(language):
     text = generate_program(leaves(language), language).text
     held = ran(text)
 
-    assert held["out"] == 16 and "global out" in text and "global total" not in text
-    assert "total" not in held
+    assert held["out"] == 16 and "program.out = leaves_of(4)" in text
+    assert "total" not in held and "    total = leaves_of(depth - 1)" in text
     assert generate_program(read_program(text, language), language).text == text
 
 
@@ -423,7 +427,7 @@ def test_a_variable_that_is_read_first_belongs_to_the_whole_program(language):
     read_first = B("variable.change", {"variable": "v1"})
     text = generate_program(leaves(language, more=[read_first]), language).text
 
-    assert "    global total\n" in text and "\ntotal = 0\n" in text
+    assert "program.total += 1" in text and "program = Variables(total=0, out=0)" in text
 
 
 def test_an_own_block_gives_0_where_it_gives_nothing_back(language):
@@ -434,6 +438,7 @@ def test_an_own_block_gives_0_where_it_gives_nothing_back(language):
     maybe.bodies = {"do": [with_slots("my.return", None, value="yes")]}
     call = put(out, B(f"my.call.{own}"))
     build(language, [B(f"my.define.{own}"), maybe], [B("event.started"), call], editor=editor)
+    share_variables(editor)
     text = generate_program(editor.project, language).text
 
     assert ran(text)["out"] == 0
@@ -453,6 +458,7 @@ def with_python(language, code, *more, kind="number"):
     twice = with_slots("math.arithmetic", {"operation": "multiply"}, a=call, b=2)
     define = [B(f"my.define.{own}"), B("code.lines", {"code": code}), *last]
     build(language, define, [B("event.started"), put(out, twice)], editor=editor)
+    share_variables(editor)
     text = generate_program(editor.project, language).text
     assert generate_program(read_program(text, language), language).text == text
     return ran(text)["out"]
@@ -576,6 +582,7 @@ def test_what_is_no_number_is_refused_before_the_next_slot_is_worked_out(languag
     item = with_slots("list.get", None, number=get(items), list=B(f"my.call.{own}"))
     start = [B("event.started"), put(items, listed("a")), put(done, item)]
     build(language, [B(f"my.define.{own}"), *body], start, editor=editor)
+    share_variables(editor)
     text = generate_program(editor.project, language).text
     held = {}
     exec(compile(text.replace("\nbehavior.run()\n", "\n"), "program.py", "exec"), held)
@@ -583,7 +590,7 @@ def test_what_is_no_number_is_refused_before_the_next_slot_is_worked_out(languag
     with pytest.raises(ValueRefused):
         held["when_started"]()
 
-    assert held["done"] == 0
+    assert held_in(held)["done"] == 0
     assert generate_program(read_program(text, language), language).text == text
 
 

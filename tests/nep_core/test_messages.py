@@ -397,7 +397,7 @@ def test_what_went_wrong_is_told_where_it_is_handled_and_in_its_parts(play: Play
 def test_what_was_begun_is_ended_where_something_else_is_done(play: Play) -> None:
     @begin(play)
     def start() -> None:
-        tasks.current_task().undo["walk",] = lambda: play.write("stops walking")
+        tasks.current_task().undo["walk",] = tasks.Begun(lambda: play.write("stops walking"))
         try:
             raise ValueError("no way")
         except Exception:

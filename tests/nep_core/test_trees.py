@@ -149,6 +149,24 @@ def test_a_time_limit_halts_and_a_pause_does_not_count(scene: Scene) -> None:
     assert time.monotonic() - begun_s >= 0.65
 
 
+def test_a_paused_program_looks_at_no_tree(scene: Scene, monkeypatch: pytest.MonkeyPatch) -> None:
+    may_go_on, is_held = threading.Event(), threading.Event()
+
+    def hold() -> None:
+        is_held.set()
+        may_go_on.wait(WAIT_S)
+
+    monkeypatch.setattr(CLOCK, "hold", hold)
+    scene.tree("held", lambda: scene.step("go"))
+    part = Part(lambda: do_tree("held"), "rule", tasks.PROGRAM).start()
+
+    assert is_held.wait(WAIT_S)
+    assert not scene.written
+    may_go_on.set()
+    part.join(WAIT_S)
+    assert scene.written == ["go"]
+
+
 def test_retry_and_repeat_count(scene: Scene) -> None:
     def plan() -> None:
         with Sequence():

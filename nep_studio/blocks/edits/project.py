@@ -49,6 +49,7 @@ class AddVariable(Edit, frozen=True):
     variable: str
     name: str
     position: int
+    scope: str = ""
 
     def apply(self, project: Project) -> RemoveVariable:
         """Make the variable."""
@@ -56,7 +57,7 @@ class AddVariable(Edit, frozen=True):
             raise EditRefused("A variable with this id is already there.")
         if not 0 <= self.position <= len(project.variables):
             raise EditRefused("There is no such position in the list of variables.")
-        project.variables.insert(self.position, Variable(self.variable, self.name))
+        project.variables.insert(self.position, Variable(self.variable, self.name, self.scope))
         project.id_seen(self.variable)
         project.changes.whole = True
         return RemoveVariable(self.variable)
@@ -74,7 +75,7 @@ class RemoveVariable(Edit, frozen=True):
         position = project.variables.index(variable)
         del project.variables[position]
         project.changes.whole = True
-        return AddVariable(variable.id, variable.name, position)
+        return AddVariable(variable.id, variable.name, position, variable.scope)
 
 
 class RenameVariable(Edit, frozen=True):
@@ -90,6 +91,21 @@ class RenameVariable(Edit, frozen=True):
         old, variable.name = variable.name, self.name
         project.changes.whole = True
         return RenameVariable(self.variable, old)
+
+
+class SetScope(Edit, frozen=True):
+    """Say where a variable is known: see Variable."""
+
+    label: ClassVar[str] = "change where a variable is known"
+    variable: str
+    scope: str
+
+    def apply(self, project: Project) -> SetScope:
+        """Set the scope."""
+        variable = _require_variable(project, self.variable)
+        old, variable.scope = variable.scope, self.scope
+        project.changes.whole = True
+        return SetScope(self.variable, old)
 
 
 def _require_variable(project: Project, variable_id: str) -> Variable:

@@ -6,7 +6,7 @@ import ast
 import symtable
 import warnings
 from collections import Counter
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence, Set
 from dataclasses import dataclass, field
 
 from nep_studio.blocks.code_text import CodeTextRefused, compile_quietly
@@ -15,12 +15,15 @@ from nep_studio.blocks.errors import CodeRefused
 from nep_studio.blocks.generate.names import API
 from nep_studio.blocks.generate.program import ProgramGenerator, generate_program
 from nep_studio.blocks.generate.source_map import Code
+from nep_studio.blocks.shared_objects import SHARED_OBJECTS
 
+from ..program import SCOPE_PROGRAM
 from .joined import as_joined, told_in_braces
 from .learning import CodeUnread
 from .naming import functions_of, locals_of, names_made, stopped_in
 from .outside import HEADERS, Part, is_frame
 from .reading import as_block
+from .scoping import is_beginning, with_shared_names
 from .source import Source, begin_of, end_of, read_source
 
 
@@ -30,13 +33,16 @@ class Lost:
 
     ``kinds`` are those of the values of the program, by name; ``places`` the lines of the innermost
     statements that other blocks might say as they are; ``around`` those that are in no function,
-    which may depend on what is in these.
+    which may depend on what is in these. ``apart`` are names that functions have for themselves,
+    and that would be the whole program's, ``begun`` variables of it that begin otherwise.
     """
 
     lines: set[int]
     kinds: dict[str, int]
     places: set[int] = field(default_factory=set)
     around: set[int] = field(default_factory=set)
+    apart: set[str] = field(default_factory=set)
+    begun: set[str] = field(default_factory=set)
 
 
 def lost_lines(
@@ -44,10 +50,12 @@ def lost_lines(
     source: Source,
     parts: Sequence[Part],
     functions: Mapping[str, ast.FunctionDef],
+    apart: Set[str] = frozenset(),
 ) -> Lost:
     """What of a text would be lost or changed.
 
-    ``functions`` are those of the text by the stacks that are to make them. Raises CodeUnread for
+    ``functions`` are those of the text by the stacks that are to make them; the names ``apart`` are
+    known to be no variables. Raises CodeUnread for
     what cannot be kept as Python either.
     """
     generator = ProgramGenerator(editor.project, editor.language)
@@ -63,13 +71,46 @@ def lost_lines(
     except CodeTextRefused as refused:
         checklist = ("Undo the last change of the code.",)
         raise CodeUnread(refused.sentence, 1, checklist=checklist) from refused
-    made = read_source(code.text)
+    made = _made_source(code)
     _require_own_names(source, parts)
+    if names := _names_shared(editor, code, made, functions) - apart:
+        return Lost(set(), generator.kinds(), apart=names)
+    again = _functions_made(editor, code, made)
+    both = [(there, again[stack]) for stack, there in functions.items() if stack in again]
+    if lines := {there.lineno for there, other in both if not _require_same_scope(there, other)}:
+        return Lost(lines, generator.kinds())
     lost, places = _lost_functions(editor, source, code, made, functions)
     around = _lost_around(source, made)
     places = places or _setting(source, around)
     lines = lost | around or _lost_comments(source, made, functions)
-    return Lost(lines, generator.kinds(), places, around)
+    given = [node for node in source.tree.body if is_beginning(node)]
+    as_made = [node for node in made.tree.body if is_beginning(node)]
+    begun = {
+        _target(node)
+        for node in given  # all that one line makes have its number
+        if node.lineno in around and _may_begin(node) and not any(_same(node, m) for m in as_made)
+    }
+    return Lost(lines, generator.kinds(), places, around, begun=begun)
+
+
+def _made_source(code: Code) -> Source:
+    made = read_source(code.text)
+    with_shared_names(made.tree, {})
+    return made
+
+
+def _names_shared(
+    editor: Editor, code: Code, made: Source, functions: Mapping[str, ast.FunctionDef]
+) -> set[str]:
+    """The names that functions have for themselves, and that would be the whole program's."""
+    by_stack = _functions_made(editor, code, made)
+    return {
+        name
+        for stack, there in functions.items()
+        if stack in by_stack
+        for name in locals_of(there)
+        if _is_shared(by_stack[stack], name)
+    }
 
 
 def lost_of_functions(editor: Editor, functions: Mapping[str, ast.FunctionDef]) -> set[int]:
@@ -78,7 +119,7 @@ def lost_of_functions(editor: Editor, functions: Mapping[str, ast.FunctionDef]) 
         return set()
     try:
         code = generate_program(editor.project, editor.language)
-        again = _functions_made(editor, code, read_source(code.text))
+        again = _functions_made(editor, code, _made_source(code))
     except CodeRefused as refused:
         is_known = refused.block in editor.project.blocks
         stack = editor.project.stack_of(refused.block).id if is_known else ""
@@ -248,9 +289,8 @@ def _require_same_scope(there: ast.FunctionDef, again: ast.FunctionDef) -> bool:
     both = list(functions_of(there)), list(functions_of(again))
     inner = len(both[0]) if len(both[0]) == len(both[1]) else 1  # else lines differ anyway
     for ours, theirs in zip(both[0][:inner], both[1][:inner], strict=True):
-        own = locals_of(theirs)
         for name, line in locals_of(ours).items():
-            if name in own or not _is_shared(theirs, name):
+            if not _is_shared(theirs, name):
                 continue
             if not there.decorator_list:
                 return False
@@ -267,7 +307,12 @@ def _require_same_scope(there: ast.FunctionDef, again: ast.FunctionDef) -> bool:
 
 
 def _is_shared(function: ast.FunctionDef | ast.AsyncFunctionDef, name: str) -> bool:
-    return any(isinstance(n, ast.Global) and name in n.names for n in ast.walk(function))
+    names = {f"{owner}.{name}" for owner in SHARED_OBJECTS}
+    return any(
+        (isinstance(node, ast.Name) and node.id in names)
+        or (isinstance(node, ast.Global) and name in node.names)
+        for node in ast.walk(function)
+    )
 
 
 def _require_no_use(source: Source, renamed: Mapping[str, int]) -> None:
@@ -288,16 +333,30 @@ def _require_no_use(source: Source, renamed: Mapping[str, int]) -> None:
 def _lost_around(source: Source, made: Source) -> set[int]:
     """The statements around the functions that the program would not write so by itself."""
     again = [_plain(node) for node in made.tree.body]
+    said = {n.id for n in ast.walk(made.tree) if isinstance(n, ast.Name)}
     used = set(_read_of_program(source))
     lost = set()
     for node in source.tree.body:
-        if not is_frame(node) or isinstance(node, ast.ImportFrom) or _plain(node) in again:
+        is_said = is_frame(node) or is_beginning(node)
+        if not is_said or isinstance(node, ast.ImportFrom) or _plain(node) in again:
             continue
         if isinstance(node, ast.Assign) and _is_header(node):
             _require_unused(node, used)
-        else:
+        elif not (is_beginning(node) and _target(node) not in said):
             lost.add(begin_of(node))
     return lost
+
+
+def _target(node: ast.stmt) -> str:
+    match node:
+        case ast.Assign(targets=[ast.Name(id=name)]):
+            return name
+    return ""
+
+
+def _may_begin(node: ast.stmt) -> bool:
+    """Whether own Python may begin a variable: what is kept begins as it was kept."""
+    return _target(node).startswith(f"{SCOPE_PROGRAM}.")
 
 
 def _require_unused(node: ast.Assign, used: set[str]) -> None:

@@ -6,13 +6,15 @@ import ast
 import functools
 import itertools
 import operator
+from collections import Counter
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 
 from nep_studio.blocks.code_text import made_by, outside_functions
 from nep_studio.blocks.edits.content import AddProcedure, SetExtra, SetField
-from nep_studio.blocks.edits.project import RenameProject
+from nep_studio.blocks.edits.project import RenameProject, SetScope
 from nep_studio.blocks.procedures import DEFINE, parameters, words
+from nep_studio.blocks.shared_objects import SHARED_OBJECTS
 
 from ..deployment import can_be_stopped, names_used, robot_entries
 from ..editor import Editor
@@ -20,6 +22,8 @@ from ..errors import CodeRefused
 from ..generate.kinds import ANY, LIST, RESULT_KINDS, TABLE, TEXT, TRUTH, Seen, kinds_of, note
 from ..generate.names import RESERVED, python_name
 from ..generate.program import generate_program
+from ..generate.renaming import names_of
+from ..generate.scopes import as_shared
 from ..operations.fixes import append_entry
 from ..program import (
     ALL_ROBOTS,
@@ -27,11 +31,14 @@ from ..program import (
     LANGUAGES,
     ON_ERROR,
     ROBOT_BLOCK,
+    SCOPE_KEPT,
+    SCOPE_PROGRAM,
     Parameter,
     Procedure,
 )
 from .learning import CodeUnread, at_line
 from .outside import HEADERS
+from .scoping import is_shared
 
 
 @dataclass(slots=True)
@@ -100,17 +107,19 @@ def names_in(
     *,
     loose: bool = False,
     hints: Hints | None = None,
+    apart: Collection[str] = (),
 ) -> SourceNames:
     """Find what the names of a text stand for in a project, and make there what lacks.
 
-    ``functions`` are those that become blocks. What an own block's function keeps to itself is a
-    variable too, that only this block uses; unless the function is named in ``as_code``: its lines
+    ``functions`` are those that become blocks. What a function keeps to itself is a variable too,
+    but for the names ``apart``, and those of a function that is named in ``as_code``: its lines
     stay Python. Lines that are in no function are a program's own when they are ``loose``: what
     they put values into becomes variables too.
     """
-    names = _known(editor)
-    for name in own_names(tree, functions) if not loose else ():
-        names.variables.pop(name, None)
+    names = _known(editor, loose=loose)
+    for name in apart:
+        if not is_shared(name):
+            names.variables.pop(name, None)
     begun = _begun_otherwise(tree, hints)
     known = _kinds_given(tree, names) if hints is None else hints.kinds
     _note_kinds(tree, {name: ANY if name in begun else kinds for name, kinds in known.items()})
@@ -125,24 +134,23 @@ def names_in(
         names.rules |= _rules_there(editor)
     names.rules |= rules_in(functions)
     of_functions = {node.name: node for node in functions if not node.decorator_list}
+    assigned: list[str] = []
     others = {n.name for n in tree.body if isinstance(n, ast.FunctionDef | ast.ClassDef)}
     for name in others - of_functions.keys():
         names.procedures.pop(name, None)
-    assigned: list[str] = []
     position = 0
     for node in of_functions.values():
         with at_line(node.lineno):
             _note_procedure(editor, names, node, tree, begun, hints, position)
         position = list(editor.project.procedures).index(names.procedures[node.name].id) + 1
-        if node.name not in as_code:
-            assigned += _kept(node, tree)
-    for name in [*assigned, *_begun(tree), *_shared(tree, loose=loose)]:
-        is_known = name in names.robots or name in names.variables or name in RESERVED
-        if not is_known and python_name(name, "") == name:
-            # A name for a new variable that no other has; its Python name is the same
-            project = editor.project
-            taken = {variable.name for variable in project.variables}
-            names.variables[name] = editor.add_variable(name if name not in taken else f"{name}_")
+    shared = {name.rpartition(".")[2] for name in _shared(tree, loose=False)}
+    kept = [name for node in functions if node.name not in as_code for name in _kept(node)]
+    taken = {*names.procedures, *others, *shared}
+    assigned += [name for name in kept if name not in taken]
+    found = dict.fromkeys([*assigned, *_begun(tree), *_shared(tree, loose=loose)])
+    _add_variables(
+        editor, names, [name for name in found if is_shared(name) or name not in apart], tree
+    )
     _require_variables(names, tree)
     return names
 
@@ -213,6 +221,38 @@ def settle_rules(
                 editor.apply(SetField(block.id, key, hats[function]))
 
 
+def _add_variables(
+    editor: Editor, names: SourceNames, wanted: Sequence[str], tree: ast.Module
+) -> None:
+    """Make the variables that lack, and let all of them be known where the text says so."""
+    said = {node.id for node in ast.walk(tree) if isinstance(node, ast.Name)}
+    called = {variable: name for name, variable in names.variables.items() if name in said}
+    for name in wanted:
+        owner, _, plain = name.rpartition(".")
+        is_known = name in names.robots or plain in RESERVED or python_name(plain, "") != plain
+        if is_known:
+            continue
+        if name not in names.variables:
+            names.variables[name] = _variable_called(editor, plain, called.keys())
+        variable = editor.project.variable(names.variables[name])
+        assert variable is not None
+        called[variable.id] = name
+        is_other = SCOPE_KEPT in (owner, variable.scope) and owner != variable.scope
+        if is_other or (variable.scope == SCOPE_PROGRAM and not owner):
+            editor.apply(SetScope(variable.id, owner))
+
+
+def _variable_called(editor: Editor, name: str, taken: Collection[str]) -> str:
+    """The variable of a name in Python that has none of those ``taken``, or a new one."""
+    project = editor.project
+    for variable in project.variables:
+        if variable_name(variable.name) == name and variable.id not in taken:
+            return variable.id
+    others = {variable.name for variable in project.variables}
+    # A name for a new variable that no other has; its Python name is the same
+    return editor.add_variable(name if name not in others else f"{name}_")
+
+
 def _begun(tree: ast.Module) -> Iterator[str]:
     """The names of plain values that no function has for itself too."""
     own = {name for function in functions_of(tree) for name in locals_of(function)}
@@ -239,25 +279,6 @@ def locals_of(function: ast.FunctionDef | ast.AsyncFunctionDef) -> dict[str, int
     return names_made(function.body)
 
 
-def own_names(tree: ast.Module, functions: Sequence[ast.FunctionDef]) -> set[str]:
-    """The names that rules have for themselves, and that nothing else in a text has.
-
-    ``functions`` are those that become blocks.
-    """
-    rules = {function.lineno for function in functions if function.decorator_list}
-    own, others = set[str](), set[str]()
-    for part in tree.body:
-        functions_inside = functions_of(part) if part.lineno in rules else ()
-        made = {name for function in functions_inside for name in locals_of(function)}
-        own |= made
-        for node in ast.walk(part):
-            if isinstance(node, ast.Global):
-                others.update(node.names)
-            elif isinstance(node, ast.Name) and node.id not in made:
-                others.add(node.id)
-    return own - others
-
-
 def names_made(body: Sequence[ast.stmt]) -> dict[str, int]:
     """The names to which statements give a meaning where they are, each with the first line."""
     nodes = [node for part in body for node in outside_functions(part)]
@@ -267,26 +288,45 @@ def names_made(body: Sequence[ast.stmt]) -> dict[str, int]:
     made: dict[str, int] = {}
     for node in sorted(nodes, key=lambda n: getattr(n, "lineno", 0)):
         for name in made_by(node):
-            if name not in shared:
+            if name not in shared and not is_shared(name):
                 made.setdefault(name, getattr(node, "lineno", body[0].lineno))
     return made
 
 
-def _kept(function: ast.FunctionDef, tree: ast.Module) -> list[str]:
-    """The names that a function gives values to, and that nothing else in a text has."""
-    elsewhere = {argument.arg for argument in function.args.args} | {"_"}
-    for other in tree.body:
-        named = ast.walk(other) if other is not function else iter(())
-        elsewhere.update(node.id for node in named if isinstance(node, ast.Name))
-        if isinstance(other, ast.FunctionDef | ast.AsyncFunctionDef | ast.ClassDef):
-            elsewhere.add(other.name)
-    made: dict[str, None] = {}
-    for node in ast.walk(function):
-        if isinstance(node, ast.Global | ast.Nonlocal):
-            elsewhere |= set(node.names)
-        elif isinstance(node, ast.Name) and isinstance(node.ctx, ast.Store):
-            made[node.id] = None
-    return [name for name in made if name not in elsewhere]
+def _kept(function: ast.FunctionDef) -> list[str]:
+    """The names that a function gives values to, and has for itself."""
+    others = {argument.arg for argument in function.args.args} | {"_"}
+    others.update(
+        n for one in ast.walk(function) if isinstance(one, ast.Nonlocal) for n in one.names
+    )
+    others.update(one.name for one in ast.walk(function) if isinstance(one, ast.FunctionDef))
+    nodes = [node for part in function.body for node in outside_functions(part)]
+    plain = [target.id for node in nodes if (target := _plain_target(node)) is not None]
+    made = Counter(name for node in nodes for name in made_by(node))
+    own = locals_of(function)
+    return [
+        name
+        for name, times in Counter(plain).items()
+        if name in own and name not in others and made[name] == times
+    ]
+
+
+def names_made_otherwise(tree: ast.Module) -> set[str]:
+    """The names that rules have for themselves, and that they make in a way that no block does."""
+    rules = [n for n in tree.body if isinstance(n, ast.FunctionDef) and n.decorator_list]
+    return {name for rule in rules for name in locals_of(rule).keys() - set(_kept(rule))}
+
+
+def _plain_target(node: ast.AST) -> ast.Name | None:
+    """The name to which a statement gives a value as blocks do."""
+    match node:
+        case (
+            ast.Assign(targets=[ast.Name() as target])
+            | ast.AugAssign(target=ast.Name() as target)
+            | ast.For(target=ast.Name() as target)
+        ):
+            return target
+    return None
 
 
 def _kinds_given(tree: ast.Module, names: SourceNames) -> dict[str, int]:
@@ -352,15 +392,19 @@ def _require_variables(names: SourceNames, tree: ast.Module) -> None:
             )
 
 
-def _known(editor: Editor) -> SourceNames:
+def _known(editor: Editor, *, loose: bool = False) -> SourceNames:
+    """The names of a project; variables are known by all of theirs where lines are ``loose``."""
     names = SourceNames()
     for entry in robot_entries(editor.project, editor.language):
         names.robots.setdefault(_safe(entry.name.lower(), "robot"), entry.name)
     for robot in names_used(editor.project, editor.language, "robot"):
         names.robots.setdefault(_safe(robot.lower(), "robot"), robot)
     names.robots.setdefault("all_robots", ALL_ROBOTS)
-    for variable in editor.project.variables:
-        names.variables.setdefault(variable_name(variable.name), variable.id)
+    names.variables = keys_of(editor)
+    for variable in editor.project.variables if loose else ():
+        plain = variable_name(variable.name)
+        for name in (plain, *(f"{owner}.{plain}" for owner in SHARED_OBJECTS)):
+            names.variables.setdefault(name, variable.id)
     defined = {editor.project.blocks[s.body[0]].type for s in editor.project.stacks.values()}
     procedures = editor.project.procedures.values()
     for procedure in sorted(procedures, key=lambda one: DEFINE + one.id not in defined):
@@ -368,9 +412,15 @@ def _known(editor: Editor) -> SourceNames:
     return names
 
 
+def keys_of(editor: Editor) -> dict[str, str]:
+    """The variables of a project by how its Python calls them, as a tree of a text does."""
+    names = names_of(editor.project, editor.language)
+    return {as_shared(name, names.locals): one for one, name in names.variables.items()}
+
+
 def names_taken(editor: Editor) -> set[str]:
     """The names that robots and variables of a project have in Python."""
-    names = _known(editor)
+    names = _known(editor, loose=True)
     return names.robots.keys() | names.variables.keys()
 
 
@@ -588,6 +638,8 @@ def _shared(tree: ast.Module, *, loose: bool) -> Iterator[str]:
     for node in ast.walk(tree):
         if isinstance(node, ast.Global):
             yield from node.names
+        elif isinstance(node, ast.Name) and is_shared(node.id):
+            yield node.id
     for line in tree.body if loose else ():
         match line:
             case ast.AugAssign(target=ast.Name(id=name)):

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 import sys
 from collections import Counter
-from collections.abc import Collection, Iterator
+from collections.abc import Collection, Iterator, Set
 from dataclasses import dataclass, field
 
 from nep_studio.blocks.code_text import CodeTextRefused, read_outside
@@ -14,6 +14,7 @@ from nep_studio.blocks.generate.names import API, MODULES
 from nep_studio.blocks.generate.program import runs
 
 from .learning import CodeUnread
+from .scoping import is_beginning
 from .source import Source, begin_of, end_of
 
 HEADERS = ("Robot", "Behavior")
@@ -62,7 +63,7 @@ def _is_head(node: ast.stmt) -> bool:
     match node:
         case ast.Assign(targets=[ast.Name()], value=ast.Call(func=ast.Name(id=made))):
             return made in HEADERS
-    return isinstance(node, ast.ImportFrom) and is_frame(node)
+    return is_beginning(node) or (isinstance(node, ast.ImportFrom) and is_frame(node))
 
 
 def is_run(node: ast.stmt) -> bool:
@@ -77,12 +78,15 @@ def is_run(node: ast.stmt) -> bool:
     return False
 
 
-def parts_of(source: Source, kept: Collection[int] = ()) -> list[Part]:
+def parts_of(
+    source: Source, kept: Collection[int] = (), begun: Set[str] = frozenset()
+) -> list[Part]:
     """The parts of a text in their order, without what the program writes by itself.
 
-    The statements that begin in the lines ``kept`` are own Python in any case. Raises CodeUnread.
+    The statements that begin in the lines ``kept`` are own Python in any case, and so is what the
+    variables ``begun`` begin with. Raises CodeUnread.
     """
-    return _Splitter(source, kept).split()
+    return _Splitter(source, kept, begun).split()
 
 
 @dataclass(slots=True)
@@ -94,6 +98,7 @@ class _Splitter:
 
     source: Source
     kept: Collection[int]
+    begun: Set[str]
     parts: list[Part] = field(default_factory=list)
     lines: list[str] = field(default_factory=list)
     first: int = 0
@@ -112,6 +117,7 @@ class _Splitter:
         head, after = _end_of_head(body), 0
         for number, node in enumerate(body):
             begin = begin_of(node)
+            self._require_no_comment_inside(node)
             if isinstance(node, ast.FunctionDef) and self._is_function(node):
                 if number >= self.end_from:
                     raise _below_the_end(node)
@@ -172,6 +178,8 @@ class _Splitter:
         """Whether a statement is kept as it is written."""
         if node is self.run:
             return False
+        if is_beginning(node):
+            return not self.begun.isdisjoint(_named(node))
         if number >= self.end_from or (begin_of(node) in self.kept and not _is_head(node)):
             return True
         if number == 0 and _is_text(node):
@@ -183,6 +191,18 @@ class _Splitter:
         if isinstance(node, ast.Import) or _is_beginning(node):
             return bool(self._comments_of(number)) or not is_frame(node)
         return not is_frame(node)
+
+    def _require_no_comment_inside(self, node: ast.stmt) -> None:
+        """What the program writes in several lines has no place for comments between these."""
+        if not (is_beginning(node) or is_frame(node)):
+            return
+        for line in range(node.lineno, end_of([node])):
+            if line in self.source.comments:
+                raise CodeUnread(
+                    "A comment has no place here, between lines that the program writes by itself.",
+                    line,
+                    checklist=("Put the comment above these lines.",),
+                )
 
     def _wait_for(self, after: int, before: int) -> None:
         """Note the comments between two lines."""
@@ -203,6 +223,9 @@ class _Splitter:
         """
         begin, end = begin_of(node), end_of([node])
         above, below = self._ends_around(number)
+        if is_beginning(node):
+            self._put(begin, [ast.unparse(node)], place)
+            return end
         if above < begin and end < below:
             end = self.source.end_inside(node)
             self._put(begin, self.source.whole(begin, end).split("\n"), place)

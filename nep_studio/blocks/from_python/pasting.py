@@ -18,6 +18,7 @@ from .learning import CodeUnread, Made
 from .naming import locals_of, names_in, names_made, names_taken, settle_rules
 from .outside import HERE, TOP, is_frame, is_made_docstring, parts_of
 from .reading import StatementReader, create_chain, create_outside, scratch_of
+from .scoping import with_shared_names
 from .source import Source, begin_of, end_of, read_source, without_margin
 from .updating import update_from_python
 
@@ -30,6 +31,7 @@ def read_snippet(text: str, language: Language, base: Project) -> Clip:
     """
     text = without_margin(text)
     source = read_source(text)
+    with_shared_names(source.tree, {})
     scratch = scratch_of(base, language)
     if _is_program(source):
         for page in scratch.project.pages:

@@ -289,10 +289,11 @@ def read_rules(
     kept: Collection[int] = (),
     known: Collection[str] = (),
     hints: Hints | None = None,
+    apart: Collection[str] = (),
 ) -> list[ReadRule]:
     """The functions of a program; robots, variables and own blocks that lack are made.
 
-    ``hints`` are what is known of it when it was read before.
+    ``hints`` are what is known of it when it was read before; the names ``apart`` are no variables.
 
     The statements, and the bodies of functions, that begin in lines that are ``kept`` become code
     blocks. A function whose text is ``known`` is not read: its chain is empty. It may hold what
@@ -302,7 +303,7 @@ def read_rules(
     functions = [(p.function, p.line, p.text) for p in parts if p.function is not None]
     as_code = {function.name for function, _, _ in functions if function.lineno in kept}
     own = [function for function, _, _ in functions]
-    names = names_in(editor, source.tree, own, as_code, hints=hints)
+    names = names_in(editor, source.tree, own, as_code, hints=hints, apart=apart)
     turns = hints.turns if hints is not None else None
     reader = StatementReader(editor.language, names, source, kept, turns)
     rules = []

@@ -11,11 +11,12 @@ import warnings
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 
-from nep_studio.blocks.code_text import lines_inside_texts, outside_functions
+from nep_studio.blocks.code_text import as_names, lines_inside_texts, outside_functions
 from nep_studio.blocks.generate.expressions import comment_line, comment_text
 
 from .learning import CodeUnread
 from .mistakes import checklist_of, too_deep
+from .scoping import with_beginnings
 
 LONGEST_PROGRAM = 2_000_000
 
@@ -152,6 +153,7 @@ def read_source(text: str, *, is_program: bool = False) -> Source:
             tree = ast.parse(text)
             if is_program:
                 _require_whole(text, tree, lines)
+            with_beginnings(as_names(tree))
         comments, alone = _comments(text)
     except SyntaxError as error:
         raise CodeUnread(

@@ -5,6 +5,7 @@ from __future__ import annotations
 import ast
 import itertools
 import logging
+import re
 import textwrap
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
@@ -25,7 +26,7 @@ from nep_studio.blocks.edits.content import (
     SetField,
 )
 from nep_studio.blocks.edits.placing import CreateBlocks, DeleteBlocks, MoveBlocks
-from nep_studio.blocks.edits.project import RemoveVariable
+from nep_studio.blocks.edits.project import RemoveVariable, SetScope
 from nep_studio.blocks.errors import BlocksError, CodeRefused, EditRefused
 from nep_studio.blocks.generate.expressions import comment_lines
 from nep_studio.blocks.generate.program import generate_program
@@ -35,17 +36,27 @@ from nep_studio.blocks.operations.fixes import rename_robot
 from nep_studio.blocks.operations.selection import chain_around
 from nep_studio.blocks.places import InBody, InInput, InStack, NewStack, Place, variable_uses
 from nep_studio.blocks.procedures import changed, parameters, procedure_of
-from nep_studio.blocks.program import Block, Parameter, Project, split_slot
+from nep_studio.blocks.program import SCOPE_PROGRAM, Block, Parameter, Project, split_slot
 
 from .comparing import lost_lines
 from .learning import CodeUnread, Made, RefusedAtLine, at_line, blocks_of
 from .mistakes import too_deep
-from .naming import Hints, Turns, own_names, settle_rules, variable_name, words_of
+from .naming import (
+    Hints,
+    Turns,
+    keys_of,
+    names_made_otherwise,
+    settle_rules,
+    variable_name,
+    words_of,
+)
 from .outside import Part, parts_of
 from .reading import ReadRule, create_chain, create_outside, read_rules
+from .scoping import is_shared, with_shared_names
 from .source import Source, read_source
 
 log = logging.getLogger(__name__)
+_WORD = re.compile(r"\w+")
 
 # Change a chain of blocks to another one, keeping the blocks whose Python is the same.
 
@@ -206,8 +217,7 @@ class ChainUpdater:
 class _Written:
     """A stack that makes a function now: its chain and its lines.
 
-    ``procedure`` is the own block that it defines, if any, ``given`` are the values of that one,
-    ``shared`` the names in its “global” line.
+    ``procedure`` is the own block that it defines, if any, ``given`` are the values of that one.
     """
 
     stack: str
@@ -215,7 +225,6 @@ class _Written:
     text: str
     procedure: str
     given: list[str]
-    shared: set[str]
 
 
 def update_from_python(editor: Editor, text: str) -> None:
@@ -226,6 +235,7 @@ def update_from_python(editor: Editor, text: str) -> None:
     What has no block stays Python, in a rule or outside of all functions.
     """
     source = read_source(text, is_program=True)
+    with_shared_names(source.tree, _free_names(editor))
     try:
         _update_until_same(editor, source)
     except (BlocksError, EditRefused):
@@ -241,6 +251,16 @@ def update_from_python(editor: Editor, text: str) -> None:
         ) from error
 
 
+def _free_names(editor: Editor) -> dict[str, str]:
+    """What a name that a text does not explain stands for in a project."""
+    keys = {variable: name for name, variable in keys_of(editor).items()}
+    return {
+        variable_name(one.name): name if is_shared(name) else f"{SCOPE_PROGRAM}.{name}"
+        for one in editor.project.variables
+        if (name := keys.get(one.id))
+    }
+
+
 MOST_READINGS = 3
 """How often a text is read, each time with more that is known of its values."""
 
@@ -251,7 +271,7 @@ def _update_until_same(editor: Editor, source: Source) -> None:
     Where something would not, all is read again first, with what is known then, and after that in
     the other ways in which the statements that differ can be read.
     """
-    kept = set[int]()
+    kept, apart = set[int](), names_made_otherwise(source.tree)
     hints: Hints | None = None
     turns = Turns()
     readings = 1
@@ -259,11 +279,14 @@ def _update_until_same(editor: Editor, source: Source) -> None:
     while True:
         try:
             with editor.transaction("change the code"):
-                parts, functions = _update(editor, source, kept, anew, hints)
-                lost = lost_lines(editor, source, parts, functions)
-                if lost.lines:
+                parts, functions = _update(editor, source, kept, anew, hints, apart)
+                lost = lost_lines(editor, source, parts, functions, apart)
+                if lost.lines or lost.apart:
                     raise _Differs(lost.lines)
         except _Differs as differs:
+            apart |= lost.apart
+            if lost.apart:
+                continue
             differed = hints.differed if hints else differs.lines
             known, hints = hints, Hints(lost.kinds, differed, turns)
             if hints != known and readings < MOST_READINGS:
@@ -271,7 +294,11 @@ def _update_until_same(editor: Editor, source: Source) -> None:
                 continue
             if turns.go_on(lost.places):
                 continue
-            more = (differs.lines - lost.around - kept) or (differs.lines - kept)
+            more = differs.lines - lost.around - kept
+            if not more and not lost.begun <= apart:
+                apart |= lost.begun
+                continue
+            more = more or (differs.lines - kept)
             if not more:
                 raise CodeUnread(
                     differs.sentence,
@@ -302,7 +329,12 @@ class _Differs(Exception):
 
 
 def _update(
-    editor: Editor, source: Source, kept: set[int], anew: bool, hints: Hints | None
+    editor: Editor,
+    source: Source,
+    kept: set[int],
+    anew: bool,
+    hints: Hints | None,
+    apart: set[str],
 ) -> tuple[list[Part], dict[str, ast.FunctionDef]]:
     """Change the stacks whose lines have changed; ``anew``, make those anew.
 
@@ -310,16 +342,16 @@ def _update(
 
     Gives the parts of the text, and the function that each stack is to make.
     """
-    parts = parts_of(source, kept)
+    parts = parts_of(source, kept, apart)
     _rename_robot(editor, source)
     code = _code(editor)
     written = _written(editor.project, code)
     if _rename_own_blocks(editor, source, parts, written):
         code = _code(editor)
         written = _written(editor.project, code)
-    own = own_names(source.tree, [part.function for part in parts if part.function])
-    known_texts = [] if anew else [w.text for w in written if not own & w.shared]
-    rules = read_rules(editor, source, parts, kept, known_texts, hints)
+    named = [w.text for w in written if not apart.isdisjoint(_WORD.findall(w.text))]
+    known_texts = [] if anew else [w.text for w in written if w.text not in named]
+    rules = read_rules(editor, source, parts, kept, known_texts, hints, apart)
     left = {stack.stack: stack for stack in written}
     before = {editor.project.stacks[one.stack].body[0]: one.function for one in written}
     same = [
@@ -345,7 +377,8 @@ def _update(
     hats = {rule.function.name: first for rule, first in zip(rules, firsts, strict=True)}
     settle_rules(editor, hats, before)
     _remove_own_blocks(editor, written)
-    _remove_variables(editor, own)
+    _remove_variables(editor, apart)
+    _set_scopes(editor, source)
     _put_in_order(editor, _update_outside(editor, parts, firsts))
     stacks = [editor.project.stack_of(first).id for first in firsts]
     return parts, dict(zip(stacks, (rule.function for rule in rules), strict=True))
@@ -435,6 +468,14 @@ def _remove_own_blocks(editor: Editor, written: Sequence[_Written]) -> None:
     for one in written:
         if one.procedure and one.procedure not in used:
             editor.apply(RemoveProcedure(one.procedure))
+
+
+def _set_scopes(editor: Editor, source: Source) -> None:
+    """Let variables be the whole program's that the text has so, but would be by themselves."""
+    said = {node.id for node in ast.walk(source.tree) if isinstance(node, ast.Name)}
+    for name, variable in keys_of(editor).items() if any(map(is_shared, said)) else ():
+        if not is_shared(name) and name not in said and f"{SCOPE_PROGRAM}.{name}" in said:
+            editor.apply(SetScope(variable, SCOPE_PROGRAM))
 
 
 def _remove_variables(editor: Editor, own: set[str]) -> None:
@@ -583,17 +624,16 @@ def _written(project: Project, code: Code) -> list[_Written]:
     found, every = [], code.text.splitlines()
     for stack, (first, last) in spans.items():
         hat, numbers = project.stacks[stack].body[0], range(first, last + 1)
-        lines, shared = list[str](), set[str]()
-        for line, number in zip(every[first - 1 : last], numbers, strict=True):
-            if line.startswith("    global ") and code.blocks[number - 1] == hat:
-                # as a text is read: without what the program writes by itself
-                shared.update(line.removeprefix("    global ").split(", "))
-            else:
-                lines.append(line)
+        lines = [
+            line
+            for line, number in zip(every[first - 1 : last], numbers, strict=True)
+            # as a text is read: without what the program writes by itself
+            if not (line.startswith("    global ") and code.blocks[number - 1] == hat)
+        ]
         header = next((line[4:] for line in lines if line.startswith("def ")), "")
         name, _, said = header.removesuffix("):").partition("(")
         given = said.split(", ") if said else []
         text = textwrap.dedent("\n".join(lines)).rstrip()
         procedure = procedure_of(project.blocks[hat].type)
-        found.append(_Written(stack, name, text, procedure, given, shared))
+        found.append(_Written(stack, name, text, procedure, given))
     return found

@@ -161,8 +161,6 @@ class Expressions:
         """What other rules may change meanwhile."""
         self.gives_nothing = False
         """Whether it should give a value, but may come to its end without one: 0 then."""
-        self.own: frozenset[str] = frozenset()
-        """The Python names of the variables that belong to the calls of this own block."""
         self.written_for: dict[str, int] = {}
         """The kinds that this was written for, by what is kept there."""
         self._kinds = kinds
@@ -675,7 +673,7 @@ class Function:
 
 @dataclass(frozen=True, slots=True)
 class Assignment:
-    """A line that assigns to a variable of the whole program."""
+    """A line that assigns to a variable."""
 
     variable: str
     line: str

@@ -10,7 +10,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from functools import partial, reduce
+from functools import reduce
 from operator import itemgetter
 from typing import Any
 
@@ -20,6 +20,7 @@ from nep_studio.blocks.procedures import parameter_of, parameters, procedure_of
 from nep_studio.blocks.program import Block, Parameter
 from nep_studio.blocks.slots import constant
 
+from .behaviour import BEHAVIOUR_STATEMENTS, BEHAVIOUR_VALUES
 from .expressions import (
     Assignment,
     Body,
@@ -509,29 +510,11 @@ def note_names(code: Expressions, read: CodeText) -> None:
         if name in named:
             code.variables.add(variable_id)  # a variable that is used is there
     code.robots.update(robot for robot, name in code.names.robots.items() if name in read.read)
-    code.api.update(API & read.read - read.made)
+    code.api.update(API & read.read - read.made - code.names.outside)
     code.modules.update(MODULES & read.read - read.made)
 
 
-def _within(code: Expressions, block: Block) -> ast.expr:
-    condition = ast.Lambda(_NO_ARGUMENTS, code.slot(block, "condition"))
-    return code.api_call("wait_until", condition, code.slot(block, "seconds"))
-
-
-def _of_machine(method: str, code: Expressions, block: Block) -> ast.expr:
-    """What is asked of the behaviour about its states, or of one state machine of several."""
-    state = [code.slot(block, "state")] if "state" in code.definition(block).slots else []
-    named = block.groups.get("machine")
-    options = {"machine": code.slot(block, "machine.1")} if named else {}
-    return method_call(ast.Name("behavior"), method, state, options)
-
-
 _NO_ARGUMENTS = ast.arguments([], [], None, [], [], None, [])
-
-
-def _of_behavior(code: Expressions, block: Block, method: str, *more: ast.expr) -> ast.expr:
-    """What the behaviour is asked of a goal by its name."""
-    return method_call(ast.Name("behavior"), method, [code.slot(block, "name"), *more])
 
 
 REPORTERS: dict[str, ValueGenerator] = {
@@ -550,7 +533,6 @@ REPORTERS: dict[str, ValueGenerator] = {
     "text_replace": _text_replace,
     "letter": _letter,
     "emotion": _emotion,
-    "goal_is_pursued": lambda code, block: _of_behavior(code, block, "pursues"),
     "list_create": lambda code, block: ast.List(code.slots(block, "item", "item")),
     "list_get": _get,
     "list_take": _take,
@@ -561,10 +543,8 @@ REPORTERS: dict[str, ValueGenerator] = {
     "list_split": _split,
     "list_joined": _joined,
     "of_list": _of_list,
-    "within": _within,
     **TABLE_VALUES,
-    "is_in_state": partial(_of_machine, "is_in"),
-    "state_now": partial(_of_machine, "state_now"),
+    **BEHAVIOUR_VALUES,
     "own_call": _own_call,
     "own_parameter": _own_parameter,
     "code_value": _code_value,
@@ -705,22 +685,6 @@ def _wait_until(code: Expressions, block: Block) -> list[Piece]:
     return [show(code.api_call("wait_until", condition, *limit))]
 
 
-def _tell(code: Expressions, block: Block) -> list[Piece]:
-    given = [code.slot(block, "message")]
-    if block.groups.get("value"):
-        given.append(code.slot(block, "value.1"))
-    options = {"wait": ast.Constant(True)} if block.groups.get("wait") else {}
-    return [show(code.api_call("tell", *given, **options))]
-
-
-def _stop_other_rule(code: Expressions, block: Block) -> list[Piece]:
-    return [show(method_call(ast.Name("behavior"), "stop", [code.slot(block, "rule")]))]
-
-
-def _go_to_state(code: Expressions, block: Block) -> list[Piece]:
-    return [show(_of_machine("go_to", code, block))]
-
-
 def _try(code: Expressions, block: Block) -> list[Piece]:
     """What was begun is ended before what is done instead, as at the end of a rule by an error."""
     end = show(code.api_call("end_actions"))
@@ -794,18 +758,6 @@ def _wait_for_word(code: Expressions, block: Block) -> list[Piece]:
     return [show(method_call(code.slot(block, "robot"), "wait_for_word", arguments, seconds))]
 
 
-def _pursue(code: Expressions, block: Block) -> list[Piece]:
-    given = [code.value_in(block, "value.1")] if block.groups.get("value") else []
-    return [show(_of_behavior(code, block, "pursue", *given))]
-
-
-def _set_priority(code: Expressions, block: Block) -> list[Piece]:
-    priority = ast.Constant(code.choice(block, "priority"))
-    displaced = code.choice(block, "displaced")
-    options = {} if displaced == "resume" else {"displaced": ast.Constant(displaced)}
-    return [show(code.api_call("set_priority", priority, **options))]
-
-
 STATEMENTS: dict[str, StatementGenerator] = {
     **TREE_PARTS,
     "repeat": _repeat,
@@ -824,9 +776,7 @@ STATEMENTS: dict[str, StatementGenerator] = {
     "one_of": _parts("one_of"),
     "in_turn": _parts("in_turn"),
     "wait_until": _wait_until,
-    "tell": _tell,
-    "go_to_state": _go_to_state,
-    "stop_other_rule": _stop_other_rule,
+    **BEHAVIOUR_STATEMENTS,
     "try": _try,
     "set_variable": _assign("=", "value"),
     "change_variable": _change,
@@ -836,9 +786,6 @@ STATEMENTS: dict[str, StatementGenerator] = {
     "list_insert": _insert,
     "list_remove": _remove,
     **TABLE_STATEMENTS,
-    "pursue": _pursue,
-    "give_up_goal": lambda code, block: [show(_of_behavior(code, block, "give_up"))],
-    "set_priority": _set_priority,
     "ask": _ask,
     "wait_for_word": _wait_for_word,
     "note": lambda code, block: [*comment_lines(code.text(block, "text"))],

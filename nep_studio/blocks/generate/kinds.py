@@ -243,7 +243,8 @@ class Facts:
     for a list (LIST) or a table (TABLE), or to which a text is appended (TEXT), ``set_to`` the
     kinds to which blocks set variables, by how these look. ``used`` are the variables that it
     uses: ``early`` those that may be read there before they are set there, ``apart`` those in
-    functions of their own.
+    functions of their own, ``watched`` those that are never read there, or in a loop that began
+    after they were set.
     ``written`` is what Python in it names; ``begun`` are the names that it does no more with than
     to give them a plain value, each with the kinds of it, and of what is in it if it is a list.
     """
@@ -255,8 +256,7 @@ class Facts:
     early: frozenset[str] = frozenset()
     apart: frozenset[str] = frozenset()
     written: frozenset[str] = frozenset()
-    is_own: bool = False
-    """Whether it defines an own block."""
+    watched: frozenset[str] = frozenset()
     is_open: bool = True
     """Whether it may come to its end without giving something back."""
     begun: frozenset[tuple[str, int, int]] = frozenset()
@@ -302,6 +302,34 @@ _LOOKED_AT = frozenset(
 """The blocks that put something somewhere, or name a variable."""
 
 
+class _Set(NamedTuple):
+    """The variables that are surely set, and those of them that are in the same round of loops."""
+
+    ever: frozenset[str]
+    here: frozenset[str]
+
+    def with_also(self, variable: str) -> _Set:
+        return _Set(self.ever | {variable}, self.here | {variable})
+
+    def in_loop(self) -> _Set:
+        return _Set(self.ever, NO_NAMES)
+
+
+_NOTHING = _Set(NO_NAMES, NO_NAMES)
+_AGAIN = frozenset({"while", "repeat_until", "wait_until"})
+"""What looks at a value again and again."""
+_ASKED_AGAIN = frozenset({"within"})
+"""The values that look at others again and again."""
+_ROUNDS = frozenset(
+    {"forever", "repeat", "until_state", "until_state_at_most", "count", "for_each"}
+)
+
+
+def _in_all(ways: Sequence[_Set]) -> _Set:
+    every = zip(*ways, strict=True)
+    return _Set(*(frozenset.intersection(*sets) for sets in every))
+
+
 class FactReader:
     """Reads the facts of one stack."""
 
@@ -314,6 +342,8 @@ class FactReader:
         self._used: set[str] = set()
         self._early: set[str] = set()
         self._apart: set[str] = set()
+        self._read: set[str] = set()
+        self._watched: set[str] = set()
         self._written: set[str] = set()
         self._begun: set[tuple[str, int, int]] = set()
         self._inside: set[tuple[str, str, bool]] = set()
@@ -334,8 +364,8 @@ class FactReader:
             if definition.generator in _LOOKED_AT:
                 self._block(block, definition)
         if hat.inputs:  # worked out before anything else is done, and each time again
-            self._reads(hat, NO_NAMES)
-        end = self._walk(chain[1:], frozenset(), 0)
+            self._reads(hat, _NOTHING)
+        end = self._walk(chain[1:], _NOTHING, 0)
         if self._procedure and end is not None:  # it ends without giving back: 0
             self._put.add((result_key(self._procedure), Given(WHOLE)))
         return Facts(
@@ -346,7 +376,7 @@ class FactReader:
             frozenset(self._early),
             frozenset(self._apart),
             frozenset(self._written),
-            bool(self._procedure),
+            frozenset(self._watched | (self._used - self._read)),
             end is not None,
             frozenset(self._begun),
             frozenset(self._inside),
@@ -523,9 +553,7 @@ class FactReader:
 
     # Which variables are always set before they are read: blocks in the order in which they run.
 
-    def _walk(
-        self, chain: Sequence[str], known: frozenset[str], depth: int
-    ) -> frozenset[str] | None:
+    def _walk(self, chain: Sequence[str], known: _Set, depth: int) -> _Set | None:
         """What is set after a chain, given what is before; None where nothing comes after it.
 
         What is never reached is looked at too: its Python says what it would do.
@@ -543,23 +571,23 @@ class FactReader:
             known = known if after is None else after
         return known if is_reached else None
 
-    def _step(
-        self, block: Block, definition: Definition, known: frozenset[str], depth: int
-    ) -> frozenset[str] | None:
-        if block.inputs:
-            self._reads(block, known)
+    def _step(self, block: Block, definition: Definition, known: _Set, depth: int) -> _Set | None:
         generator, variable = definition.generator, _variable(block)
+        is_again = generator in _AGAIN
+        if block.inputs:
+            self._reads(block, known.in_loop() if is_again else known)
         if generator == "set_variable":
-            return known | {variable}
-        if generator in ("change_variable", "append_text") and variable not in known:
-            self._early.add(variable)
+            return known.with_also(variable)
+        if generator in ("change_variable", "append_text"):
+            self._read_of({variable}, known)
         if "apart" in definition.flags:
             inside = [block_id for chain in block.bodies.values() for block_id in chain]
             self._apart.update(self._variables_in(inside))
         may_end = definition.shape == "cap" or generator in ("forever", "code_lines")
         if not block.bodies and not may_end:
             return known
-        inner = known | {variable} if generator in ("count", "for_each") else known
+        inner = known.in_loop() if is_again or generator in _ROUNDS else known
+        inner = inner.with_also(variable) if generator in ("count", "for_each") else inner
         ends = [self._walk(chain, inner, depth + 1) for chain in block.bodies.values()]
         if generator == "if":
             return self._after_if(block, ends, known)
@@ -569,14 +597,12 @@ class FactReader:
             return None if not self._is_left(block) else known
         return known
 
-    def _after_if(
-        self, block: Block, ends: list[frozenset[str] | None], known: frozenset[str]
-    ) -> frozenset[str] | None:
+    def _after_if(self, block: Block, ends: list[_Set | None], known: _Set) -> _Set | None:
         branches = 1 + block.groups.get("also", 0) + block.groups.get("otherwise", 0)
         if len(ends) < branches or not block.groups.get("otherwise"):
             ends = [*ends, known]
         reached = [end for end in ends if end is not None]
-        return frozenset.intersection(*reached) if reached else None
+        return _in_all(reached) if reached else None
 
     def _is_left(self, block: Block) -> bool:
         """Whether there is a block in a loop that leaves it (or another one inside)."""
@@ -585,10 +611,19 @@ class FactReader:
         definitions = (self._language.definitions.get(one.type) for one in found)
         return any(one is not None and one.generator == "leave_loop" for one in definitions)
 
-    def _reads(self, block: Block, known: frozenset[str]) -> None:
+    def _reads(self, block: Block, known: _Set) -> None:
         inputs = [i for i in block.inputs.values() if not self._project.blocks[i].disabled]
         if inputs:
-            self._early |= set(self._variables_in(inputs)) - known
+            self._read_of(set(self._variables_in(inputs)), known)
+            for inner in self._project.within(inputs, enabled=True):
+                definition = self._language.definitions.get(inner.type)
+                if definition is not None and definition.generator in _ASKED_AGAIN:
+                    self._read_of(set(self._variables_in([inner.id])), known.in_loop())
+
+    def _read_of(self, variables: set[str], known: _Set) -> None:
+        self._read |= variables
+        self._early |= variables - known.ever
+        self._watched |= variables - known.here
 
     def _variables_in(self, roots: Sequence[str]) -> Iterator[str]:
         blocks, waiting = self._project.blocks, list(roots)
@@ -666,14 +701,12 @@ def kinds_of_code(text: str) -> int:
 class Kinds:
     """The kinds of what a program's values are kept in, by their keys.
 
-    ``first`` is what a variable holds before it is set, as Python, by its id; ``own`` are the
-    variables that belong to the calls of one own block, by the stack of its definition. When
+    ``first`` is what a variable holds before it is set, as Python, by its id. When
     ``has_lists_twice``, a variable may hold a list that is kept elsewhere too.
     """
 
     known: dict[str, int] = field(default_factory=dict)
     first: dict[str, str] = field(default_factory=dict)
-    own: dict[str, frozenset[str]] = field(default_factory=dict)
     has_lists_twice: bool = False
 
     def of(self, key: str) -> int:
@@ -683,7 +716,7 @@ class Kinds:
 
 def together(facts: Mapping[str, Facts], project: Project, names: ProgramNames) -> Kinds:
     """The kinds in a program, from the facts of its stacks."""
-    kinds = Kinds(own=_own(facts, names))
+    kinds = Kinds()
     early = frozenset().union(*(one.early for one in facts.values()))
     put = frozenset().union(*(one.put for one in facts.values()))
     taken = frozenset().union(*(one.taken for one in facts.values()))
@@ -753,20 +786,3 @@ def _written(
             yield parameter_key(procedure, parameter.id), ANY
     if named or called:
         yield from ((inside, ANY) for inside in (ITEMS, KEYS, KEPT))
-
-
-def _own(facts: Mapping[str, Facts], names: ProgramNames) -> dict[str, frozenset[str]]:
-    """The variables that belong to the calls of an own block, by the stack of its definition."""
-    users: dict[str, list[str]] = {}
-    for stack, one in facts.items():
-        for variable in one.used:
-            users.setdefault(variable, []).append(stack)
-    written = frozenset().union(*(one.written for one in facts.values()))
-    written |= {name for one in facts.values() for name, _, _ in one.begun}
-    found: dict[str, set[str]] = {}
-    for variable, stacks in users.items():
-        one = facts[stacks[0]]
-        is_free = variable in one.early or variable in one.apart or len(stacks) > 1
-        if one.is_own and not is_free and names.variables.get(variable, "") not in written:
-            found.setdefault(stacks[0], set()).add(variable)
-    return {stack: frozenset(variables) for stack, variables in found.items()}

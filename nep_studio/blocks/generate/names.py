@@ -10,6 +10,8 @@ from collections.abc import Iterable
 from dataclasses import dataclass, field
 from functools import lru_cache
 
+from nep_studio.blocks.shared_objects import SHARED_OBJECTS
+
 VALUES = frozenset(
     {
         *(
@@ -47,8 +49,10 @@ API = VALUES | frozenset(
     {
         *TREE,
         "Behavior",
+        "Kept",
         "Launcher",
         "Robot",
+        "Variables",
         "at_once",
         "colour_from",
         "date_today",
@@ -98,6 +102,9 @@ API = VALUES | frozenset(
 )
 """What a generated program may import from nep_core under its own name."""
 
+CLASSES = {"program": "Variables", "kept": "Kept"}
+"""Of which class of nep_core the objects are that variables are attributes of."""
+
 AT_ONCE = "at_once"
 """What a line is done ``with`` that reads and sets what others set at the same time."""
 
@@ -115,6 +122,7 @@ RESERVED = frozenset(
         *("exit", "quit", "copyright", "credits", "license", "help"),
         *API,
         *("behavior", "launcher", "answer", "expected_words"),
+        *SHARED_OBJECTS,
         *MODULES,
     }
 )
@@ -168,7 +176,8 @@ class NameTable:
 class ProgramNames:
     """The Python names in a program, by the names of robots and the ids of all else.
 
-    ``outside`` are the names that own Python outside of all functions makes.
+    A variable of the whole program is called as ``program.score``. ``outside`` are the names that
+    own Python outside of all functions makes, ``locals`` those of variables by themselves.
     """
 
     robots: dict[str, str]
@@ -176,8 +185,10 @@ class ProgramNames:
     procedures: dict[str, str] = field(default_factory=dict)
     parameters: dict[str, str] = field(default_factory=dict)
     outside: frozenset[str] = frozenset()
+    locals: frozenset[str] = frozenset()
 
     def taken(self) -> set[str]:
         """All these names."""
         named = (self.robots, self.variables, self.procedures, self.parameters)
-        return {name for names in named for name in names.values()} | self.outside
+        every = {name for names in named for name in names.values()}
+        return {name.rpartition(".")[2] for name in every} | self.outside

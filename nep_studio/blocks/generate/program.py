@@ -5,6 +5,7 @@ from __future__ import annotations
 import ast
 import itertools
 import re
+import textwrap
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
@@ -22,6 +23,7 @@ from nep_studio.blocks.errors import CodeRefused
 from nep_studio.blocks.language import Language
 from nep_studio.blocks.procedures import DEFINE, parameters, procedure_of, words
 from nep_studio.blocks.program import ALL_ROBOTS, LANGUAGES, Block, Project
+from nep_studio.blocks.shared_objects import SHARED_OBJECTS
 from nep_studio.blocks.sharing import Chain, Sharing, look_at, sharing_of
 from nep_studio.blocks.slices import Steps, at_once
 from nep_studio.blocks.slots import Setting, constant
@@ -37,8 +39,9 @@ from .kinds import (
     together,
     variable_key,
 )
-from .names import MODULES, NameTable, ProgramNames
+from .names import CLASSES, MODULES, NameTable, ProgramNames
 from .rules import HATS, Hat, Line, RuleWriter
+from .scopes import as_shared, scoped
 from .source_map import Code
 
 
@@ -115,7 +118,10 @@ class ProgramGenerator:
         names, kinds = self._written_with, self._kinds
         own = [(p, self._project.procedures[p], name) for p, name in names.procedures.items()]
         return {
-            **{name: kinds.of(variable_key(v)) for v, name in names.variables.items()},
+            **{
+                as_shared(name, names.locals): kinds.of(variable_key(v))
+                for v, name in names.variables.items()
+            },
             **{f"{name}()": kinds.of(result_key(p)) for p, _, name in own},
             **{
                 f"{name}({names.parameters[f'{p}.{one.id}']})": kinds.of(parameter_key(p, one.id))
@@ -138,10 +144,12 @@ class ProgramGenerator:
         self._robots = {s: known for s, known in self._robots.items() if s in written}
         headers = self._headers(written)
         outside = self._outside(written)
-        names = yield from self._names(written, headers, outside)
+        plain = yield from self._names(written, headers, outside)
+        has_changed = yield from self._read_facts(written)
+        names = scoped(plain, self._facts_of(), self._project)
         self._written_with = names
         sharing = yield from self._sharing(written, names)
-        self._kinds = yield from self._kinds_in(written, names)
+        self._kinds = self._kinds_in(names, is_changed=has_changed)
         functions = NameTable(names.taken())
         ordered = self._in_order(written, names, headers, outside)
         begun = [self._begin(written[stack], names, functions, sharing) for stack in ordered]
@@ -231,12 +239,9 @@ class ProgramGenerator:
                         self._chains[stack] = state, found
         return sharing_of((chain for _, chain in self._chains.values()), names.variables)
 
-    def _kinds_in(self, written: dict[str, list[str]], names: ProgramNames) -> Steps[Kinds]:
-        """The kinds of what the program keeps, as they were unless a stack does other things."""
-        known, changed = (
-            self._facts,
-            self._kinds_for != names or self._facts.keys() != written.keys(),
-        )
+    def _read_facts(self, written: dict[str, list[str]]) -> Steps[bool]:
+        """What the stacks do; says whether one of them does other things than before."""
+        known, changed = self._facts, self._facts.keys() != written.keys()
         self._facts = {}
         for stack, chain in written.items():
             revision = (self._project.revisions.get(stack), self._project.procedure_revision)
@@ -247,11 +252,17 @@ class ProgramGenerator:
                 changed |= before is None or before[1] != facts
                 before = revision, facts
             self._facts[stack] = before
-        if not changed:
+        return changed
+
+    def _facts_of(self) -> dict[str, Facts]:
+        return {stack: facts for stack, (_, facts) in self._facts.items()}
+
+    def _kinds_in(self, names: ProgramNames, *, is_changed: bool) -> Kinds:
+        """The kinds of what the program keeps, as they were unless a stack does other things."""
+        if not is_changed and self._kinds_for == names:
             return self._kinds
         self._kinds_for = names
-        facts_of = {stack: facts for stack, (_, facts) in self._facts.items()}
-        return together(facts_of, self._project, names)
+        return together(self._facts_of(), self._project, names)
 
     def _begin(
         self, chain: list[str], names: ProgramNames, functions: NameTable, sharing: Sharing
@@ -278,11 +289,9 @@ class ProgramGenerator:
             gives_value = self._project.procedures[code.procedure].gives_value
             code.gives_nothing = gives_value and self._facts[stack][1].is_open
         revision = self._project.revisions.get(stack)
-        own = self._kinds.own.get(stack, frozenset())
-        code.own = frozenset(names.variables[variable] for variable in own)
         made_for = (
             *(revision, function, names, self._project.procedure_revision),
-            *(code.sharing, own, self._kinds.has_lists_twice),
+            *(code.sharing, self._kinds.has_lists_twice),
         )
         known = self._rules.get(stack)
         if known is not None and known.made_for == made_for and self._fits(known, code.rules):
@@ -295,7 +304,7 @@ class ProgramGenerator:
             frozenset(code.api),
             frozenset(code.modules),
             frozenset(code.robots),
-            frozenset(code.variables - own),
+            frozenset(code.variables),
             code.written_for,
             code.rules_named,
         )
@@ -356,6 +365,7 @@ class ProgramGenerator:
     ) -> Code:
         """All above the functions: what is imported, the robots, the variables, own Python."""
         rules = self._rules.values()
+        begun = {name for own in outside.values() if own.place != "end" for name in own.begins()}
         api = {"Behavior"}.union(*(rule.api for rule in rules))
         modules = set[str]().union(*(rule.modules for rule in rules))
         modules -= {name for stack in top for name in outside[stack].imports()}
@@ -365,29 +375,34 @@ class ProgramGenerator:
         robots = self._robot_lines(names, used)
         if robots:
             api.add("Robot")
+        held = dict(self._variables(names))
+        objects = [one for one in SHARED_OBJECTS if any(n.startswith(f"{one}.") for n in held)]
+        held = {name: first for name, first in held.items() if name not in begun}
+        api.update(CLASSES[one] for one in objects)
         head = [*(f"import {name}" for name in sorted(modules))]
-        head += [f"from nep_core import {', '.join(sorted(api))}", ""]
+        head += [*_import_lines(sorted(api)), ""]
         options: dict[str, ast.expr] = {}
         if self._project.ends_on_error:
             options["on_error"] = ast.Constant("end")
         if self._project.spoken_language != LANGUAGES[0]:
             options["language"] = ast.Constant(self._project.spoken_language)
         behavior = show(call("Behavior", ast.Constant(self._project.name), **options))
-        begun = {name for own in outside.values() if own.place != "end" for name in own.begins()}
         page = [*_with_docstring(self._project.name, [self._rules[s].code for s in top])]
         page += [*_unmade(head), *robots, *_unmade([f"behavior = {behavior}"])]
-        page += _unmade([line for name, line in self._variables(names) if name not in begun])
+        for one in objects:
+            page += _unmade(_shared_object(one, held))
+        page += _unmade([f"{name} = {held[name]}" for name in held if "." not in name])
         for stack in first:
             own = self._rules[stack].code
             page += [("", ""), *zip(own.text.splitlines(), own.blocks, strict=True)]
         return _code(page)
 
     def _variables(self, names: ProgramNames) -> Iterator[tuple[str, str]]:
-        """The variables that are used, each with the line that begins it."""
+        """The names of variables that are not by themselves, with what they hold first."""
         used = frozenset[str]().union(*(rule.variables for rule in self._rules.values()))
         for variable, name in names.variables.items():
-            if variable in used:
-                yield name, f"{name} = {self._kinds.first[variable]}"
+            if variable in used and name not in names.locals:
+                yield name, self._kinds.first[variable]
 
     def _robot_lines(self, names: ProgramNames, used: set[str]) -> list[tuple[str, str]]:
         """A line for each robot that the rules use, with its block on the Robots page."""
@@ -440,6 +455,35 @@ def give_names(
 def generate_program(project: Project, language: Language) -> Code:
     """The Python of a project; raises CodeRefused, which names the block."""
     return ProgramGenerator(project, language).generate()
+
+
+def _import_lines(names: Sequence[str]) -> list[str]:
+    """What is imported of nep_core, in as many lines as it needs to be read."""
+    line = f"from nep_core import {', '.join(names)}"
+    if len(line) <= LONGEST_LINE:
+        return [line]
+    margin = "    "
+    width = LONGEST_LINE - len(margin) - 1
+    wrapped = textwrap.wrap(", ".join(names), width, break_on_hyphens=False)
+    return [
+        "from nep_core import (",
+        *(f"{margin}{part}" for part in wrapped[:-1]),
+        f"{margin}{wrapped[-1]},",
+        ")",
+    ]
+
+
+LONGEST_LINE = 88
+
+
+def _shared_object(name: str, held: Mapping[str, str]) -> list[str]:
+    """The lines that make what variables are attributes of."""
+    parts = [(*key.partition("."), first) for key, first in held.items()]
+    given = [f"{attribute}={first}" for owner, _, attribute, first in parts if owner == name]
+    line = f"{name} = {CLASSES[name]}({', '.join(given)})"
+    if len(line) <= LONGEST_LINE:
+        return [line]
+    return [f"{name} = {CLASSES[name]}(", *(f"    {one}," for one in given), ")"]
 
 
 def _unmade(lines: Sequence[str]) -> list[Line]:

@@ -6,7 +6,7 @@ import ast
 import copy
 import re
 import unicodedata
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, field, replace
 
@@ -24,9 +24,12 @@ from nep_studio.blocks.errors import EditRefused
 from nep_studio.blocks.language import Language
 from nep_studio.blocks.procedures import DEFINE, parameters, procedure_of
 from nep_studio.blocks.program import Block, Project
+from nep_studio.blocks.shared_objects import SHARED_OBJECTS
 
+from .kinds import FactReader, Facts
 from .names import ProgramNames
 from .program import give_names
+from .scopes import scoped
 
 NO_ROBOTS: Mapping[str, str] = {}
 
@@ -34,7 +37,7 @@ NO_ROBOTS: Mapping[str, str] = {}
 
 _FUNCTIONS = (ast.FunctionDef, ast.AsyncFunctionDef, ast.Lambda)
 _COMPREHENSIONS = (ast.ListComp, ast.SetComp, ast.DictComp, ast.GeneratorExp)
-_WORD = re.compile(r"\w+")
+_WORD = re.compile(rf"(?:(?:{'|'.join(SHARED_OBJECTS)})\.)?\w+")
 
 
 class CannotRename(Exception):
@@ -329,13 +332,17 @@ def _without_names(tree: ast.Module) -> str:
 # The names of a program, and the blocks in which people wrote Python.
 
 
-def names_of(project: Project, language: Language) -> ProgramNames:
-    """What everything in a project is called in its Python, as far as that can be read."""
-    used = set[str]()
+def names_of(project: Project, language: Language, plain: Collection[str] = ()) -> ProgramNames:
+    """What everything in a project is called in its Python, as far as that can be read.
+
+    The variables of the ids in ``plain`` are called as where Python of a person names them.
+    """
+    used, facts = set[str](), dict[str, Facts]()
     headers: dict[str, None] = {}
     made, defined = frozenset[str](), frozenset[str]()
     for chain in chains(project, language):
         first = project.blocks[chain[0]]
+        facts[first.id] = FactReader(project, language).read(chain)
         if first.type.startswith(DEFINE):
             headers[procedure_of(first.type)] = None
         if first.type == OUTSIDE_BLOCK:
@@ -349,7 +356,8 @@ def names_of(project: Project, language: Language) -> ProgramNames:
             used.update(definition.robots_in(block) if definition is not None else ())
     listed = [entry.name for entry in robot_entries(project, language)]
     ordered = [p for p in project.procedures if p in headers]
-    return give_names(project, listed, used, ordered, made, defined)
+    names = give_names(project, listed, used, ordered, made, defined)
+    return scoped(names, facts, project, plain)
 
 
 @contextmanager
@@ -368,23 +376,35 @@ def names_followed(
     if not pieces:
         yield
         return
-    before = names_of(project, language)
+    plain = _named_plainly(project, language, pieces)
+    before = names_of(project, language, plain)
     yield
     language = language.of(project)
-    after = names_of(project, language)
+    after = names_of(project, language, plain)
     change = _Change(project, before, after, robots, pieces)
     for piece in pieces:
         text = change.of(piece)
         if text != piece.text:
             apply(SetField(piece.block.id, piece.key, text))
-    if _plain(names_of(project, language)) != _plain(after):
+    if _plain(names_of(project, language, plain)) != _plain(after):
         shown = next(iter(change.new), "")
         raise EditRefused(_TAKEN, checklist=(_OTHER_NAME,), line=pieces[0].line, new=shown)
 
 
+def _words(text: str) -> set[str]:
+    return {unicodedata.normalize("NFKC", word) for word in _WORD.findall(text)}
+
+
+def _named_plainly(project: Project, language: Language, pieces: Sequence[_Piece]) -> set[str]:
+    """The variables that Python of a person names, also where it does nothing."""
+    words = {word for piece in pieces for word in _words(piece.text)}
+    names = names_of(project, language, [variable.id for variable in project.variables])
+    return {variable for variable, name in names.variables.items() if name in words}
+
+
 def _plain(names: ProgramNames) -> ProgramNames:
     """The names without those that own Python makes."""
-    return replace(names, outside=frozenset())
+    return replace(names, outside=frozenset(), locals=frozenset())
 
 
 _TAKEN = "In the Python “{line}”, “{new}” means something else already."
@@ -461,8 +481,7 @@ class _Change:
                 plain, names, apart=self._apart(piece), new=new, called=self.called
             )
         except CodeTextRefused as refused:
-            words = {unicodedata.normalize("NFKC", word) for word in _WORD.findall(piece.text)}
-            if not words & (names.keys() | new):
+            if not _words(piece.text) & (names.keys() | new):
                 return piece.text
             raise self._refused(
                 "The Python “{line}” cannot be read: the new name cannot be written there.",

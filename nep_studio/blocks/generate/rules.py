@@ -14,7 +14,7 @@ from nep_studio.blocks.program import ALL_ROBOTS, Block
 from nep_studio.blocks.sharing import is_slow, variables_set
 from nep_studio.blocks.slots import constant
 
-from ..code_text import CodeText, CodeTextRefused, compile_quietly, read_outside
+from ..code_text import CodeText, CodeTextRefused, as_names, compile_quietly, read_outside
 from ..errors import CodeRefused
 from .expressions import (
     Assignment,
@@ -328,7 +328,8 @@ class RuleWriter:
             if item is None:
                 scope = frames.pop().scope
                 self._is_after_function |= frame.opens
-                shared = scope.assigned - self._code.own
+                own = self._code.names.locals
+                shared = {name for name in scope.assigned - own if "." not in name}
                 if frame.opens and shared:  # at the end of a function
                     line = f"{_MARGINS[scope.indent]}global {', '.join(sorted(shared))}"
                     self.lines.insert(scope.line, (line, scope.block))
@@ -391,7 +392,8 @@ class RuleWriter:
         piece = pieces[0]
         line = piece if isinstance(piece, str) else piece.line
         variables = shared.intersection(variables_set(code.project, code.language, block))
-        names = [code.names.variables[one] for one in variables if one in code.names.variables]
+        names = {code.names.variables[one] for one in variables if one in code.names.variables}
+        names -= code.names.locals  # nobody else sets those
         if not any(_can_be_torn(line, name) for name in names) or self._takes_time(block):
             return pieces
         code.api.add(AT_ONCE)
@@ -522,7 +524,7 @@ def _can_be_torn(line: str, variable: str) -> bool:
     """
     if "(" not in line or (line.count(variable) < 2 and "+=" not in line):
         return False  # without going through it: most lines
-    statement = ast.parse(line).body[0]
+    statement = as_names(ast.parse(line)).body[0]
     own_call = statement.value if isinstance(statement, ast.Expr) else None
     nodes = list(ast.walk(statement))
     named = sum(isinstance(node, ast.Name) and node.id == variable for node in nodes)

@@ -6,7 +6,7 @@ import ast
 from collections.abc import Sequence
 from functools import lru_cache
 
-from nep_studio.blocks.code_text import made_by, outside_functions
+from nep_studio.blocks.code_text import as_names, made_by, outside_functions
 
 NO_NAMES: frozenset[str] = frozenset()
 
@@ -66,6 +66,6 @@ def _is_left(loop: ast.While) -> bool:
 def tree_of(text: str) -> ast.Module | None:
     """Python that a person wrote; None where it is none."""
     try:
-        return ast.parse(text.strip())
+        return as_names(ast.parse(text.strip()))
     except (SyntaxError, ValueError, RecursionError, MemoryError):
         return None

@@ -102,7 +102,8 @@ def copy(project: Project, language: Language, ids: Iterable[str], at: Points = 
     }
     for variable in project.variables:
         if variable.id in used:
-            AddVariable(variable.id, variable.name, len(target.variables)).apply(target)
+            place, scope = len(target.variables), variable.scope
+            AddVariable(variable.id, variable.name, place, scope).apply(target)
     _add_procedures(clip.project, project)
     _note_rules(clip.project, project, language)
     take_along(clip.project, project, language)
@@ -228,7 +229,7 @@ def names_for(editor: Editor, clip: Clip) -> Names:
     known = {variable.name: variable.id for variable in editor.project.variables}
     for variable in clip.project.variables:
         there = known.get(variable.name)
-        names.variables[variable.id] = there or editor.add_variable(variable.name)
+        names.variables[variable.id] = there or editor.add_variable(variable.name, variable.scope)
     for procedure in clip.project.procedures.values():
         found = _procedure_for(editor, clip.project, procedure, names)
         names.procedures[procedure.id] = found.id

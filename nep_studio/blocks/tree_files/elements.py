@@ -14,7 +14,9 @@ DEEPEST = 100
 MOST_ELEMENTS = 10_000
 
 _COMMENT = re.compile(rb"<!--.*?-->", re.DOTALL)
-"""BehaviorTree.CPP takes lines of dashes in them, which XML forbids: its own examples have them."""
+_LOOSE_AND = re.compile(rb"&(?!#?\w+;)")
+"""BehaviorTree.CPP takes lines of dashes in comments, and “&&” in scripts, as its own examples have
+them; XML forbids both."""
 
 _FROM_GROOT = "Is it a file that Groot or BehaviorTree.CPP wrote?"
 
@@ -58,7 +60,8 @@ def read_elements(content: bytes) -> Element:
         )
     builder = _Builder()
     try:
-        builder.parser.Parse(_COMMENT.sub(_blank, content), True)
+        plain = _LOOSE_AND.sub(b"&amp;", _COMMENT.sub(_blank, content))
+        builder.parser.Parse(plain, True)
     except expat.ExpatError as error:
         raise TreeFileError(
             "Line {line} is no XML: {reason}.",
@@ -116,5 +119,5 @@ class _Builder:
     def _refuse_declarations(self, *_declared: object) -> None:
         raise TreeFileError(
             "The file declares things of its own (DOCTYPE), as no file of behaviour trees does.",
-            checklist=("Take the lines with “<!DOCTYPE” out.", _FROM_GROOT),
+            checklist=("Take the lines with “DOCTYPE” out.", _FROM_GROOT),
         )

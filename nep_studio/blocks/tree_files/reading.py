@@ -109,6 +109,7 @@ class _Reader:
         self._names = dict(_new_names(editor, trees))
         self._models = _models(root, trees, self._names)
         self._own: dict[str, Procedure] = {}
+        self._free_y = _below(editor, page)
 
     def read(self) -> Imported:
         for include in self._root.named("include"):
@@ -123,7 +124,7 @@ class _Reader:
             runs = "at_start" if name == main else "when_asked"
             hat = Made("tree.tree", {"name": self._names[name], "runs": runs})
             chain = [hat, *self._all(tree.children)]
-            made.append(create_chain(self._editor, chain, page=self._page))
+            made.append(self._put(chain))
         return Imported(tuple(made), tuple(self._told.values()))
 
     def _main(self) -> str:
@@ -154,11 +155,7 @@ class _Reader:
     def _tell_unread(self, element: Element) -> None:
         for attribute in element.attributes:
             if attribute.startswith("_"):
-                self._tell(
-                    "“{attribute}” of “{tag}” is not taken over.",
-                    attribute=attribute,
-                    tag=element.tag,
-                )
+                self._tell_left(element, attribute)
 
     def _part(self, element: Element) -> Made:
         tag = element.tag
@@ -184,28 +181,32 @@ class _Reader:
 
     def _limited(self, element: Element) -> Made:
         kind, slot, attributes = _LIMITED[element.tag]
-        text = next((element.attributes[a] for a in attributes if a in element.attributes), "-1")
+        attribute = next((a for a in attributes if a in element.attributes), "")
         made = Made(kind, bodies={"do": self._all(element.children)})
-        if text.strip() != "-1":
+        if element.attributes.get(attribute, "-1").strip() != "-1":
             made.groups["limit"] = 1
-            self._fill_number(made, f"{slot}.1", text, 1)
+            self._fill_number(made, f"{slot}.1", element, attribute, 1)
         for failures in ("failure_count", "failure_threshold"):
             if element.attributes.get(failures, "1").strip() != "1":
-                self._tell(
-                    "“{attribute}” of “{tag}” is not taken over.",
-                    attribute=failures,
-                    tag=element.tag,
-                )
+                self._tell_left(element, failures)
         return made
+
+    def _tell_left(self, element: Element, attribute: str) -> None:
+        self._tell(
+            "“{attribute}” of “{tag}” is not taken over.", attribute=attribute, tag=element.tag
+        )
 
     def _timed(self, element: Element) -> Made:
         kind, attribute, per_second = _TIMED[element.tag]
         made = Made(kind, bodies={"do": self._all(element.children)})
-        self._fill_number(made, "seconds", element.attributes.get(attribute, ""), per_second)
+        self._fill_number(made, "seconds", element, attribute, per_second)
         return made
 
-    def _fill_number(self, made: Made, key: str, text: str, per_one: int) -> None:
+    def _fill_number(
+        self, made: Made, key: str, element: Element, attribute: str, per_one: int
+    ) -> None:
         """Put a number, or a value of the tree, into a slot; the slot keeps its own otherwise."""
+        text = element.attributes.get(attribute, "")
         if marked := _marked(text):
             value = _value_of(marked)
             if per_one != 1:
@@ -216,7 +217,7 @@ class _Reader:
             number = number_of(typed_number(text.strip()))
             made.fields[key] = int(number // per_one) if number % per_one == 0 else number / per_one
         else:
-            self._tell("“{text}” is no number that is needed here.", text=text)
+            self._tell_left(element, attribute)
 
     def _sub_tree(self, element: Element) -> Made:
         name = element.attributes.get("ID", element.tag)
@@ -304,8 +305,14 @@ class _Reader:
         if is_condition:
             truth = Made("logic.truth", {"truth": "true"})
             chain.append(Made(RETURN, inputs={"value": truth}))
-        create_chain(self._editor, chain, page=self._page)
+        self._put(chain)
         return procedure
+
+    def _put(self, chain: list[Made]) -> str:
+        """Make a stack below all that are on the page; gives its first block."""
+        first = create_chain(self._editor, chain, (_MARGIN, self._free_y), self._page)
+        self._free_y += _height_of(chain)
+        return first
 
 
 # What a file says before its trees are read.
@@ -346,11 +353,37 @@ def _models(root: Element, trees: list[Element], names: dict[str, str]) -> dict[
         model = models.setdefault(key, Model())
         if element.tag in ("Action", "Condition"):
             model.kind = element.tag
+        elif element.tag == "ScriptCondition":
+            model.kind = "Condition"
         for attribute in element.attributes:
             is_port = attribute not in _NOT_PORTS and not attribute.startswith("_")
             if is_port and attribute not in model.outputs:
                 model.inputs[attribute] = None
     return models
+
+
+# Where stacks are put: how high they are drawn is not known yet, so that it is reckoned roughly.
+
+_MARGIN, _ROW, _GAP = 40.0, 44.0, 80.0
+
+
+def _below(editor: Editor, page: str) -> float:
+    """A height on a page below all of its stacks."""
+    project = editor.project
+    ends = [
+        stack.y + _GAP + _ROW * sum(1 + len(b.bodies) for b in project.within(stack.body))
+        for stack in project.pages[page]
+    ]
+    return max(ends, default=_MARGIN)
+
+
+def _height_of(chain: Iterable[Made]) -> float:
+    waiting, rows = list(chain), 0
+    while waiting:
+        made = waiting.pop()
+        rows += 1 + len(made.bodies)
+        waiting += [one for inside in made.bodies.values() for one in inside]
+    return _GAP + _ROW * rows
 
 
 # Small pieces of blocks.

@@ -302,6 +302,8 @@ class Filler:
             return self._rule(plain)
         if kind == "variable":
             return self._variable(plain, text.strip())
+        if kind == "clock":
+            return self._checked(slot, slot.kind.read(text), NAMED)
         if slot.kind.words:
             return self._checked(slot, slot.kind.words.get(plain, plain), FITTING)
         return self._value(slot, text.strip(), plain)
@@ -351,6 +353,8 @@ class Filler:
             if not can_be_stopped(self.project, self.language, chain[0]):
                 continue
             quality = _likeness(plain, folded(sentence(self.project, self.language, chain[0])))
+            # its words are meant as they would be in a sentence of their own
+            quality += BEGUN * plain.count(" ") if quality else 0.0
             if quality and (best is None or quality > best.quality):
                 best = Filling(chain[0], quality)
         return best

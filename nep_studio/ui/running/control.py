@@ -235,9 +235,10 @@ class RunControl(QObject):
         workbench, language = self._host.workbench, self._host.services.language
         subject = Subject(document.project, language, document.folder, self._choices())
         is_in_order, code = workbench.checks.is_in_order, workbench.code.live.program
+        kept = document.kept_file
         is_planned = self._plan is not None and self._plan[0] == subject and self._is_settled
         known = self._plan[1] if self._plan is not None and is_planned and is_in_order else None
-        return replace(subject, is_in_order=is_in_order, code=code, known=known)
+        return replace(subject, kept=kept, is_in_order=is_in_order, code=code, known=known)
 
     def _choices(self) -> Choices:
         """Who stands in for what, and the watch that somebody has left running."""

@@ -30,6 +30,7 @@ CATEGORY_ICONS = {
     "code": "code",
     "goals": "target",
     "trees": "list-tree",
+    "plans": "map",
     "nodes": "network",
     "robots": "plug",
     "robot_events": "hand",
@@ -40,7 +41,6 @@ CATEGORY_ICONS = {
     "camera": "camera",
     "time": "clock",
     "states": "route",
-    "plans": "map",
 }
 """A category's icon, by the category's ``colour``: so that colour never speaks alone."""
 

@@ -224,7 +224,8 @@ class BlockOpening(QObject):
     def answer(self, block: str) -> None:
         """Tell about a block: on its page where that is open, else on a small card."""
         blocks = self.canvas.editor.project.blocks
-        if block in blocks and self.is_page_shown is not None and self.is_page_shown():
+        is_page_shown = self.is_page_shown is not None and self.is_page_shown()
+        if block in blocks and is_page_shown and not self._is_told(blocks[block].type):
             self.page_asked.emit(block_page(blocks[block].type))
         else:
             self.show_card(block)
@@ -256,6 +257,11 @@ class BlockOpening(QObject):
             if self.is_page_shown is not None:
                 card.offer_more()
             card.show_beside()
+
+    def _is_told(self, block_type: str) -> bool:
+        """Whether the person who made an own block says what it does: no page knows that."""
+        definition = self.canvas.editor.language.definitions.get(block_type)
+        return definition is not None and bool(definition.about)
 
     def _value_subject(self, block: str) -> Subject | None:
         """The variable or parameter that a block stands for, and nothing else."""

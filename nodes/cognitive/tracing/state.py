@@ -6,7 +6,7 @@ import ast
 import math
 import sys
 import threading
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from itertools import islice
 from pathlib import Path
@@ -16,6 +16,7 @@ from typing import Any
 from nep_core.program.robot import Robot
 from nep_core.program.tasks import Task, current_task, frames_of_threads
 from nep_core.program.values import as_text
+from nep_core.program.variables import SHARED_OBJECTS, variables_in
 
 MOST_CALLS = 50
 """So many calls of a thread are told."""
@@ -108,7 +109,8 @@ def is_part_of_line(code: CodeType) -> bool:
 # What the text of a program tells before it runs: its variables, and which lines are no step.
 
 _FRAMEWORKS = {"Behavior", "robot_behaviors"}
-_Block = ast.FunctionDef | ast.AsyncFunctionDef | ast.ClassDef
+_Function = ast.FunctionDef | ast.AsyncFunctionDef
+_Block = _Function | ast.ClassDef
 _SILENT = (ast.Global, ast.Nonlocal, ast.Import, ast.ImportFrom)
 
 
@@ -116,12 +118,15 @@ _SILENT = (ast.Global, ast.Nonlocal, ast.Import, ast.ImportFrom)
 class ProgramSource:
     """What is known of a program before it runs; lines count from 1.
 
-    ``variables`` are the names that it gives values to. ``quiet_lines`` are no steps of it: heads
+    ``variables`` are the names that it gives values to, ``rules`` those of the functions that are
+    rules, or in them, and ``functions`` of all functions. ``quiet_lines`` are no steps of it: heads
     of functions, imports and, where rules are the program, all that makes them. ``moved`` tells
     for the head of a rule or of an own block the line where its body begins.
     """
 
     variables: frozenset[str] = frozenset()
+    functions: frozenset[str] = frozenset()
+    rules: frozenset[str] = frozenset()
     quiet_lines: frozenset[int] = frozenset()
     moved: dict[int, int] = field(default_factory=dict)
 
@@ -132,15 +137,38 @@ def read_source(file: Path) -> ProgramSource:
         tree = ast.parse(file.read_bytes())
     except (OSError, SyntaxError, ValueError, RecursionError):
         return ProgramSource()
-    return ProgramSource(_variables(tree), frozenset(_quiet_lines(tree)), _moved(tree))
+    return ProgramSource(
+        _variables(tree),
+        frozenset(node.name for node in ast.walk(tree) if isinstance(node, _Function)),
+        frozenset(_rules(tree)),
+        frozenset(_quiet_lines(tree)),
+        _moved(tree),
+    )
 
 
 def _variables(tree: ast.Module) -> frozenset[str]:
-    return frozenset(
-        node.id
-        for node in ast.walk(tree)
-        if isinstance(node, ast.Name) and isinstance(node.ctx, ast.Store)
-    )
+    return frozenset(_names_set(tree))
+
+
+def _names_set(tree: ast.Module) -> Iterator[str]:
+    for node in ast.walk(tree):
+        match node:
+            case ast.Name(id=name, ctx=ast.Store()):
+                yield name
+            case ast.Assign(targets=[ast.Name(id=owner)], value=ast.Call(keywords=given)) if (
+                owner in SHARED_OBJECTS
+            ):
+                yield from (f"{owner}.{one.arg}" for one in given)
+            case ast.Attribute(value=ast.Name(id=owner), attr=name, ctx=ast.Store()):
+                yield f"{owner}.{name}"
+
+
+def _rules(tree: ast.Module) -> Iterator[str]:
+    """The names of functions that something else calls than the program itself, and of parts."""
+    for node in tree.body:
+        if isinstance(node, _Function):
+            inside = (inner for inner in ast.walk(node) if isinstance(inner, _Function))
+            yield from (inner.name for inner in inside if inner is not node or node.decorator_list)
 
 
 def _quiet_lines(tree: ast.Module) -> Iterator[int]:
@@ -258,20 +286,32 @@ def _pair(item: tuple[object, object], depth: int) -> str:
 class ProgramValues:
     """The variables of a program, and what the calls in its lines gave last.
 
-    ``namespace`` is where the program keeps its variables, once it has begun.
+    ``namespace`` is where the program keeps its variables, once it has begun. Those of the whole
+    program are called as in its text, ``program.score``. ``frames`` gives the calls that have not
+    ended, which have some for themselves.
     """
 
-    def __init__(self, names: frozenset[str]) -> None:
-        self._names = sorted(names)
+    def __init__(
+        self, names: frozenset[str], frames: Callable[[], Iterable[FrameType]] = tuple
+    ) -> None:
+        self._frames = frames
+        self._names = names
         self._last_sent: dict[str, str] = {}
         self._reports: dict[str, object] = {}
         self.namespace: Mapping[str, object] = {}
+        self._ended: dict[str, object] = {}
 
     def report(self, place: str, value: object) -> None:
         """Note what the call at a place of the file gave."""
         is_told = is_plain(value) or type(value) is Robot
         if is_told and (place in self._reports or len(self._reports) < MOST_REPORTS):
             self._reports[place] = value
+
+    def end_of(self, frame: FrameType) -> None:
+        """Note what a call held that ends now."""
+        if _has_own(frame):
+            held = frame.f_locals
+            self._ended.update({name: held[name] for name in self._names & held.keys()})
 
     def changed(self) -> dict[str, str]:
         """The values that are not as they were when this was asked last."""
@@ -285,8 +325,23 @@ class ProgramValues:
 
     def _now(self) -> dict[str, str]:
         now = {place: shown(value) for place, value in self._reports.copy().items()}
-        for name in self._names:
-            value = self.namespace.get(name, self)
-            if value is not self and (is_plain(value) or name in self._last_sent):
-                now[name] = shown(value)
+        for names in self._places():
+            for name in self._names & names.keys():
+                if is_plain(names[name]) or name in self._last_sent:
+                    now[name] = shown(names[name])
         return now
+
+    def _places(self) -> Iterator[Mapping[str, object]]:
+        """Where variables are; what a function has for itself hides what is so called outside."""
+        yield self.namespace
+        for owner in SHARED_OBJECTS:
+            held = variables_in(self.namespace.get(owner)).copy()
+            yield {f"{owner}.{name}": value for name, value in held.items()}
+        yield self._ended.copy()
+        yield from (frame.f_locals for frame in self._frames() if _has_own(frame))
+
+
+def _has_own(frame: FrameType) -> bool:
+    """Whether a call has variables for itself besides what it is given."""
+    code = frame.f_code
+    return code.co_nlocals + len(code.co_cellvars) > code.co_argcount and code.co_name != "<module>"

@@ -170,7 +170,7 @@ REFRESHES = 2
 """After an order; a thread that was just let past a line takes in the first one too early."""
 
 Send = Callable[[ProgramState], None]
-WatchMaker = Callable[[str, ProgramThreads, Events], Watch]
+WatchMaker = Callable[[str, ProgramSource, ProgramThreads, Events], Watch]
 
 
 class Tracer:
@@ -187,9 +187,9 @@ class Tracer:
         self._send = send
         source = read_source(Path(file))
         self._threads = ProgramThreads(file)
-        self._values = ProgramValues(source.variables)
+        self._values = ProgramValues(source.variables, self._threads.frames)
         self._pace = Pace(source, self._tell)
-        self._watch = (make_watch or cheapest_watch())(file, self._threads, self)
+        self._watch = (make_watch or cheapest_watch())(file, source, self._threads, self)
         self._lock = threading.Lock()
         self._sending = threading.Lock()
         self._refreshes = 0
@@ -228,6 +228,10 @@ class Tracer:
     def begun(self, namespace: Mapping[str, object]) -> None:
         """Note where the program keeps its names."""
         self._values.namespace = namespace
+
+    def ended(self, frame: FrameType) -> None:
+        """Note what a rule held that ends now."""
+        self._values.end_of(frame)
 
     def line(self, _frame: FrameType, line: int) -> bool:
         """Hold this thread at a line for as long as the pace says."""

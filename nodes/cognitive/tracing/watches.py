@@ -12,7 +12,7 @@ from inspect import CO_GENERATOR, isfunction
 from types import CodeType, FrameType
 from typing import Any, Protocol
 
-from .state import ProgramThreads, is_part_of_line
+from .state import ProgramSource, ProgramThreads, is_part_of_line
 
 WORDS_OF_ROBOTS = ("program.behavior", "program.human", "program.robot", "program.tasks")
 """Modules of nep_core whose functions programs call."""
@@ -23,6 +23,9 @@ class Events(Protocol):
 
     def begun(self, namespace: Mapping[str, object]) -> None:
         """Hear that the file runs, and where it keeps its names."""
+
+    def ended(self, frame: FrameType) -> None:
+        """Hear that a rule, or a part of one, has come to its end."""
 
     def line(self, frame: FrameType, line: int) -> bool:
         """Return when the line may run; whether it need not be told until the next refresh."""
@@ -64,12 +67,6 @@ def reporting_code() -> frozenset[CodeType]:
     return frozenset(code for code in _public_code() if not code.co_flags & CO_GENERATOR)
 
 
-@cache
-def reporting_files() -> frozenset[str]:
-    """The files in which these are."""
-    return frozenset(code.co_filename for code in reporting_code())
-
-
 def _public_code() -> Iterator[CodeType]:
     robot = importlib.import_module("nep_core.program.robot").Robot
     own = [kind for kind in robot.__mro__ if kind.__module__.startswith("nep_core.")]
@@ -91,8 +88,11 @@ if sys.version_info >= (3, 12):
     class MonitoringWatch:
         """Python calls it when code begins for the first time, and at lines only while asked."""
 
-        def __init__(self, file: str, _threads: ProgramThreads, events: Events) -> None:
+        def __init__(
+            self, file: str, source: ProgramSource, _threads: ProgramThreads, events: Events
+        ) -> None:
             self._file = file
+            self._source = source
             self._events = events
             self._code: dict[int, CodeType] = {}  # by id: to compare code takes long
             self._lines: Lines = frozenset()
@@ -131,9 +131,11 @@ if sys.version_info >= (3, 12):
             monitoring.free_tool_id(self._tool)
 
         def _watch(self, code: CodeType) -> None:
-            lines = _E.LINE if has_any(code, self._lines) else 0
+            events = _E.LINE if has_any(code, self._lines) else 0
+            if code.co_name in self._source.rules:
+                events |= _E.PY_RETURN
             with contextlib.suppress(ValueError):  # another thread has ended the watch
-                monitoring.set_local_events(self._tool, code, lines)
+                monitoring.set_local_events(self._tool, code, events)
 
         def _on_start(self, code: CodeType, _offset: int) -> object:
             if code.co_filename == self._file and not is_part_of_line(code):
@@ -144,7 +146,10 @@ if sys.version_info >= (3, 12):
                     self._watch(code)
             return monitoring.DISABLE
 
-        def _on_return(self, _code: CodeType, _offset: int, value: object) -> None:
+        def _on_return(self, code: CodeType, _offset: int, value: object) -> None:
+            if code.co_filename == self._file:
+                self._events.ended(sys._getframe(1))
+                return
             caller = sys._getframe(1).f_back
             if caller is not None and caller.f_code.co_filename == self._file:
                 self._events.report(caller, value)
@@ -166,19 +171,23 @@ Trace = Callable[[FrameType, str, Any], Any]
 class SettraceWatch:
     """Python calls it at every call in the program's threads, and at lines only while asked.
 
-    At each call it looks up the file, and no more, where nothing is wanted of it: that is what
-    following a program costs.
+    At each call it looks up the name, and no more, where nothing is wanted of functions so called:
+    that is what following a program costs.
     """
 
-    def __init__(self, file: str, threads: ProgramThreads, events: Events) -> None:
+    def __init__(
+        self, file: str, source: ProgramSource, threads: ProgramThreads, events: Events
+    ) -> None:
         self._file = file
+        self._source = source
         self._threads = threads
         self._events = events
         self._lines: Lines = frozenset()
         self._has_lines: dict[int, bool] = {}  # by id of code, for the lines that are wanted now
         self._api = {id(code): code for code in reporting_code()}
-        self._wanted: dict[str, Trace] = dict.fromkeys(reporting_files(), self._on_api_call)
-        self._wanted[file] = self._on_first_call
+        names = (code.co_name for code in reporting_code())
+        self._wanted: dict[str, Trace] = dict.fromkeys((*names, *source.rules), self._on_call)
+        self._wanted["<module>"] = self._on_call
         self._has_begun = False
 
     def begin(self) -> None:
@@ -186,7 +195,7 @@ class SettraceWatch:
         wanted = self._wanted.get
 
         def on_call(frame: FrameType, event: str, argument: object) -> Trace | None:
-            look = wanted(frame.f_code.co_filename)
+            look = wanted(frame.f_code.co_name)
             return None if look is None else look(frame, event, argument)
 
         threading.settrace(on_call)
@@ -196,7 +205,11 @@ class SettraceWatch:
         """Tell of these lines from now on; the functions of the others cost little."""
         if lines != self._lines:
             self._lines, self._has_lines = lines, {}
-        self._want_calls()
+        if lines is None or lines:
+            self._wanted.update(dict.fromkeys(self._source.functions, self._on_call))
+        else:
+            for name in self._source.functions - self._source.rules - self._api_names():
+                self._wanted.pop(name, None)
         for frame in self._threads.frames():
             frame.f_trace_lines = has_any(frame.f_code, lines)
             if frame.f_trace_lines:
@@ -210,26 +223,21 @@ class SettraceWatch:
         sys.settrace(None)
         threading.settrace(None)
 
-    def _want_calls(self) -> None:
-        """Look at the calls of the file while lines of it are wanted, and at the very first."""
-        if not self._has_begun:
-            self._wanted[self._file] = self._on_first_call
-        elif self._lines is None or self._lines:
-            self._wanted[self._file] = self._on_call
-        else:
-            self._wanted.pop(self._file, None)
+    def _api_names(self) -> frozenset[str]:
+        return frozenset(code.co_name for code in self._api.values())
 
-    def _on_first_call(self, frame: FrameType, event: str, argument: object) -> Trace | None:
-        self._has_begun = True
-        self._events.begun(frame.f_globals)
-        self._want_calls()
-        return self._on_call(frame, event, argument)
-
-    def _on_call(self, frame: FrameType, _event: str, _argument: object) -> Trace | None:
+    def _on_call(self, frame: FrameType, event: str, argument: object) -> Trace | None:
         code = frame.f_code
-        return self._on_event if not is_part_of_line(code) and self._wants(code) else None
+        if code.co_filename != self._file:
+            return self._on_api_call(frame)
+        if not self._has_begun:
+            self._has_begun = True
+            self._events.begun(frame.f_globals)
+        frame.f_trace_lines = self._wants(code)
+        is_told = code.co_name in self._source.rules
+        return self._on_event if is_told or frame.f_trace_lines else None
 
-    def _on_api_call(self, frame: FrameType, _event: str, _argument: object) -> Trace | None:
+    def _on_api_call(self, frame: FrameType) -> Trace | None:
         caller = frame.f_back
         if id(frame.f_code) not in self._api or caller is None:
             return None
@@ -246,9 +254,12 @@ class SettraceWatch:
         return wanted
 
     def _on_event(self, frame: FrameType, event: str, _argument: object) -> Trace:
-        lines = self._lines
-        if event == "line" and (lines is None or frame.f_lineno in lines):
-            self._events.line(frame, frame.f_lineno)
+        if event == "line":
+            lines = self._lines
+            if lines is None or frame.f_lineno in lines:
+                self._events.line(frame, frame.f_lineno)
+        elif event == "return" and frame.f_code.co_name in self._source.rules:
+            self._events.ended(frame)
         return self._on_event
 
     def _on_report(self, frame: FrameType, event: str, value: object) -> Trace:

@@ -11,6 +11,7 @@ import pytest
 from nep_studio.blocks.editor import Editor
 from nep_studio.blocks.files import from_bytes, to_bytes
 from nep_studio.blocks.from_python.learning import CodeUnread
+from nep_studio.blocks.from_python.scoping import with_shared_names
 from nep_studio.blocks.from_python.source import read_source
 from nep_studio.blocks.from_python.updating import update_from_python
 from nep_studio.blocks.generate.program import generate_program
@@ -41,6 +42,7 @@ PROGRAMS = (
 def said(text: str) -> tuple[Counter[str], Counter[str]]:
     """The statements of a program and its comments, without what depends on the blocks alone."""
     source = read_source(text)
+    with_shared_names(source.tree, {})
     for node in ast.walk(source.tree):
         if isinstance(body := getattr(node, "body", None), list):
             node.body = [one for one in body if not isinstance(one, ast.Global)]

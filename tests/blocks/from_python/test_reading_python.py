@@ -227,7 +227,7 @@ def pasted(language, text: str) -> str:
         "def f():\n    for x in [1, 2]:\n        wait(x)",
         "def f():\n    nao = 2\n    wait(nao)",
         "def f():\n    with open('a') as x:\n        print(x)",
-        "def f():\n    global x\n    x = 2",
+        "def f():\n    program.x = 2",
         "def f():\n    y = 2\n    wait(y)",
         "y = 1\n\n\ndef f():\n    y = 2\n    wait(y)",
         "def f():\n    return [x for x in [1]]",

@@ -169,4 +169,4 @@ def test_a_selected_value_is_copied_as_an_expression(language):
     editor = build(language, [sum_of], variables=("value",))
     block = editor.project.pages["behaviour"][0].body[0]
 
-    assert python_of(editor.project, language, [block]) == "1 + value"
+    assert python_of(editor.project, language, [block]) == "1 + program.value"

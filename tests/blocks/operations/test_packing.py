@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 
 import pytest
-from block_building import B, build
+from block_building import B, add, build
 from msgspec.structs import replace
 
 from nep_studio.blocks.checks import check
@@ -17,6 +17,7 @@ from nep_studio.blocks.files import from_bytes as project_from
 from nep_studio.blocks.files import to_bytes as project_bytes
 from nep_studio.blocks.generate.program import generate_program
 from nep_studio.blocks.language import Language
+from nep_studio.blocks.operations.animations import keep_animation
 from nep_studio.blocks.operations.copying import Clip, paste
 from nep_studio.blocks.operations.packing import (
     definitions_in,
@@ -26,7 +27,9 @@ from nep_studio.blocks.operations.packing import (
     packed,
     update,
 )
+from nep_studio.blocks.own_animations import JointKeys, OwnAnimation, own_animations
 from nep_studio.blocks.packs import About, Pack, from_bytes, to_bytes
+from nep_studio.blocks.places import InStack
 from nep_studio.blocks.procedures import CALL, header_of, title
 from nep_studio.blocks.program import Parameter, Project
 from nep_studio.blocks.text import sentence
@@ -186,6 +189,42 @@ def test_keys_of_an_own_block_that_nobody_knows_are_kept(author, language):
     assert json.loads(project_bytes(read))["procedures"][0] == file["procedures"][0]
 
 
+def as_python(pack: Pack, language: Language) -> str:
+    return generate_program(pack.project, language).text
+
+
+def test_out_of_a_project_that_used_it_a_pack_is_the_same(author, language):
+    first = again(share(author), language)
+    other = Editor(Project("Other"), language)
+    build(language, [B("event.started"), B("robot.say")], editor=other)
+    use(other, first, first.about.offers[0])
+
+    own = own_named(other, "greet (who)")
+    second = packed(other.project, other.language, [own], first.about, "Smile")
+
+    assert second.about == first.about
+    known = second.project.procedures
+    assert {one.id: title(one) for one in known.values() if one.id in first.about.offers} == {
+        one.id: title(one) for one in first.offered
+    }
+    assert known == first.project.procedures
+    assert as_python(second, language) == as_python(first, language)
+
+
+def test_an_animation_that_a_block_plays_comes_along(author, language):
+    joints = {"HeadYaw": JointKeys((0.5, 1.0), (0.2, 0.0))}
+    name = keep_animation(author, OwnAnimation("Nod to me", joints))
+    play = B("robot.play", {"animation": name})
+    header = author.project.stack_of(header_of(author.project, own_named(author, "count")))
+    add(author, play, InStack(header.id, 1))
+    other = Editor(Project("Other"), language)
+    pack = again(share(author), language)
+
+    use(other, pack, pack.about.offers[0])
+
+    assert own_animations(other.project)[name].title == "Nod to me"
+
+
 # A newer version
 
 
@@ -264,17 +303,23 @@ def test_there_is_no_update_without_an_older_copy(author, language):
 # Other languages, and help
 
 
-def test_an_own_block_speaks_the_languages_that_its_pack_brings(author):
+def test_an_own_block_speaks_the_languages_that_its_pack_brings(author, language):
     german = studio_language("de")
     own = author.project.procedures[own_named(author, "greet (who)")]
     parameter = own.parts[1].id
-    author.replace_procedure(replace(own, sentences={"de": "{" + parameter + "} begrüßen"}))
+    place = "{" + parameter + "}"
+    said_otherwise = {"de": f"{place} begrüßen", "en": f"please greet {place}"}
+    author.replace_procedure(replace(own, sentences=said_otherwise))
     pack = share(author)
     other = Editor(Project("Other"), german)
 
     new = use(other, again(pack, german), pack.about.offers[0], **{parameter: "Ada"})
 
     assert sentence(other.project, german, new) == "Ada begrüßen"
+    english = Editor(project_from(project_bytes(other.project), "p.nep", language), language)
+    assert sentence(english.project, language, new) == "please greet Ada", (
+        "also where it is English"
+    )
     other.change_procedure(
         own_named(other, "greet (who)"),
         ["welcome", *other.project.procedures[own_named(other, "greet (who)")].parts[1:]],

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 
 import pytest
 
-from faults import plain
+from faults import fault_of, plain
 from nep_core.wire import messages as m
 from nep_studio.blocks.language import Language
 from nep_studio.commands.run import Printer
@@ -191,3 +191,33 @@ def test_a_goal_that_cannot_be_reached_is_told(timeline: Timeline) -> None:
     failed = m.ProgramState(program="Test", event="goal_failed", rule="tour")
 
     assert [words for _, words in timeline.lines(failed)] == ["cannot reach the goal “tour”"]
+
+
+def test_a_plan_is_told_with_its_steps(language: Language) -> None:
+    plan = [m.PlannedStep("go_to", ["hall", 2]), m.PlannedStep("greet", ["Anna"])]
+    failed = m.told(
+        fault_of("The step “{step}” did not work: {reason}", step="greet", reason="No.")
+    )
+    told = [
+        line
+        for event, step, more in (
+            ("plan_made", 0, {}),
+            ("plan_step", 2, {}),
+            ("plan_step", 9, {}),  # another program may tell of steps that are not there
+            ("plan_step_failed", 2, failed),
+            ("plan_done", 0, {}),
+        )
+        for line in Timeline(language).lines(
+            m.ProgramState(program="p", event=event, rule="joy", plan=plan, step=step, **more)
+        )
+    ]
+    empty = Timeline(language).lines(m.ProgramState(program="p", event="plan_made", rule="joy"))
+
+    assert [words for _, words in told] == [
+        "plans to reach “joy”: go to hall 2, greet Anna",
+        "step 2 of 2: greet Anna",
+        "step 2 of 2: greet Anna",
+        "The step “greet” did not work: No.",
+        "has followed its plan to “joy”",
+    ]
+    assert [words for _, words in empty] == ["need not plan: “joy” is true already"]

@@ -21,6 +21,15 @@ CASES = {
     'names = ["a", "b"]\nnames[int(9.0) - 1] = 1': (
         "The list “names” has 2 items, and item 9 was asked for."
     ),
+    'from nep_core import Variables\nprogram = Variables(my_names=["a"])\nprogram.my_names[4]': (
+        "The list “my names” has 1 items, and item 5 was asked for."
+    ),
+    "from nep_core import Variables\nprogram = Variables(n=1)\nprogram.n += 'a'": (
+        'This cannot be worked out: 1 + "a". On the left is a number, on the right a text.'
+    ),
+    "from nep_core import Variables\nprogram = Variables(n=1)\nprogram.m + 1": (
+        'Something called "m" was used before it had a value.'
+    ),
     'names = ["a"]\ndel names[4]': "The list “names” has 1 items, and item 5 was asked for.",
     'names = ["a"]\nnames.pop(4)': "The list “names” has 1 items, and item 5 was asked for.",
     'names = ["a"]\nnames[-3]': (

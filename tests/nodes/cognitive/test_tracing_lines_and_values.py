@@ -140,6 +140,35 @@ def test_a_quick_loop_is_told_30_times_a_second_at_most(follow: Follow) -> None:
     heard.value("total", str(sum(range(400_000)) - 400_000))
 
 
+def test_variables_of_the_program_and_of_functions_are_told(follow: Follow) -> None:
+    program = follow("""
+        from nep_core import Variables
+        from nep_core.program.tasks import wait
+
+        program = Variables(score=1, names=[])
+
+        def ended(given):
+            best = 3
+
+        def rule():
+            best = 2
+            n = 5
+            program.score += 4
+            program.names.append("Ada")
+            wait(600)
+
+        ended(9)
+        rule()
+        """)
+
+    heard = program.start()
+
+    held = dict[str, str]()
+    wanted = {"program.score": "5", "program.names": '["Ada"]', "n": "5", "best": "2"}
+    heard.until(lambda state: held.update(state.values) or wanted.items() <= held.items())
+    assert "given" not in held
+
+
 def test_only_values_that_have_changed_are_told(follow: Follow) -> None:
     program = follow("""
         from nep_core.program.tasks import wait

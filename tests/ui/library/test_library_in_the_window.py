@@ -13,8 +13,10 @@ from pytestqt.qtbot import QtBot
 from nep_studio.blocks.edits.content import SetField
 from nep_studio.blocks.operations.packing import packed
 from nep_studio.blocks.packs import ENDING, About
-from nep_studio.blocks.procedures import CALL, DEFINE, header_of
+from nep_studio.blocks.places import InStack
+from nep_studio.blocks.procedures import CALL, DEFINE, header_of, title
 from nep_studio.project.library import Library, read_pack, write_pack
+from nep_studio.run.gate import concerns_of
 from nep_studio.ui.canvas.editing.menu import menu_for
 from nep_studio.ui.plugins.library.dialog import ShareDialog
 from nep_studio.ui.shell.main_window import MainWindow
@@ -279,6 +281,28 @@ def test_without_own_blocks_nothing_is_shared(window: MainWindow, qtbot: QtBot) 
 # Take in, and update
 
 
+@pytest.mark.strangers
+def test_python_of_a_pack_stays_a_strangers(mine: MainWindow, tmp_path: Path) -> None:
+    editor = mine.files.document.editor
+    header_stack = editor.project.stack_of(header(mine))
+    add(editor, B("code.lines", {"code": "import shutil"}), InStack(header_stack.id, 1))
+    path = file_of(mine, tmp_path / "waving.nepblocks")
+    begin_another(mine)  # what was typed is the person's: the pack of somebody else is read here
+    path.write_bytes(path.read_bytes().replace(b"import shutil", b"import ctypes"))
+    mine.files.open(path)
+    assert "Python" in mine.message_area.cards[-1].message.sentence
+    palette = palette_of(mine)
+    palette.fill()
+
+    palette.use(next(one for one in palette.shelf.entries if palette.shelf.pack_of(one)))
+    document = mine.files.document
+    document.save(tmp_path / "mine.nep")
+
+    concerns = concerns_of(document.project, document.editor.language, tmp_path)
+    assert [one.text for one in concerns] == ["import ctypes"]
+    assert mine.services.runner.gate.unapproved(concerns) == concerns
+
+
 def file_of(window: MainWindow, path: Path, version: int = 1, says: str = "") -> Path:
     """A pack of the own block of the window's project, as somebody else would send it."""
     editor = window.files.document.editor
@@ -360,3 +384,35 @@ def test_a_newer_version_is_offered_and_never_taken_by_itself(
 def said(window: MainWindow) -> list[object]:
     blocks = window.files.document.project.blocks.values()
     return [block.fields.get("text") for block in blocks if block.type == "robot.say"]
+
+
+def test_a_block_whose_places_are_others_now_is_told_and_shown(
+    mine: MainWindow, tmp_path: Path
+) -> None:
+    first = file_of(mine, tmp_path / "1.nepblocks")
+    editor, own = mine.files.document.editor, own_of(mine)
+    name = editor.new_parameter("name", "text")
+    editor.change_procedure(own, ["wave", "to", name], gives_value=False)
+    second = file_of(mine, tmp_path / "2.nepblocks", 2)
+    begin_another(mine)
+    mine.files.open(first)
+    palette = palette_of(mine)
+    palette.fill()
+    palette.use(next(one for one in palette.shelf.entries if palette.shelf.pack_of(one)))
+    mine.files.open(second)
+    card = next(c for c in mine.message_area.cards if "uses version 1" in c.message.title)
+
+    card.message.answers[0].do()
+
+    project = mine.files.document.project
+    call = next(b.id for b in project.blocks.values() if b.type == CALL + own_of(mine))
+    done = mine.message_area.cards[-1].message
+    assert done.kind == "warning"
+    assert done.checklist == (
+        "1 block that uses them has other places now: look at what is in them.",
+    )
+    mine.workbench.canvas.selection.clear()
+    done.answers[0].do()
+    assert list(mine.workbench.canvas.selection.ids) == [call]
+    done.answers[1].do()
+    assert title(project.procedures[own_of(mine)]) == "wave (times)"

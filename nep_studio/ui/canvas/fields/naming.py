@@ -6,15 +6,19 @@ from collections.abc import Callable
 
 from nep_studio.blocks.deployment import robot_entries
 from nep_studio.blocks.edits.content import SetField
-from nep_studio.blocks.edits.project import RemoveVariable, RenameVariable
+from nep_studio.blocks.edits.project import RemoveVariable, RenameVariable, SetScope
 from nep_studio.blocks.errors import EditRefused
 from nep_studio.blocks.operations.finding import why_not_robot_name
 from nep_studio.blocks.places import InStack, variable_uses
-from nep_studio.blocks.program import ALL_ROBOTS, ROBOT_BLOCK
+from nep_studio.blocks.program import ALL_ROBOTS, ROBOT_BLOCK, SCOPE_KEPT, SCOPE_PROGRAM
 from nep_studio.ui.words import count_words, tr
 
 from .choice import ChoicePopup, Option
 from .popup import Question
+
+ICONS = {SCOPE_PROGRAM: "layers", SCOPE_KEPT: "save"}
+"""The signs of variables that have another scope than the usual one."""
+_SCOPE = "scope:"
 
 
 class VariablePopup(ChoicePopup):
@@ -23,7 +27,7 @@ class VariablePopup(ChoicePopup):
     def options(self) -> list[Option]:
         """The variables of the project."""
         variables = self._editors.canvas.editor.project.variables
-        return [Option(variable.name, variable.id, "variable") for variable in variables]
+        return [Option(one.name, one.id, ICONS.get(one.scope, "variable")) for one in variables]
 
     def more_rows(self) -> list[Option]:
         """Make, rename, delete."""
@@ -32,10 +36,29 @@ class VariablePopup(ChoicePopup):
             named = {"name": self._name}
             rows.append(Option(tr("rename “{name}”…", **named), icon="pencil", action="rename"))
             rows.append(Option(tr("delete “{name}”…", **named), icon="trash-2", action="delete"))
+            rows += self._scopes()
         return rows
 
+    def _scopes(self) -> list[Option]:
+        """Where the chosen variable is known: a sign stands at what holds now."""
+        variable = self._editors.canvas.editor.project.variable(str(self.edit.value))
+        now = variable.scope if variable is not None and variable.scope in ICONS else ""
+        words = {
+            "": tr("only where it is set first (usual)"),
+            SCOPE_PROGRAM: tr("for the whole program"),
+            SCOPE_KEPT: tr("kept for the next run"),
+        }
+        return [
+            Option(text, icon="check" if scope == now else "", action=f"{_SCOPE}{scope}")
+            for scope, text in words.items()
+        ]
+
     def act(self, action: str) -> None:
-        """Ask for the name, or whether to delete."""
+        """Ask for the name, or whether to delete; or say where the variable is known."""
+        if action.startswith(_SCOPE):
+            edit = SetScope(str(self.edit.value), action.removeprefix(_SCOPE))
+            self._close_after(lambda: self._editors.canvas.editor.apply(edit))
+            return
         if action == "delete":
             self.ask(self._delete_question())
             return

@@ -25,7 +25,6 @@ if TYPE_CHECKING:
     from nep_studio.project.library import Library
     from nep_studio.ui.canvas.host import CanvasHost
 
-    from .dialog import ShareDialog
 
 Done = TypeVar("Done")
 
@@ -68,7 +67,6 @@ class LibraryKit(QObject):
         self._messages = host.services.messages
         self._told: dict[str, Message] = {}
         """What was told of the project that is open, by pack."""
-        self.dialog: ShareDialog | None = None
         self._soon = QTimer(self, singleShot=True, interval=0)
         """What is told of another project comes when what was told of the last one has gone."""
         self._soon.timeout.connect(self._look)
@@ -146,7 +144,6 @@ class LibraryKit(QObject):
         )
         dialog.shared.connect(self._on_shared)
         services.studio.words_changed.connect(dialog.reject)  # it speaks the one before
-        self.dialog = dialog
         dialog.open()
 
     def _on_shared(self, pack: Pack, path: Path) -> None:
@@ -168,10 +165,12 @@ class LibraryKit(QObject):
         if pack is None:
             return
         self._show_library()
+        is_open = self._host.services.document is not None
         show = Answer(tr("Show them"), self._open_drawer, "primary")
         title = tr("“{title}” is in your library", title=pack.title)
         told = " ".join(told_of(pack, self._host))
-        self._messages.tell(Message("success", title, told, answers=(show,), outlives_project=True))
+        answers = (show,) if is_open else ()
+        self._messages.tell(Message("success", title, told, answers=answers, outlives_project=True))
         self._look()
 
     def _show_library(self) -> None:

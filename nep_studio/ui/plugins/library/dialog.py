@@ -48,18 +48,19 @@ class BlockForm(QGroupBox):
         super().__init__()
         self.help = QPlainTextEdit(tabChangesFocus=True)
         self.help.setPlaceholderText(tr("What it does, for who finds it in the palette"))
-        self.help.setFixedHeight(self.fontMetrics().height() * 4)
+        self.help.setMinimumHeight(self.fontMetrics().height() * 4)
         self.lines: dict[str, QLineEdit] = {}
         form = QFormLayout()
         form.setVerticalSpacing(self.fontMetrics().height() // 3)
-        form.addRow(label_of("What it does", self.help), self.help)
         names = available_languages()
-        for code in LANGUAGES[1:]:
+        for code in LANGUAGES:
             line = self.lines[code] = QLineEdit()
             line.setAccessibleName(names.get(code, code))
             form.addRow(QLabel(names.get(code, code)), line)
-        self.note = hint("Its words in other languages can stay empty. Values stand in braces.")
-        in_column(form, self.note, of=self)
+        self.note = hint("Its sentence in other languages can stay empty. Values stand in braces.")
+        in_column(
+            label_of("What this block does", self.help), (self.help, 1), form, self.note, of=self
+        )
 
     def show_block(self, procedure: Procedure) -> None:
         """Show what is known of a block."""
@@ -147,13 +148,10 @@ class ShareDialog(QDialog):
 
     def _arrange(self) -> None:
         about = QFormLayout()
-        for words, field in (
-            ("Share as", self.which),
-            ("Title", self.name),
-            ("Author", self.author),
-            ("Licence", self.licence),
-        ):
-            about.addRow(label_of(words, field), field)
+        about.addRow(label_of("Share as", self.which), self.which)
+        about.addRow(label_of("Title", self.name), self.name)
+        about.addRow(label_of("Author", self.author), self.author)
+        about.addRow(label_of("Licence", self.licence), self.licence)
         standard = QDialogButtonBox.StandardButton
         self.buttons = QDialogButtonBox(standard.Save | standard.Cancel)
         self.buttons.button(standard.Save).setText(tr("Share…"))
@@ -162,9 +160,9 @@ class ShareDialog(QDialog):
         self.buttons.rejected.connect(self.reject)
         what = hint("Blocks that these need come along by themselves.")
         left = in_column((self.list, 1), what)
-        right = in_column(about, self.form, 1)
+        right = in_column(about, (self.form, 1))
         in_column((in_row((left, 2), (right, 3)), 1), self.reason, self.buttons, of=self)
-        fit_on_screen(self, 46, 30)
+        fit_on_screen(self, 48, 36)
 
     def _show(self, item: QListWidgetItem | None) -> None:
         self._take_told()

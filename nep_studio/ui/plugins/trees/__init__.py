@@ -38,7 +38,8 @@ def import_file(host: Host, path: Path) -> bool:
             root = read_elements(file.read(LARGEST + 1))
         made = import_trees(document.editor, root, shown if is_behaviour else "behaviour")
     except OSError as error:
-        _tell_disk(host, tr("The file could not be read"), error)
+        title, steps = tr("The file could not be read"), (tr("Choose another file."),)
+        _tell_disk(host, title, steps, error)
         return False
     except BlocksError as error:
         messages.tell_error(error)
@@ -71,7 +72,8 @@ def export_file(host: Host, path: Path) -> bool:
         with whole_file(path) as file:
             file.write(made.text.encode())
     except OSError as error:
-        _tell_disk(host, tr("The file could not be written"), error)
+        steps = (tr("Is there room on the disk?"), tr("Choose another folder."))
+        _tell_disk(host, tr("The file could not be written"), steps, error)
         return False
     except BlocksError as error:
         host.services.messages.tell_error(error)
@@ -94,9 +96,9 @@ def _tell_done(host: Host, words: str, told: tuple[Text, ...]) -> None:
     host.services.messages.tell(Message("warning", words, sentence, steps))
 
 
-def _tell_disk(host: Host, title: str, error: OSError) -> None:
+def _tell_disk(host: Host, title: str, steps: tuple[str, ...], error: OSError) -> None:
     sentence = tr("The computer says: {reason}.", reason=tr(reason_of(error)))
-    host.services.messages.tell(Message("error", title, sentence, (), str(error)))
+    host.services.messages.tell(Message("error", title, sentence, steps, str(error)))
 
 
 def make(host: Host) -> Parts:

@@ -202,6 +202,26 @@ def test_a_variable_is_renamed_everywhere(controller_of) -> None:
     assert desk.new_steps() == 1
 
 
+def test_the_menu_of_a_variable_says_where_it_is_known(controller_of) -> None:
+    desk = controller_of("variable.set", variable="v1")
+    variable = desk.editor.project.variables[0]
+
+    for words, scope in (
+        ("for the whole program", "program"),
+        ("kept for the next run", "kept"),
+        ("only where it is set first (usual)", ""),
+    ):
+        desk.click("variable")
+        rows = {option.label: option.icon for option in desk.widget.more_rows()}
+        assert rows[words] == "" and list(rows.values()).count("check") == 1
+        choose(desk.widget, words)
+        assert variable.scope == scope
+
+    assert desk.new_steps() == 3
+    desk.editor.history.undo()
+    assert variable.scope == "kept"
+
+
 def test_deleting_a_variable_first_says_who_uses_it(controller_of) -> None:
     desk = controller_of("variable.set", variable="v1")
 
