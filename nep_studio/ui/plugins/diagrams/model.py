@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Literal
 
 from nep_studio.blocks.language import Language
@@ -94,7 +95,7 @@ class Diagram:
         """Tells it from all others, also when others come and go."""
         return self.kind, self.key
 
-    @property
+    @cached_property
     def keys(self) -> dict[str, Key]:
         """Where on the diagram each block is."""
         found: dict[str, Key] = {i.block: ("box", i.key) for i in self.items if not i.is_plain}

@@ -10,7 +10,6 @@ from PySide6.QtCore import QPoint, Qt
 from PySide6.QtGui import QGuiApplication, QHideEvent, QShowEvent
 from PySide6.QtWidgets import QComboBox, QMenu, QPushButton, QStackedWidget, QToolButton, QWidget
 
-from faults import reason_of
 from faults.files import as_file_name, whole_file
 from nep_studio.blocks.program import Project
 from nep_studio.ui.edits import OpenProject
@@ -344,7 +343,8 @@ class DiagramPage(QWidget):
             with whole_file(path) as file:
                 file.write(data)
         except OSError as error:
-            tell_not_saved(self._services.messages, str(path), reason_of(error))
+            why = error.strerror or str(error)
+            tell_not_saved(self._services.messages, str(path), why)
             return
         self._services.messages.confirm(tr("Saved “{name}”.", name=path.name))
 

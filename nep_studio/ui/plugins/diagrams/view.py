@@ -128,10 +128,13 @@ class DiagramView(DrawingBoard[Key]):
         """What is at a place; an arrow also when its line is there."""
         if (found := super().item_at(place)) is not None:
             return found
-        stroker = QPainterPathStroker()
-        stroker.setWidth(2 * NEAR * self.line)
+        stroker, near = QPainterPathStroker(), NEAR * self.line
+        stroker.setWidth(2 * near)
         for key, arrow in self.shapes.arrows.items():
-            if arrow.line.words and stroker.createStroke(arrow.path).contains(place):
+            around = arrow.path.boundingRect().adjusted(-near, -near, near, near)
+            if not arrow.line.words or not around.contains(place):
+                continue
+            if stroker.createStroke(arrow.path).contains(place):
                 return "arrow", key
         return None
 
