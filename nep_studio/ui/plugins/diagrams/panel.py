@@ -6,7 +6,7 @@ from collections.abc import Callable
 from functools import partial
 from pathlib import Path
 
-from PySide6.QtCore import QPoint, Qt
+from PySide6.QtCore import QPoint, QSize, Qt
 from PySide6.QtGui import QGuiApplication, QHideEvent, QShowEvent
 from PySide6.QtWidgets import QComboBox, QMenu, QPushButton, QStackedWidget, QToolButton, QWidget
 
@@ -365,6 +365,8 @@ class DiagramPage(QWidget):
         }
         for button, name in icons.items():
             button.setIcon(icon(name, self._services.look.theme))
+        side = self.fontMetrics().height()
+        self.choice.setIconSize(QSize(side, side))
 
 
 class _Empty(QWidget):

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
-from PySide6.QtCore import QPointF, QRectF, QSize, Qt, Signal
+from PySide6.QtCore import QPointF, QRect, QRectF, QSize, Qt, Signal
 from PySide6.QtGui import (
     QContextMenuEvent,
     QKeyEvent,
@@ -19,6 +19,7 @@ from nep_studio.blocks.states import ANY
 from nep_studio.ui.labels import labelled
 from nep_studio.ui.widgets.drawing_board import ARROWS, DrawingBoard, next_to
 from nep_studio.ui.words import count_words, is_right_to_left, tr
+from nep_studio.ui.workbench.palette.accessible_list import make_list_accessible, tell_current
 
 from .model import Diagram, Item, Key
 from .painting import DiagramPainter, Marks
@@ -56,6 +57,8 @@ class DiagramView(DrawingBoard[Key]):
         self._from: str | None = None
         """The state from which an arrow is being drawn."""
         self._new_arrow: tuple[QPointF, QPointF] | None = None
+        self.accessible: object = None
+        make_list_accessible(self, self)
         labelled(
             self,
             name="Diagram",
@@ -159,6 +162,12 @@ class DiagramView(DrawingBoard[Key]):
         assert item is not None
         return "\n".join(filter(None, (item.title, item.small, *self._remarks(item))))
 
+    def select(self, key: Key | None, *, is_told: bool = True) -> None:
+        """Choose something; a screen reader hears which item it is."""
+        super().select(key, is_told=False)
+        if is_told:
+            tell_current(self)
+
     def draw(self, painter: QPainter, view: QRectF) -> None:
         """Draw the diagram."""
         marks = Marks(
@@ -196,6 +205,28 @@ class DiagramView(DrawingBoard[Key]):
         elif status:
             found.append(tr("succeeded") if status == "succeeded" else tr("failed"))
         return found
+
+    # As a list, for screen readers
+
+    def item_count(self) -> int:
+        """How many boxes and arrows there are."""
+        return len(self.shapes.rects)
+
+    def item_text(self, number: int) -> str:
+        """What a box or an arrow is."""
+        return self.words_of(list(self.shapes.rects)[number]).replace("\n", ", ")
+
+    def item_rect(self, number: int) -> QRect:
+        """Where it is on the screen."""
+        rect = list(self.shapes.rects.values())[number]
+        corner = self.in_widget(rect.topLeft())
+        inside = QRectF(corner, rect.size() * self.scale).toAlignedRect()
+        return QRect(self.mapToGlobal(inside.topLeft()), inside.size())
+
+    def current_item(self) -> int:
+        """The one that the keyboard is at, or -1."""
+        keys = list(self.shapes.rects)
+        return keys.index(self.selected) if self.selected in keys else -1
 
     # New arrows
 

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 from PySide6.QtCore import QPoint, QRectF, Qt
-from PySide6.QtGui import QGuiApplication, QImage
+from PySide6.QtGui import QAccessible, QGuiApplication, QImage
 from PySide6.QtWidgets import QLineEdit
 from pytestqt.qtbot import QtBot
 
@@ -138,6 +138,23 @@ def test_the_arrow_keys_go_from_box_to_box_and_with_shift_to_arrows(
     assert (first, second) == (("box", "waiting"), ("box", "talking"))
     assert third is not None and third[0] == "arrow"
     assert window.workbench.canvas.selection.cursor == third[1]
+
+
+def test_a_screen_reader_finds_all_boxes_and_arrows(visit: DiagramPage, qtbot: QtBot) -> None:
+    found = QAccessible.queryAccessibleInterface(visit.view)
+    visit.view.select(("box", "talking"))
+
+    said = [found.child(n).text(QAccessible.Text.Name) for n in range(found.childCount())]
+    chosen = found.focusChild()
+
+    assert found.text(QAccessible.Text.Name) == "Diagram"
+    assert "waiting, NAO says Hello with no gesture, The program begins here." in said
+    assert "arrow from talking to waiting, after 30 s" in said
+    assert len(said) == 8
+    assert chosen.text(QAccessible.Text.Name) == "talking"
+    middle = visit.view.mapToGlobal(visit.view.place_of(("box", "talking")).toPoint())
+    assert chosen.rect().contains(middle)
+    assert found.childAt(middle.x(), middle.y()).text(QAccessible.Text.Name) == "talking"
 
 
 def test_drawing_an_arrow_from_box_to_box_makes_its_block(
