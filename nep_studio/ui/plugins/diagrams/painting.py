@@ -53,14 +53,14 @@ class DiagramPainter:
         for arrow in arrows:
             if arrow.label.intersects(view):
                 self._draw_label(arrow, marks)
+        if marks.new_arrow is not None:
+            self._painter.setPen(QPen(self._theme.colour("accent"), self._line * 0.14))
+            self._painter.drawLine(*marks.new_arrow)
         for key, box in shapes.boxes.items():
             if box.whole.adjusted(-self._line, -self._line, self._line, self._line).intersects(
                 view
             ):
                 self._draw_box(key, box, marks)
-        if marks.new_arrow is not None:
-            self._painter.setPen(QPen(self._theme.colour("accent"), self._line * 0.14))
-            self._painter.drawLine(*marks.new_arrow)
 
     # Lines
 
@@ -107,6 +107,8 @@ class DiagramPainter:
         status = marks.statuses.get(key, "")
         is_chosen = ("box", key) in (marks.selected, marks.hovered) or marks.target == key
         fill, line, text = self._colours(box.item)
+        if marks.target == key:
+            line = self._theme.colour("accent")
         pen = QPen(line, self._line * (0.18 if is_chosen else 0.1))
         if not box.item.is_reached or box.item.shape == "any":
             pen.setDashPattern([3.0, 2.0])

@@ -42,6 +42,7 @@ class DiagramPage(QWidget):
         self._diagrams: tuple[Diagram, ...] = ()
         self._folded: frozenset[str] = frozenset()
         self._project: Project | None = None
+        self._is_watching = False
         self.view = DiagramView(self._services.look)
         self.choice = labelled(QComboBox(), name="Diagram")
         self.state_button = _tool("New state…")
@@ -140,16 +141,20 @@ class DiagramPage(QWidget):
     def showEvent(self, event: QShowEvent) -> None:
         """Follow the program."""
         super().showEvent(event)
-        self._services.runner.arrived.connect(self._show_run)
-        self._services.runner.state_changed.connect(self._show_run)
+        if not self._is_watching:
+            self._is_watching = True
+            self._services.runner.arrived.connect(self._show_run)
+            self._services.runner.state_changed.connect(self._show_run)
         self.refresh()
         self._on_selection_changed()
 
     def hideEvent(self, event: QHideEvent) -> None:
         """Look at nothing."""
         super().hideEvent(event)
-        self._services.runner.arrived.disconnect(self._show_run)
-        self._services.runner.state_changed.disconnect(self._show_run)
+        if self._is_watching:
+            self._is_watching = False
+            self._services.runner.arrived.disconnect(self._show_run)
+            self._services.runner.state_changed.disconnect(self._show_run)
 
     def _show_run(self) -> None:
         """Show where the program is; it is asked at most as often as messages are told of."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from pathlib import Path
 
 import pytest
@@ -15,6 +16,7 @@ from nep_core.wire.messages import ProgramState
 from nep_studio.blocks.files import to_bytes
 from nep_studio.ui.canvas.fields.popup import Question
 from nep_studio.ui.plugins.diagrams.panel import DiagramPage
+from nep_studio.ui.plugins.diagrams.shapes import Measures, shapes_of
 from nep_studio.ui.shell.main_window import MainWindow
 from nep_studio.ui.words import use_language
 from tests.blocks.block_building import B
@@ -138,6 +140,21 @@ def test_the_arrow_keys_go_from_box_to_box_and_with_shift_to_arrows(
     assert (first, second) == (("box", "waiting"), ("box", "talking"))
     assert third is not None and third[0] == "arrow"
     assert window.workbench.canvas.selection.cursor == third[1]
+
+
+@pytest.mark.parametrize("is_mirrored", [False, True])
+def test_nothing_lies_on_something_else_from_either_side(
+    visit: DiagramPage, is_mirrored: bool
+) -> None:
+    measures = Measures(visit.view.font())
+
+    shapes = shapes_of(visit.view.diagram, measures, is_mirrored=is_mirrored)
+
+    rects = list(shapes.rects.values())
+    assert [(a, b) for a, b in itertools.combinations(rects, 2) if a.intersects(b)] == []
+    [(dot, _, _)] = shapes.dots
+    first = shapes.boxes["waiting"].rect
+    assert (dot.x() > first.right()) if is_mirrored else (dot.x() < first.left())
 
 
 def test_a_screen_reader_finds_all_boxes_and_arrows(visit: DiagramPage, qtbot: QtBot) -> None:
