@@ -85,6 +85,8 @@ class Interpreter:
         """The rules that run because of a message, each with what came with it."""
         self.wrong: list[str] = []
         """What went wrong, where something else is done instead."""
+        self._own: list[dict[str, Value]] = []
+        """The variables of the run of this rule, and of the calls that it is in."""
         self._locals = self._variables_of_stacks()
         self.variables: dict[str, Value] = {v.id: self._first(v.id) for v in project.variables}
 
@@ -210,10 +212,10 @@ class Interpreter:
         inside = [b for chain in block.bodies.values() for b in chain]
         within = list(self.project.within(inside, enabled=True))
         is_inside = any(b.fields.get("variable") == variable for b in within)
-        if is_inside and block.type in ("control.together", "goal.one_of", "goal.in_turn"):
+        if is_inside and block.type in _SIDE_BY_SIDE_OR_BY_TURNS:
             raise Wrong("used in parts")
-        is_if = block.type in ("control.if", "robot_speech.ask")
-        inner = state if is_if else min(state, BEFORE)
+        is_once = block.type in ("control.if", "control.try", "robot_speech.ask")
+        inner = state if is_once else min(state, BEFORE)
         if is_it and block.type in ("control.count", "control.for_each"):
             inner = HERE
         ends = [self._sets(c, variable, inner) for c in block.bodies.values()]
@@ -342,7 +344,7 @@ class Interpreter:
     def _do_rule(self, hat: str, body: list[str], value: Value) -> None:
         self._told.append((hat, value))
         around = self._own, self._parameters, self.wrong
-        self._own, self._parameters, self.wrong = [], [], []
+        self._own, self._parameters, self.wrong = [self._begun(hat)], [], []
         try:
             self._chain(body)
         except (Wrong, RuleEnded):
@@ -401,6 +403,7 @@ _AS_KIND: dict[str, Callable[[Value], Value]] = {
     "table": table,
     "any": lambda value: value,
 }
+_SIDE_BY_SIDE_OR_BY_TURNS = ("control.together", "goal.one_of", "goal.in_turn", "tree.step")
 _AS_IT_IS = ("text.length", "text.is_empty")
 """Blocks that take any value for what it is, in a place for a text."""
 
