@@ -16,6 +16,7 @@ from .model import Item, Key
 from .shapes import DOT, Arrow, Box, Measures, Shapes, Words
 
 STATUS_ICONS = {"running": "circle-play", "succeeded": "circle-check", "failed": "octagon-x"}
+FALLBACK = "?"
 STATES, TREES = "states", "trees"
 """The colours of the blocks."""
 
@@ -189,7 +190,7 @@ class DiagramPainter:
             font.setPointSizeF(font.pointSizeF() * 1.4)
             self._painter.setFont(font)
             self._painter.setPen(colour)
-            self._painter.drawText(rect, Qt.AlignmentFlag.AlignCenter, "?")
+            self._painter.drawText(rect, Qt.AlignmentFlag.AlignCenter, FALLBACK)
             return
         unit, middle = self._line, rect.center()
         pen = QPen(colour, unit * 0.13)

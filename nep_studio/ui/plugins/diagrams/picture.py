@@ -5,12 +5,13 @@ from __future__ import annotations
 import math
 
 from PySide6.QtCore import QBuffer, QIODevice, QRectF, QSize, Qt
-from PySide6.QtGui import QFont, QImage, QPainter
+from PySide6.QtGui import QFont, QFontMetricsF, QImage, QPainter
 from PySide6.QtSvg import QSvgGenerator
 
+from nep_studio.project.picture_files import fitted
 from nep_studio.ui.theme.colours import Theme
 
-from .painting import DiagramPainter, Marks
+from .painting import FALLBACK, DiagramPainter, Marks
 from .shapes import Measures, Shapes
 
 SCALE = 2.0
@@ -57,7 +58,14 @@ def svg_of(shapes: Shapes, theme: Theme, font: QFont, title: str) -> bytes:
     generator.setViewBox(QRectF(0, 0, bounds.width(), bounds.height()))
     with QPainter(generator) as painter:
         _draw(painter, shapes, theme, measures, bounds)
-    return bytes(buffer.data().data())
+    fonts = {int(font.weight()): font for font in (measures.small, measures.bold)}
+
+    def width_of(words: str, weight: int) -> float | None:
+        is_sign = words == FALLBACK  # it is larger
+        known = None if is_sign else fonts.get(weight)
+        return None if known is None else QFontMetricsF(known).horizontalAdvance(words)
+
+    return fitted(bytes(buffer.data().data()), width_of)
 
 
 def _bounds(shapes: Shapes, measures: Measures) -> QRectF:
