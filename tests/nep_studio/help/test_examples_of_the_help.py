@@ -139,3 +139,22 @@ def test_mouths_are_filled_in_the_order_of_the_lines():
     assert first.bodies[""][1].bodies[""][0].values == {"text": "b"}
     assert first.bodies["otherwise_do.1"][0].values == {"text": "c"}
     assert last.values == {"text": "d"}
+
+
+def test_words_without_a_place_and_kept_variables_are_written_down():
+    example = Example(
+        "x",
+        (),
+        'kept "best"\n'
+        "event.started\n"
+        'event.tell message="dance" wait=true\n'
+        'variable.set variable="best" value=1\n'
+        'variable.set variable="other" value=2\n',
+    )
+
+    project = example.project(LANGUAGE, "en", "x")
+
+    code = generate_program(project, LANGUAGE.of(project)).text
+    assert 'tell("dance", wait=True)' in code
+    assert "kept.best = 1" in code
+    assert "other = 2" in code and "kept.other" not in code
