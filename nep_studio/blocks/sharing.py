@@ -127,12 +127,18 @@ def variables_set(project: Project, language: Language, block: Block) -> Iterato
     """The variables into which a block puts something, or into whose lists or tables."""
     definition = language.definitions[block.type]
     if block.type in CHANGING_LISTS | CHANGING_TABLES:
-        slot = LIST_SLOT if block.type in CHANGING_LISTS else TABLE_SLOT
-        held = _held(project, block, slot)
+        held = changed_in(project, block)
         if held is not None and held.type == VARIABLE:
             yield str(held.fields.get("variable", ""))
     elif not definition.is_value and "variable" in definition.slots:
         yield str(block.fields.get("variable", ""))
+
+
+def changed_in(project: Project, block: Block) -> Block | None:
+    """The block that gives the list or table that a block changes, or None."""
+    if block.type in CHANGING_LISTS:
+        return _held(project, block)
+    return _held(project, block, TABLE_SLOT) if block.type in CHANGING_TABLES else None
 
 
 def _held(project: Project, block: Block, slot: str = LIST_SLOT) -> Block | None:
