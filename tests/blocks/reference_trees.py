@@ -8,7 +8,8 @@ from __future__ import annotations
 
 from collections.abc import Generator, Sequence
 
-from reference_interpreter import REPORTERS, STATEMENTS, Interpreter
+from reference_interpreter import STATEMENTS, Interpreter
+from reference_reporters import REPORTERS
 from reference_values import MOST_STEPS, GivenUp, Value, Wrong, is_yes, rounded
 
 from nep_studio.blocks.language import Language
