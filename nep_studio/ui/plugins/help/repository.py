@@ -516,7 +516,7 @@ def _shown(example: str) -> str:
     """The picture of an example in a page, to be dragged out, and a link to do more with it."""
     picture = f'<a href="{DRAG}{example}"><img src="{EXAMPLE}{example}"></a>'
     words = escape(tr("Put it on the page, or try it"))
-    return f'<p>{picture}<br><a href="{CHOOSE}{example}">{words}</a></p>'
+    return f'<p>{picture}</p><p><a href="{CHOOSE}{example}">{words}</a></p>'
 
 
 def _errors_html() -> str:
