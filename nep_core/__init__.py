@@ -101,7 +101,9 @@ if TYPE_CHECKING:
         as_list,
         as_number,
         as_text,
+        count_down,
         count_from,
+        count_up,
         deviation_of,
         has_item,
         has_part,
@@ -165,7 +167,8 @@ _HOMES = {
         "program.tree": "Check CoolDown Delay Fallback ForceFailure ForceSuccess Input Invert "
         "Output Parallel Repeat Retry Sequence Step SubTree TimeLimit WhileTrue "
         "do_tree fail_step set_tree_value tree_value",
-        "program.values": "add_item append_text as_list as_number as_text count_from deviation_of "
+        "program.values": "add_item append_text as_list as_number as_text count_down count_from "
+        "count_up deviation_of "
         "has_item has_part insert_item is_at_least is_at_most is_less is_more "
         "is_same item_of items_between join_items largest_of length_of letter_of "
         "list_with mean_of median_of number_in parts_of place_in_text place_of "
@@ -181,12 +184,12 @@ __all__ = ["Behavior", "Broker", "BrokerNetwork", "Check", "CoolDown", "Delay", 
 __all__ += ["Fallback", "ForceFailure", "ForceSuccess", "Input", "Invert", "Kept", "Launcher"]
 __all__ += ["Master", "NepError", "Node", "Output", "Parallel", "PeerNetwork", "Publisher"]
 __all__ += ["Repeat", "Retry", "Robot", "Sequence", "Step", "SubTree", "Subscriber", "TimeLimit"]
-__all__ += ["Variables", "WhileTrue", "add_item", "append_text", "as_list", "as_number"]
-__all__ += ["as_robot", "as_table", "as_text", "at_once", "change_at", "colour_from"]
-__all__ += ["count_from", "date_today", "deviation_of", "do_tree", "emotion_state", "end_actions"]
-__all__ += ["fact", "fail_goal", "fail_step", "goal_value", "has_item", "has_key", "has_part"]
-__all__ += ["heard_word", "human_state", "in_turn", "insert_item", "is_at_least", "is_at_most"]
-__all__ += ["is_less", "is_more", "is_remembered", "is_same", "is_true", "item_of"]
+__all__ += ["Variables", "WhileTrue", "add_item", "append_text", "as_list", "as_number", "as_robot"]
+__all__ += ["as_table", "as_text", "at_once", "change_at", "colour_from", "count_down"]
+__all__ += ["count_from", "count_up", "date_today", "deviation_of", "do_tree", "emotion_state"]
+__all__ += ["end_actions", "fact", "fail_goal", "fail_step", "goal_value", "has_item", "has_key"]
+__all__ += ["has_part", "heard_word", "human_state", "in_turn", "insert_item", "is_at_least"]
+__all__ += ["is_at_most", "is_less", "is_more", "is_remembered", "is_same", "is_true", "item_of"]
 __all__ += ["items_between", "join_items", "largest_of", "length_of", "letter_of", "list_with"]
 __all__ += ["makes_true", "makes_untrue", "mean_of", "median_of", "mix_colours", "names_in"]
 __all__ += ["needs", "no_longer_true", "now_true", "number_in", "one_of", "parts_of"]
@@ -195,8 +198,8 @@ __all__ += ["remove_key", "replace_part", "set_at", "set_item", "set_priority", 
 __all__ += ["smallest_of", "sorted_items", "start_timer", "stop_program", "stop_rule", "sum_of"]
 __all__ += ["table_of", "take_item", "tell", "the_plan", "time_now", "time_part", "timer_seconds"]
 __all__ += ["times_seen", "title_case", "to_nearest", "to_power", "together", "told_value"]
-__all__ += ["tree_value", "true_while", "until_state", "value_at", "wait", "wait_until"]
-__all__ += ["was_seen", "weekday_today", "what_went_wrong"]
+__all__ += ["tree_value", "true_while", "until_state", "value_at", "wait", "wait_until", "was_seen"]
+__all__ += ["weekday_today", "what_went_wrong"]
 
 
 def __getattr__(name: str) -> Any:

@@ -40,6 +40,8 @@ SMALLEST_PLAIN = -6
 """The powers of ten between which a fraction is told without an exponent."""
 LARGEST_POWER_DIGITS = 1000
 """A longer whole number as a power is refused: it would take the computer's time and memory."""
+LARGEST_PLAIN_POWER = 3
+"""Squares and cubes are no larger than what is multiplied."""
 LONGEST = 40
 """Letters of a value in a sentence."""
 DEEPEST_LIST, MOST_LISTS = 100, 100_000
@@ -358,7 +360,7 @@ def to_power(number: Any, power: Any) -> Number:
     base, exponent = as_number(number), as_number(power)
     if base == 0 and exponent < 0:
         refuse("A number was divided by zero.", LOOK, TEST_ZERO, SHOW_VALUES)
-    if isinstance(base, int) and isinstance(exponent, int) and exponent > 0:
+    if isinstance(base, int) and isinstance(exponent, int) and exponent > LARGEST_PLAIN_POWER:
         digits_at_least = (base.bit_length() - 1) * exponent * math.log10(2)
         if digits_at_least > LARGEST_POWER_DIGITS:  # asked before it takes its time
             refuse(TOO_LARGE, STOP_GROWING, SHOW_VALUES)
@@ -372,7 +374,8 @@ def to_power(number: Any, power: Any) -> Number:
             LOOK,
             SHOW_VALUES,
         )
-    if isinstance(result, int) and abs(result) >= 10**LARGEST_POWER_DIGITS:
+    is_other = exponent > LARGEST_PLAIN_POWER
+    if is_other and isinstance(result, int) and abs(result) >= 10**LARGEST_POWER_DIGITS:
         refuse(TOO_LARGE, STOP_GROWING, SHOW_VALUES)
     return as_number(result)
 
@@ -399,6 +402,22 @@ def count_from(first: Any, last: Any, step: Any = 1) -> Iterable[Number]:
         return range(start, end + way, way * by)
     steps = math.floor(abs(end - start) / by + 1e-9)
     return (start + way * by * done for done in range(steps + 1))
+
+
+def count_up(first: Any, last: Any, step: Any = 1) -> Iterable[Number]:
+    """The numbers from one up to another, as count_from; none where that is below the first."""
+    return count_from(first, last, step) if as_number(first) <= as_number(last) else _none(step)
+
+
+def count_down(first: Any, last: Any, step: Any = 1) -> Iterable[Number]:
+    """The numbers from one down to another, as count_from; none where that is above the first."""
+    return count_from(first, last, step) if as_number(first) >= as_number(last) else _none(step)
+
+
+def _none(step: Any) -> Iterable[Number]:
+    """No numbers; raises ValueRefused for a step with which nobody counts."""
+    count_from(0, 0, step)
+    return ()
 
 
 _NUMBER = re.compile(r"\s*([+-]?(?:\d+[.,]?\d*|[.,]\d+)(?:[eE][+-]?\d+)?)\s*", re.ASCII)

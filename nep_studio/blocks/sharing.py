@@ -37,8 +37,8 @@ class Chain:
     """What the blocks of one chain do to variables and lists, and which own blocks they call.
 
     ``sets`` and ``calls`` have the paths of the blocks, by variable and by own block; ``python``
-    those of code blocks, by the names that they set. ``lists`` are the variables whose lists are
-    changed, ``any_list`` says that a list without a name is, or by written code.
+    those of code blocks, by the names that they set. ``lists`` are the variables whose lists or
+    tables are changed, ``any_list`` says that one without a name is, or by written code.
     """
 
     sets: Places = field(default_factory=dict)
@@ -54,7 +54,8 @@ class Chain:
 class Sharing:
     """What is known of all chains: ``shared`` variables are set by parts that run at once.
 
-    ``lists`` are the variables whose lists change while others may go through them (None: any),
+    ``lists`` are the variables whose lists or tables change while others may go through them (None:
+    any),
     ``slow`` the own blocks that take time.
     """
 
@@ -92,8 +93,8 @@ def look_at(project: Project, language: Language, chain: list[str]) -> Iterator[
         if "variable" in block.fields or block.type in CHANGING_LISTS | CHANGING_TABLES:
             for variable in variables_set(project, language, block):
                 sets[variable].add(path)
-        if block.type in CHANGING_LISTS:
-            held = _held(project, block)
+        if block.type in CHANGING_LISTS | CHANGING_TABLES:
+            held = changed_in(project, block)
             if held is not None and held.type == VARIABLE:
                 lists.add(str(held.fields.get("variable", "")))
             any_list |= held is not None and held.type != VARIABLE

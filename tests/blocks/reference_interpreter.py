@@ -491,6 +491,9 @@ def _count(run: Interpreter, block: Block) -> None:
     first, last, step = (number(run.slot(block, key)) for key in ("first", "last", "step"))
     if step == 0:
         raise Wrong("a step of 0")
+    way = block.fields.get("way", "either")
+    if (way == "up" and last < first) or (way == "down" and last > first):
+        return
     step = abs(step) if first <= last else -abs(step)
     rounds = (last - first) / step
     for n in range(math.floor(rounds + CLOSE) + 1):

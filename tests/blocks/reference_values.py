@@ -213,7 +213,7 @@ def _power(a: int | float, b: int | float) -> int | float:
     if a < 0 and b != math.floor(b):
         raise Wrong("no real number")
     if isinstance(a, int) and isinstance(b, int) and b >= 0:
-        if abs(a) > 1 and b * math.log10(abs(a)) >= 1000:
+        if b > 3 and abs(a) > 1 and b * math.log10(abs(a)) >= 1000:
             raise Wrong("too many digits")
         return a**b
     try:

@@ -18,13 +18,15 @@ from nep_studio.blocks.generate.source_map import Code
 from nep_studio.blocks.shared_objects import SHARED_OBJECTS
 
 from ..program import SCOPE_PROGRAM
+from .equal_forms import as_power, as_said, is_gone_through, told_by_robot
 from .joined import as_joined, told_in_braces
 from .learning import CodeUnread
-from .naming import functions_of, locals_of, names_made, stopped_in
+from .naming import functions_of, locals_of, names_made, note_anew, stopped_in
 from .outside import HEADERS, Part, is_frame
 from .reading import as_block
 from .scoping import is_beginning, with_shared_names
 from .source import Source, begin_of, end_of, read_source
+from .told_names import is_taken_over
 
 
 @dataclass(frozen=True, slots=True)
@@ -73,12 +75,15 @@ def lost_lines(
         raise CodeUnread(refused.sentence, 1, checklist=checklist) from refused
     made = _made_source(code)
     _require_own_names(source, parts)
+    if lines := _imports_needed(source, made):
+        return Lost(lines, generator.kinds())
     if names := _names_shared(editor, code, made, functions) - apart:
         return Lost(set(), generator.kinds(), apart=names)
     again = _functions_made(editor, code, made)
     both = [(there, again[stack]) for stack, there in functions.items() if stack in again]
     if lines := {there.lineno for there, other in both if not _require_same_scope(there, other)}:
         return Lost(lines, generator.kinds())
+    note_anew(source.tree, generator.kinds())
     lost, places = _lost_functions(editor, source, code, made, functions)
     around = _lost_around(source, made)
     places = places or _setting(source, around)
@@ -91,6 +96,22 @@ def lost_lines(
         if node.lineno in around and _may_begin(node) and not any(_same(node, m) for m in as_made)
     }
     return Lost(lines, generator.kinds(), places, around, begun=begun)
+
+
+def _imports_needed(source: Source, made: Source) -> set[int]:
+    """The lines that import what the program would, did Python in it not name it otherwise."""
+    named = {node.id for node in ast.walk(made.tree) if isinstance(node, ast.Name)}
+    named -= {name for node in made.tree.body for name in _imported(node)}
+    return {
+        begin_of(node)
+        for node in source.tree.body
+        if is_taken_over(node) and not named.isdisjoint(_imported(node))
+    }
+
+
+def _imported(node: ast.stmt) -> Iterator[str]:
+    if isinstance(node, ast.Import | ast.ImportFrom):
+        yield from (alias.asname or alias.name for alias in node.names)
 
 
 def _made_source(code: Code) -> Source:
@@ -452,10 +473,18 @@ def _same(one: object, other: object) -> bool:
     left = [(one, other)]
     while left:
         ours, theirs = map(_as_compared, left.pop())
+        if isinstance(ours, ast.BinOp) and isinstance(theirs, ast.JoinedStr):
+            ours = as_joined(ours, knows_texts=True)
+        if isinstance(ours, ast.BinOp) and isinstance(theirs, ast.Call):
+            ours = as_power(ours)
         if type(ours) is not type(theirs):
             return False
         if isinstance(ours, ast.FormattedValue) and isinstance(theirs, ast.FormattedValue):
             left += told_in_braces(ours, theirs)
+        elif isinstance(ours, ast.Call) and (told := told_by_robot(ours, theirs)):
+            left += told
+        elif isinstance(ours, ast.For) and is_gone_through(ours, theirs):
+            left += [(getattr(ours, n), getattr(theirs, n)) for n in ("target", "body", "orelse")]
         elif isinstance(ours, ast.AST):
             left += [(getattr(ours, n, None), getattr(theirs, n, None)) for n in ours._fields]
         elif isinstance(ours, list) and isinstance(theirs, list):
@@ -482,7 +511,7 @@ def _as_compared(node: object) -> object:
     """Other ways to write a block count as the block."""
     if isinstance(node, ast.With) or (isinstance(node, ast.For) and not _names_its_list(node)):
         return as_block(node)
-    return as_joined(node)
+    return as_said(node) if isinstance(node, ast.Call) else as_joined(node)
 
 
 def _names_its_list(loop: ast.For) -> bool:

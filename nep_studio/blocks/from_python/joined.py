@@ -5,6 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
+from ..generate.kinds import NUMBER, are, kinds_of
 from .naming import within
 
 TOLD = ("as_text", "str")
@@ -14,12 +15,16 @@ _AS_STR = ord("s")
 """The conversion of what Python's str() tells, or of a text: not what a block tells."""
 
 
-def as_joined(node: object) -> object:
-    """A sum of texts, or an f-string, in one form: letters that stand together are one constant."""
+def as_joined(node: object, *, knows_texts: bool = False) -> object:
+    """A sum of texts, or an f-string, in one form: letters that stand together are one constant.
+
+    Python need not show that a sum is one of texts where the other side ``knows_texts``.
+    """
     if not isinstance(node, ast.BinOp | ast.JoinedStr):
         return node
     parts = list(_parts(node))
-    if isinstance(node, ast.BinOp) and not any(map(_is_text, parts)):
+    is_shown = any(map(_is_text, parts))
+    if isinstance(node, ast.BinOp) and not is_shown and not knows_texts:
         return node
     values: list[ast.expr] = []
     for part in (inner for one in parts for inner in _values(one)):
@@ -39,14 +44,21 @@ def told_in_braces(
 ) -> list[tuple[object, object]]:
     """What must be the same of two values in f-strings, the first in a person's Python.
 
-    Braces mean a value as blocks tell it, whatever Python would tell; str() means what it says.
+    Braces mean a value as blocks tell it, whatever Python would tell; str() does of a number, and
+    of all else means what it says.
     """
-    if ours.conversion == _AS_STR:
+    if ours.conversion == _AS_STR and not is_number(ours.value):
         return [(ours.value, theirs.value)]
     pairs: list[tuple[object, object]] = [(within(ours.value, TOLD), within(theirs.value, TOLD))]
     if not {ours.conversion, theirs.conversion} <= {-1, _AS_STR}:
         pairs.append((ours.conversion, theirs.conversion))
     return [*pairs, (ours.format_spec, theirs.format_spec)]
+
+
+def is_number(node: ast.expr) -> bool:
+    """Whether a value is surely a number."""
+    kinds = kinds_of(node)
+    return bool(kinds) and are(kinds, NUMBER)
 
 
 def _parts(node: ast.expr) -> Iterator[ast.expr]:

@@ -191,6 +191,10 @@ class Learner(Expressions):
             self.must_show.add(key)
         return self._known.shows_text
 
+    def knows_text(self, node: ast.expr) -> bool:
+        """No: a slot that must show that it holds a text does so by its block here."""
+        return False
+
     def f_string(self, parts: Sequence[ast.expr]) -> None:
         """None: a join is learned as a sum, and f-strings are read by their form."""
 
@@ -433,6 +437,7 @@ _OLD: dict[str, tuple[_Old, ...]] = {
     "round": (("round(number)", {"way": "nearest"}),),
     "repeat": (("for _ in range(int(times)):\n    BODY_do", {}),),
     "count": (
+        ("for VARIABLE_variable in range(last):\n    BODY_do", {"first": 0, "step": 1}),
         ("for VARIABLE_variable in range(first, last):\n    BODY_do", {"step": 1}),
         ("for VARIABLE_variable in range(first, last, step):\n    BODY_do", {}),
     ),

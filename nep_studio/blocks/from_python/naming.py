@@ -335,7 +335,10 @@ def _kinds_given(tree: ast.Module, names: SourceNames) -> dict[str, int]:
     same: dict[str, set[str]] = {}
     for node in ast.walk(tree):
         match node:
-            case ast.Assign(targets=[ast.Name(id=name)], value=ast.Name(id=other)):
+            case (
+                ast.Assign(targets=[ast.Name(id=name)], value=ast.Name(id=other))
+                | ast.AugAssign(target=ast.Name(id=name), value=ast.Name(id=other))
+            ):
                 same.setdefault(name, set()).add(other)
             case ast.Assign(targets=[ast.Name(id=name)], value=value):
                 found[name] = found.get(name, 0) | kinds_of(value)
@@ -357,6 +360,14 @@ MOST_NAMES_OF_ONE = 4
 
 def _all_kinds(kinds: Iterator[int]) -> int:
     return functools.reduce(operator.or_, kinds, 0)
+
+
+def note_anew(tree: ast.Module, kinds: Mapping[str, int]) -> None:
+    """Note the kinds that are known by now, and no others."""
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Name | ast.Call) and hasattr(node, "kinds"):
+            del node.kinds
+    _note_kinds(tree, kinds)
 
 
 def _note_kinds(tree: ast.Module, kinds: Mapping[str, int]) -> None:

@@ -16,6 +16,7 @@ from nep_studio.blocks.generate.program import runs
 from .learning import CodeUnread
 from .scoping import is_beginning
 from .source import Source, begin_of, end_of
+from .told_names import is_taken_over
 
 HEADERS = ("Robot", "Behavior")
 """What the lines before the functions make."""
@@ -182,6 +183,8 @@ class _Splitter:
             return not self.begun.isdisjoint(_named(node))
         if number >= self.end_from or (begin_of(node) in self.kept and not _is_head(node)):
             return True
+        if is_taken_over(node):
+            return bool(self._comments_of(number))
         if number == 0 and _is_text(node):
             return not is_made_docstring(node)
         if _is_beginning(node) and (self.parts or self.lines) and self.place != TOP:

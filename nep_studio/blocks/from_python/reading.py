@@ -16,9 +16,11 @@ from nep_studio.blocks.language import Language
 from nep_studio.blocks.procedures import DEFINE, parameters
 from nep_studio.blocks.program import Project
 
+from .equal_forms import other_statements
 from .learning import CodeUnread, Made, beginning, blocks_of, learned
 from .naming import Hints, SourceNames, Turns, names_in
 from .outside import Part
+from .simpler import is_made, with_more
 from .source import Source, end_of
 from .values import ValueReader, match
 
@@ -67,6 +69,11 @@ class StatementReader:
         code: list[ast.stmt] = []
         begin, left = after, _without_global(nodes)
         while left:
+            count = with_more(left)
+            if not self._are_blocks(left[:count], begin):
+                code += left[:count]
+                del left[:count]
+                continue
             found = self._statement(left, begin)
             is_end = found is None or not _without_end(left[found[1] :])
             if found is None or (self._language.definitions[found[0].type].is_last and not is_end):
@@ -88,6 +95,19 @@ class StatementReader:
         ]
         return made
 
+    def _are_blocks(self, nodes: Sequence[ast.stmt], begin: int) -> bool:
+        """Whether the simpler statements of one line are all blocks: else they stay Python.
+
+        Raises _NotSaid for one that stands on no line of its own, and is none.
+        """
+        if len(nodes) == 1 and not is_made(nodes[0]):
+            return True
+        found = [self._statement([node], begin) for node in nodes]
+        are_blocks = all(one is not None and not one[0].written for one in found)
+        if is_made(nodes[0]) and not are_blocks:
+            raise _NotSaid
+        return are_blocks
+
     def rule(self, node: ast.FunctionDef, after: int) -> list[Made]:
         """The blocks of a function: the hat first."""
         hat = self._hat(node)
@@ -98,7 +118,11 @@ class StatementReader:
         if nodes and (node.lineno in self._kept or _is_one_piece(node)):
             last = self._source.last_line(node.body)
             return [hat, self.code(nodes, self._source.line_before(node.body), last)]
-        return [hat, *self.body(node.body)]
+        try:
+            return [hat, *self.body(node.body)]
+        except _NotSaid:
+            last = self._source.last_line(node.body)
+            return [hat, self.code(nodes, self._source.line_before(node.body), last)]
 
     def code(self, nodes: Sequence[ast.stmt], after: int, until: int = 0) -> Made:
         """A code block that keeps the text of statements, and of comments below them."""
@@ -164,8 +188,11 @@ class StatementReader:
         if found is None:
             return None
         made, count, bodies = found
-        for key, body in bodies.items():
-            made.bodies[key] = self.body(body)
+        try:
+            for key, body in bodies.items():
+                made.bodies[key] = self.body(body)
+        except _NotSaid:
+            return None
         return made, count
 
     def _ways(self, nodes: Sequence[ast.stmt]) -> list[_Candidate]:
@@ -195,15 +222,23 @@ class StatementReader:
                     yield made, 1, {}
                     if is_best_enough and not made.written:
                         return
-        for pattern in self._learned.statements.get(beginning(first), ()):
+        for form in (first, *other_statements(first)):
+            for one in self._of_patterns([form, *nodes[1:]], is_other=form is not first):
+                yield one
+                if is_best_enough and not _written(one):
+                    return
+
+    def _of_patterns(self, nodes: Sequence[ast.stmt], *, is_other: bool) -> Iterator[_Candidate]:
+        """The blocks that the first statements are by their patterns."""
+        for pattern in self._learned.statements.get(beginning(nodes[0]), ()):
             count = len(pattern.nodes)
             is_kept = any(node.lineno in self._kept for node in nodes[:count])
             found = match(pattern, nodes[:count]) if count <= len(nodes) and not is_kept else None
-            made_from = self.values.made_from(pattern, found) if found is not None else None
-            if made_from is not None and found is not None:
+            if found is None:
+                continue
+            made_from = self.values.made_from(pattern, found, is_other=is_other)
+            if made_from is not None:
                 yield made_from, count, found.bodies
-                if is_best_enough and not made_from.written:
-                    return
 
     def _keep_code(self, made: list[Made], code: list[ast.stmt], begin: int) -> int:
         """Put statements that are no blocks into one code block; gives the line after which."""
@@ -215,9 +250,15 @@ class StatementReader:
         return end
 
     def _describe(self, made: Made, nodes: Sequence[ast.stmt], begin: int) -> None:
+        if is_made(nodes[0]):
+            return
         made.comment = self._source.comment_of(nodes[0], begin)
         first = self._source.first_line(nodes[0], begin)
         made.text = self._source.text(first, self._source.end_inside(nodes[-1]))
+
+
+class _NotSaid(Exception):
+    """A statement that stands on no line of its own is no block."""
 
 
 def as_block(node: ast.stmt) -> ast.stmt:

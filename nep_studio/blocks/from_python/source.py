@@ -17,6 +17,7 @@ from nep_studio.blocks.generate.expressions import comment_line, comment_text
 from .learning import CodeUnread
 from .mistakes import checklist_of, too_deep
 from .scoping import with_beginnings
+from .simpler import simplify
 
 LONGEST_PROGRAM = 2_000_000
 
@@ -170,6 +171,7 @@ def read_source(text: str, *, is_program: bool = False) -> Source:
         ) from error
     inside = frozenset(lines_inside_texts(tree))
     aside = dict(_set_aside(tree, lines))
+    simplify(tree)
     alone |= aside.keys() & comments.keys()
     return Source(lines, tree, comments, frozenset(alone), inside, aside)
 

@@ -8,15 +8,16 @@ from dataclasses import dataclass, field
 from functools import lru_cache, partial
 
 from nep_studio.blocks.code_text import CodeTextRefused, read_value
-from nep_studio.blocks.definitions import Definition, Slot
+from nep_studio.blocks.definitions import Call, Definition, Slot
 from nep_studio.blocks.language import Language
 from nep_studio.blocks.procedures import CALL, PARAMETER, parameters
 from nep_studio.blocks.program import split_slot
 from nep_studio.blocks.slots import TEXT_RESULTS, FieldValue, constant
 
-from ..generate.expressions import known_whole
+from ..generate.expressions import call, known_whole
 from ..generate.kinds import ANY, NUMBER, RESULT_KINDS, TABLE, TEXT, WHOLE, Seen, are, kinds_of
-from .joined import TOLD
+from .equal_forms import SAY, other_values
+from .joined import TOLD, is_number
 from .learning import (
     BODY,
     PART,
@@ -276,11 +277,9 @@ class ValueReader:
             return next((made for made, result in self.blocks(inner) if result in kind.fits), None)
         inner, others = within(node, TOLD), kind.fits - TEXT_RESULTS
         if inner is node:
-            others = (
-                frozenset({"any"})
-                if not is_clear and may_be(node, TEXT, self._seen)
-                else frozenset()
-            )
+            is_text = kinds_of(node, self._seen) == TEXT
+            is_text = is_text or (not is_clear and may_be(node, TEXT, self._seen))
+            others = frozenset({"any"}) if is_text else frozenset()
             others |= TEXT_RESULTS
             found = sorted(self.blocks(node), key=_is_no_text)
             return next((made for made, result in found if result in others), None)
@@ -325,7 +324,7 @@ class ValueReader:
             node.keywords
         ):
             return None
-        if not all(map(partial(self.fill, made), wanted.arguments, node.args)):
+        if not all(map(partial(self.fill, made), wanted.arguments, self._as_given(node, wanted))):
             return None
         for name, argument in given.items():
             key = wanted.keywords[str(name)]
@@ -335,6 +334,14 @@ class ValueReader:
             if is_unsaid and made.fields.get(key) == definition.defaults[key]:
                 return None  # the block would not write it
         return made if self._choose_masters(made) else None
+
+    def _as_given(self, node: ast.Call, wanted: Call) -> list[ast.expr]:
+        """The values of a call by their place; a robot tells a number itself."""
+        match node.args:
+            case [told, *more] if wanted.on and wanted.name == SAY:
+                is_known = _constant(told) is not None or not is_number(told)
+                return node.args if is_known else [call("str", told), *more]
+        return node.args
 
     def called(self, node: ast.Call) -> Iterator[Made]:
         """The blocks of a call, whether they give a value or not."""
@@ -350,12 +357,16 @@ class ValueReader:
             if all(self.fill(made, parameter.id, value) for parameter, value in pairs):
                 yield made
 
-    def made_from(self, pattern: Pattern, found: Found) -> Made | None:
-        """The block of a pattern with what was found in it but its bodies, or None."""
+    def made_from(self, pattern: Pattern, found: Found, *, is_other: bool = False) -> Made | None:
+        """The block of a pattern with what was found in it but its bodies, or None.
+
+        ``is_other``: it was found in another form of the text than it is written in.
+        """
         made = Made(pattern.definition.id, dict(pattern.fields), groups=dict(pattern.groups))
-        if pattern.fractions and not pattern.free and _are_whole(found, pattern.fractions):
+        is_careful = bool(pattern.fractions) and not pattern.free and not is_other
+        if is_careful and _are_whole(found, pattern.fractions):
             return None
-        if not _may_be_table(pattern, found):
+        if not _may_be_table(pattern, found) or not _may_be_place(pattern, found):
             return None
         is_join = pattern.definition.generator == "join"
         clear = frozenset() if is_join else pattern.clear
@@ -385,7 +396,8 @@ class ValueReader:
         told, clear = set[str](), set[str]()
         for key, node in found.slots.items():
             inner = within(node, TOLD)
-            is_text = key not in made.inputs or (
+            is_text = key not in made.inputs or kinds_of(node, self._seen) == TEXT
+            is_text = is_text or (
                 self.language.definitions[made.inputs[key].type].result in TEXT_RESULTS
             )
             if is_text or (inner is not node and kinds_of(inner) != TEXT):
@@ -430,11 +442,14 @@ class ValueReader:
             for made in self.called(node):
                 if definitions[made.type].is_value:
                     yield made, definitions[made.type].result
-        for pattern in self._learned.values.get(beginning(node), ()):
-            found = match(pattern, [node])
-            made_from = self.made_from(pattern, found) if found is not None else None
-            if made_from is not None:
-                yield made_from, pattern.definition.result
+        for form in (node, *other_values(node)):
+            for pattern in self._learned.values.get(beginning(form), ()):
+                found = match(pattern, [form])
+                if found is None:
+                    continue
+                made_from = self.made_from(pattern, found, is_other=form is not node)
+                if made_from is not None:
+                    yield made_from, pattern.definition.result
         if isinstance(node, ast.JoinedStr) and (joined := self._f_string(node)) is not None:
             yield joined
         if (converted := self._converted(node)) is not None:
@@ -534,6 +549,13 @@ def _may_be_table(pattern: Pattern, found: Found) -> bool:
         return True
     table, key = found.slots["table"], found.slots["key"]
     return kinds_of(key) == TEXT or are(kinds_of(within(table, _MADE["table"])), TABLE)
+
+
+def _may_be_place(pattern: Pattern, found: Found) -> bool:
+    """Whether an index is that of a place from the start: one below 0 is from the end."""
+    number = known_whole(found.slots["number"]) if "number" in found.slots else None
+    is_index = any(isinstance(n, ast.Subscript) for one in pattern.nodes for n in ast.walk(one))
+    return number is None or number > 0 or not is_index
 
 
 def _is_no_text(made: tuple[Made, str]) -> tuple[int, bool]:

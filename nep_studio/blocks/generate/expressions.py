@@ -245,7 +245,7 @@ class Expressions:
 
     def clear(self, block: Block, key: str, node: ast.expr) -> ast.expr:
         """A text that is in a slot, so that Python shows that it is one."""
-        if self.shows_text(block, key) or is_told(node):
+        if self.shows_text(block, key) or is_told(node) or self.knows_text(node):
             return node
         return self.api_call("as_text", node)
 
@@ -253,6 +253,10 @@ class Expressions:
         """Whether everybody can see that a slot holds a text: it is typed, or a block of texts."""
         plugged = self.plugged(block, key)
         return plugged is None or is_clear_text(plugged, self.definition(plugged))
+
+    def knows_text(self, node: ast.expr) -> bool:
+        """Whether all that a value may be is a text."""
+        return kinds_of(node) == TEXT
 
     def may_swap(self, first: ast.expr, second: ast.expr) -> bool:
         """Whether two values may be worked out in the other order, and give the same."""
@@ -395,6 +399,11 @@ class Expressions:
         if self._kinds.has_lists_twice:  # what is done to one name is done to the other
             variable = ""
         return self.sharing.changes(variable)
+
+    def named_list_changes(self, node: ast.expr) -> bool:
+        """Whether a list or table that Python names may change meanwhile."""
+        ids = {name: variable for variable, name in self.names.variables.items()}
+        return self.list_changes(ids.get(node.id, "") if isinstance(node, ast.Name) else "")
 
     def kinds_of_variable(self, block: Block) -> int:
         """The kinds of what the variable of a block holds."""

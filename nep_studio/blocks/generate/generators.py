@@ -48,12 +48,14 @@ from .expressions import (
 from .kinds import (
     ITEMS,
     LIST,
+    NATURAL,
     NUMBER,
     OTHER,
     TABLE,
     TEXT,
     TRUTH,
     WHOLE,
+    ZERO,
     are,
     are_mixed,
     kinds_of,
@@ -64,6 +66,7 @@ from .kinds import (
 )
 from .names import API, MODULES
 from .plans import FACT_LINES, FACT_VALUES
+from .positions import index_of, one_less, one_more
 from .tables import TABLE_STATEMENTS, TABLE_VALUES
 from .trees import TREE_PARTS
 
@@ -127,7 +130,6 @@ _LINES = {
     "constrain": "min(max(number, low), high)",
     "divisible": "number % divisor == 0",
     "choose": "a if condition else b",
-    "not": "not a",
     "human_state_is": "human_state() == state",
     "robot": "robot",
     "text": "text",
@@ -268,25 +270,38 @@ def _compare(code: Expressions, block: Block) -> ast.expr:
     return same if is_equal else ast.UnaryOp(ast.Not(), same)
 
 
+def _not(code: Expressions, block: Block) -> ast.expr:
+    asked = code.slot(block, "a")
+    match asked:
+        case ast.Compare(left, [ast.In()], [right]):
+            return compare(left, ast.NotIn(), right)
+    return ast.UnaryOp(ast.Not(), asked)
+
+
 def _random_integer(code: Expressions, block: Block) -> ast.expr:
     low, high = code.slot(block, "low"), code.slot(block, "high")
     ends = known_whole(low), known_whole(high)
     if ends[0] is None or ends[1] is None or ends[0] > ends[1]:
         return code.api_call("random_whole", low, high)
     code.modules.add("random")
-    return method_call(ast.Name("random"), "randint", [low, high])
+    drawn = method_call(ast.Name("random"), "randint", [low, high])
+    return note(drawn, kinds_of(low) | kinds_of(high))
 
 
 def _text_length(code: Expressions, block: Block) -> ast.expr:
     if code.shows_text(block, "text"):
         return call("len", code.slot(block, "text"))
-    return code.api_call("length_of", code.value_in(block, "text"))
+    text = code.value_in(block, "text")
+    return call("len", text) if code.knows_text(text) else code.api_call("length_of", text)
 
 
 def _text_is_empty(code: Expressions, block: Block) -> ast.expr:
     if code.shows_text(block, "text"):
         return compare(code.slot(block, "text"), ast.Eq(), ast.Constant(""))
-    length = code.api_call("length_of", code.value_in(block, "text"))
+    text = code.value_in(block, "text")
+    if code.knows_text(text):
+        return compare(text, ast.Eq(), ast.Constant(""))
+    length = code.api_call("length_of", text)
     return compare(length, ast.Eq(), ast.Constant(0))
 
 
@@ -314,10 +329,21 @@ def _text_replace(code: Expressions, block: Block) -> ast.expr:
 def _letter(code: Expressions, block: Block) -> ast.expr:
     text = code.slot(block, "text")
     (number,) = code.values_in(block, "number", then=text)
-    place = known_whole(number)
-    if place is not None and place > 0 and code.shows_text(block, "text"):
-        return note(ast.Subscript(text, constant(place - 1)), TEXT)
+    is_text = code.shows_text(block, "text") or code.knows_text(text)
+    index = index_of(number)
+    if is_length_of(number, text):
+        index = constant(-1)
+    if index is not None and is_text and code.may_swap(number, text):
+        return note(ast.Subscript(text, index), TEXT)
     return code.api_call("letter_of", number, text)
+
+
+def is_length_of(number: ast.expr, of: ast.expr) -> bool:
+    """Whether a number is the length of a value with a name, or of one that is typed."""
+    match number:
+        case ast.Call(func=ast.Name(id="len" | "length_of"), args=[inner]):
+            return isinstance(of, ast.Name) and ast.dump(inner) == ast.dump(of)
+    return False
 
 
 def _emotion(code: Expressions, block: Block) -> ast.expr:
@@ -351,9 +377,12 @@ def _place(code: Expressions, block: Block, then: ast.expr | None = None) -> _Pl
     number, items = code.values_in(block, "number", "list", then=then)
     is_from_end = code.choice(block, "end") == "end"
     options: dict[str, ast.expr] = {"from_end": ast.Constant(True)} if is_from_end else {}
-    place, index = known_whole(number), None
-    if place is not None and place > 0 and are(kinds_of(items), _INDEXED):
-        index = constant(-place if is_from_end else place - 1)
+    index = None
+    if are(kinds_of(items), _INDEXED) and code.may_swap(number, items):
+        place = known_whole(number) or 0
+        index = index_of(number)
+        if is_from_end:
+            index = constant(-place) if place > 0 else None
     return _Place(number, items, index, options)
 
 
@@ -368,7 +397,8 @@ def _get(code: Expressions, block: Block) -> ast.expr:
 def _take(code: Expressions, block: Block) -> ast.expr:
     at = _place(code, block)
     if at.index is not None:
-        return note(method_call(at.items, "pop", [at.index]), code.kinds_at(ITEMS))
+        place = [] if known_whole(at.index) == -1 else [at.index]
+        return note(method_call(at.items, "pop", place), code.kinds_at(ITEMS))
     taken = code.api_call("take_item", at.number, at.items, **at.options)
     return note(taken, code.kinds_at(ITEMS))
 
@@ -379,12 +409,19 @@ def _random_item(code: Expressions, block: Block) -> ast.expr:
 
 def _part(code: Expressions, block: Block) -> ast.expr:
     first, last, items = code.values_in(block, "first", "last", "list")
-    low, high = known_whole(first), known_whole(last)
-    is_plain = low is not None and low > 0 and high is not None and high >= 0
-    if low is None or not is_plain or not are(kinds_of(items), LIST):
+    begin = index_of(first)
+    is_plain = (
+        are(kinds_of(items), LIST)
+        and (is_length_of(last, items) or are(kinds_of(last), NATURAL))
+        and code.may_swap(first, items)
+        and code.may_swap(last, items)
+    )
+    if begin is None or not is_plain:
         return code.api_call("items_between", first, last, items)
-    begin = constant(low - 1) if low > 1 else None
-    return note(ast.Subscript(items, ast.Slice(begin, last)), LIST)
+    end = None if is_length_of(last, items) else last
+    return note(
+        ast.Subscript(items, ast.Slice(None if known_whole(begin) == 0 else begin, end)), LIST
+    )
 
 
 def _filled(code: Expressions, block: Block) -> ast.expr:
@@ -419,14 +456,19 @@ _OF_LIST = {
     "median": ("statistics.median", "median_of"),
     "stdev": ("statistics.stdev", "deviation_of"),
 }
+_OF_WHOLE = ("sum", "min", "max")
 """The functions of lists of numbers, and those that look first whether all are numbers."""
 
 
 def _of_list(code: Expressions, block: Block) -> ast.expr:
     plain, careful = _OF_LIST[code.choice(block, "function")]
-    if not are(code.kinds_at(ITEMS), NUMBER):
-        return code.api_call(careful, code.slot(block, "list"))
-    return _python(f"{plain}(list)")(code, block)
+    held, items = code.kinds_at(ITEMS), code.slot(block, "list")
+    if not are(held, NUMBER):
+        return code.api_call(careful, items)
+    if plain in ("min", "max") and isinstance(items, ast.List) and len(items.elts) > 1:
+        return call(plain, *items.elts)
+    made = _python(f"{plain}(list)")(code, block)
+    return note(made, held | ZERO) if held and are(held, WHOLE) and plain in _OF_WHOLE else made
 
 
 def _joined(code: Expressions, block: Block) -> ast.expr:
@@ -517,13 +559,29 @@ def note_names(code: Expressions, read: CodeText) -> None:
 _NO_ARGUMENTS = ast.arguments([], [], None, [], [], None, [])
 
 
+_ARITHMETIC = _by_choice(*_CHOSEN["arithmetic"])
+
+
+def _arithmetic(code: Expressions, block: Block) -> ast.expr:
+    """Squares and cubes are no larger than other products: nothing has to look at them first."""
+    made = _ARITHMETIC(code, block)
+    match made:
+        case ast.Call(func=ast.Name(id="to_power"), args=[base, ast.Constant(value=2 | 3)]) if (
+            known_whole(base) is None  # ten to the power of a number is a block by itself
+        ):
+            return ast.BinOp(base, ast.Pow(), made.args[1])
+    return made
+
+
 REPORTERS: dict[str, ValueGenerator] = {
     **{name: _python(text) for name, text in _LINES.items()},
     **{name: _by_choice(slot, texts) for name, (slot, texts) in _CHOSEN.items()},
     "variable": _variable,
     "join": _join,
     "junction": _junction,
+    "not": _not,
     "compare": _compare,
+    "arithmetic": _arithmetic,
     "random_integer": _random_integer,
     "random_item": _random_item,
     "text_length": _text_length,
@@ -582,25 +640,53 @@ def _count(code: Expressions, block: Block) -> list[Piece]:
             block=block.id,
             checklist=("Make the step 1, or any number that is not zero.",),
         )
-    if low is None or high is None or by is None:
+    way = code.choice(block, "way")
+    if way == "either" and low is not None and high is not None:
+        way = "up" if low <= high else "down"
+    if way == "either" or by is None or not all(_is_whole(end) for end in (first, last)):
         ends = (first, last) if by == 1 else (first, last, step)
-        counted = code.api_call("count_from", *ends)
-    else:  # the sign of the step does not matter: from 10 to 1 is down
-        by = abs(by) if low <= high else -abs(by)
-        beyond = constant(high + (1 if by > 0 else -1))
-        counted = call("range", first, beyond, *([] if by == 1 else [constant(by)]))
+        counted = code.api_call(_COUNTS[code.choice(block, "way")], *ends)
+    else:
+        counted = _range(first, last, abs(by) if way == "up" else -abs(by))
     name = code.variable(block)
     return [Assignment(name, f"for {name} in {show(counted)}:"), Body("do", loop=True)]
+
+
+_COUNTS = {"either": "count_from", "up": "count_up", "down": "count_down"}
+
+
+def _is_whole(node: ast.expr) -> bool:
+    return bool(kinds_of(node)) and are(kinds_of(node), WHOLE)
+
+
+def _range(first: ast.expr, last: ast.expr, step: int) -> ast.Call:
+    """The numbers up to a last one, or down to it: Python says the one where it ends before."""
+    ends = [first, one_more(last) if step > 0 else one_less(last)]
+    if step == 1 and known_whole(first) == 0:
+        del ends[0]
+    return call("range", *ends, *([] if step == 1 else [constant(step)]))
 
 
 def _for_each(code: Expressions, block: Block) -> list[Piece]:
     items, name = code.slot(block, "list"), code.variable(block)
     held = code.plugged(block, "list")
-    if held is not None and not _is_new_list(items):
+    if (lent := _lent(code, items)) is not None:
+        items = lent
+    elif held is not None and not _is_new_list(items):
         variable = str(held.fields.get("variable", ""))
         if code.list_changes(variable):  # the items that it had when the loop began
             items = ast.Subscript(items, ast.Slice())
     return [Assignment(name, f"for {name} in {show(items)}:"), Body("do", loop=True)]
+
+
+def _lent(code: Expressions, items: ast.expr) -> ast.expr | None:
+    """A text or a table through whose letters or names a loop goes without a list of them."""
+    match items:
+        case ast.Call(func=ast.Name(id="list"), args=[inner]) if code.knows_text(inner):
+            return inner
+        case ast.Call(func=ast.Name(id="list"), args=[inner]) if kinds_of(inner) == TABLE:
+            return None if code.named_list_changes(inner) else inner
+    return None
 
 
 _NEW_LISTS = frozenset(
@@ -637,11 +723,18 @@ def _change(code: Expressions, block: Block) -> Sequence[Piece]:
     held: ast.expr = note(ast.Name(name), code.kinds_of_variable(block))
     if may_swap(amount, held):
         if not kinds_of(held) & TRUTH:  # a text or a list refuses a number
-            return [Assignment(name, f"{name} += {show(amount)}")]
+            less = _less(amount)
+            sign, amount = ("+=", amount) if less is None else ("-=", less)
+            return [Assignment(name, f"{name} {sign} {show(amount)}")]
         held, amount = amount, code.api_call("as_number", held)
     elif not are(kinds_of(held), NUMBER):
         held = code.api_call("as_number", held)
     return [Assignment(name, f"{name} = {show(ast.BinOp(amount, ast.Add(), held))}")]
+
+
+def _less(amount: ast.expr) -> ast.expr | None:
+    """How much is taken away by an amount that says so."""
+    return amount.operand if isinstance(amount, ast.UnaryOp) else None
 
 
 def _append(code: Expressions, block: Block) -> Sequence[Piece]:
@@ -726,9 +819,21 @@ def _insert(code: Expressions, block: Block) -> list[Piece]:
 
 def _remove(code: Expressions, block: Block) -> list[Piece]:
     at = _place(code, block)
+    if (found := _first_such(code, at)) is not None:
+        return [show(method_call(at.items, "remove", [found]))]
     if at.index is not None:
         return [f"del {show(ast.Subscript(at.items, at.index))}"]
     return [show(code.api_call("remove_item", at.number, at.items, **at.options))]
+
+
+def _first_such(code: Expressions, at: _Place) -> ast.expr | None:
+    """The item whose own place in the list is asked for; where there is none, both ways refuse."""
+    match at.number:
+        case ast.Call(func=ast.Name(id="place_of"), args=[item, items]) if not at.options:
+            is_plain = are(kinds_of(at.items), LIST) and isinstance(items, ast.Name)
+            is_same = is_plain and ast.dump(items) == ast.dump(at.items)
+            return None if are_mixed(kinds_of(item), code.kinds_at(ITEMS)) or not is_same else item
+    return None
 
 
 def _ask(code: Expressions, block: Block) -> list[Piece]:

@@ -23,7 +23,11 @@ from nep_studio.blocks.slots import TEXT_RESULTS
 from .names import ProgramNames
 from .written_code import NO_NAMES, always_ends, gives_back, names_bound_in, names_in_code, tree_of
 
-WHOLE, FRACTION, TEXT, TRUTH, LIST, OTHER, TABLE, ROBOT = 1, 2, 4, 8, 16, 32, 64, 128
+ZERO, FRACTION, TEXT, TRUTH, LIST, OTHER, TABLE, ROBOT = 1, 2, 4, 8, 16, 32, 64, 128
+POSITIVE, NEGATIVE = 256, 512
+NATURAL = ZERO | POSITIVE
+"""The whole numbers that count places in Python: from below 0, it counts from the end."""
+WHOLE = NATURAL | NEGATIVE
 NUMBER = WHOLE | FRACTION
 ANY = NUMBER | TEXT | TRUTH | LIST | OTHER | TABLE | ROBOT
 
@@ -75,8 +79,8 @@ def result_key(procedure_id: str) -> str:
 # The kinds of an expression of Python, from its form; blocks note what they know as ``kinds``.
 
 _CALLS = {
-    **dict.fromkeys(("len", "int", "length_of", "place_of", "place_in_text"), WHOLE),
-    **dict.fromkeys(("to_nearest", "random_whole"), WHOLE),
+    **dict.fromkeys(("len", "length_of", "place_of", "place_in_text"), NATURAL),
+    **dict.fromkeys(("int", "to_nearest", "random_whole"), WHOLE),
     **dict.fromkeys(("str", "as_text", "title_case", "letter_of", "replace_part"), TEXT),
     **dict.fromkeys(("join_items", "append_text"), TEXT),
     **dict.fromkeys(("bool", "has_item", "has_part", "is_same", "is_less", "is_more"), TRUTH),
@@ -132,7 +136,7 @@ def _kinds_of(node: ast.expr, seen: Seen | None) -> int:
         case ast.UnaryOp(op=ast.Not()) | ast.Compare():
             return TRUTH
         case ast.UnaryOp(operand=operand):
-            return _counted(kinds_of(operand, seen))
+            return _counted(_negated(kinds_of(operand, seen)))
         case ast.BinOp():
             return _of_chain(node, seen)
         case ast.BoolOp(values=values):
@@ -148,6 +152,10 @@ def _kinds_of(node: ast.expr, seen: Seen | None) -> int:
         case ast.Subscript(value=value, slice=index) if are(kinds_of(value, seen), TEXT | LIST):
             is_same = isinstance(index, ast.Slice) or are(kinds_of(value, seen), TEXT)
             return kinds_of(value, seen) if is_same else ANY
+        case ast.Call(func=ast.Name(id="abs" | "min" | "max"), args=given) if given[1:] or (
+            given and are(kinds_of(given[0], seen), NUMBER)
+        ):
+            return _counted(_all(kinds_of(one, seen) for one in given)) & NUMBER or NUMBER
         case ast.Call(func=ast.Name(id=name)):
             return _CALLS.get(name, NUMBER if name in ("abs", "min", "max", "round") else ANY)
         case ast.Call(func=ast.Attribute(attr=name)):
@@ -166,14 +174,24 @@ def _of_chain(node: ast.BinOp, seen: Seen | None) -> int:
         first = first.left
     kinds = kinds_of(first, seen)
     for part in reversed(chain):
-        kinds = _of_operation(part.op, kinds, kinds_of(part.right, seen))
+        is_one_less = isinstance(part.op, ast.Sub) and _is_one(part.right)
+        if is_one_less and are(kinds, POSITIVE):
+            kinds = NATURAL if kinds else 0
+        else:
+            kinds = _of_operation(part.op, kinds, kinds_of(part.right, seen))
         if seen is not None:
             seen[id(part)] = part, kinds
     return kinds
 
 
+def _is_one(node: ast.expr) -> bool:
+    return isinstance(node, ast.Constant) and type(node.value) is int and node.value == 1
+
+
 def _of_constant(value: object) -> int:
-    kinds = {bool: TRUTH, int: WHOLE, float: FRACTION, str: TEXT}
+    if type(value) is int:
+        return POSITIVE if value > 0 else NEGATIVE if value else ZERO
+    kinds = {bool: TRUTH, float: FRACTION, str: TEXT}
     return kinds.get(type(value), OTHER)
 
 
@@ -184,7 +202,11 @@ def _of_operation(op: ast.operator, left: int, right: int) -> int:
         return ANY
     if isinstance(op, ast.Div):
         return FRACTION
-    return NUMBER if isinstance(op, ast.Pow) else _counted(left | right)
+    if isinstance(op, ast.Sub):
+        return _counted(left | _negated(right))
+    if isinstance(op, ast.Pow):
+        return NUMBER
+    return _counted(left | right | (0 if isinstance(op, ast.Add | ast.Mult) else ZERO))
 
 
 def are_mixed(first: int, second: int) -> bool:
@@ -195,8 +217,16 @@ def are_mixed(first: int, second: int) -> bool:
 
 
 def _counted(kinds: int) -> int:
-    """What arithmetic makes of numbers: whole of whole ones."""
-    return WHOLE if are(kinds, WHOLE) else NUMBER
+    """What sums and products are: whole of whole ones, and none below 0 where none of them is."""
+    if not are(kinds, WHOLE):
+        return NUMBER
+    return WHOLE if kinds & NEGATIVE else kinds
+
+
+def _negated(kinds: int) -> int:
+    """The kinds of numbers with the other sign."""
+    signs = (POSITIVE if kinds & NEGATIVE else 0) | (NEGATIVE if kinds & POSITIVE else 0)
+    return kinds & ~(POSITIVE | NEGATIVE) | signs
 
 
 def _all(kinds: Iterable[int]) -> int:
@@ -213,26 +243,53 @@ class Given(NamedTuple):
     """The kinds of a value: some that are known, and those of others by their keys.
 
     ``counted`` are the keys of what is in arithmetic: it gives whole numbers if they are whole.
+    ``sized`` say no more than whether it is whole, ``signed`` no more than whether it is below 0.
     """
 
     kinds: int = 0
     same: frozenset[str] = frozenset()
     counted: frozenset[str] = frozenset()
+    sized: frozenset[str] = frozenset()
+    signed: frozenset[str] = frozenset()
 
     def within(self, known: Mapping[str, int]) -> int:
         """The kinds with what is known of the others."""
         kinds = self.kinds | _all(known.get(key, 0) for key in self.same)
         if self.counted:
             kinds |= _counted(_all(known.get(key, 0) for key in self.counted))
-        return kinds
+        if not are(_all(known.get(key, 0) for key in self.sized), WHOLE):
+            kinds |= FRACTION
+        return kinds | _signs(_all(known.get(key, 0) for key in self.signed))
 
     def or_else(self, other: Given) -> Given:
         """The kinds of one of two values."""
-        return Given(self.kinds | other.kinds, self.same | other.same, self.counted | other.counted)
+        return Given(*(one | more for one, more in zip(self, other, strict=True)))
 
     def calculated(self) -> Given:
         """The kinds of what arithmetic makes of the value, which must be a number then."""
-        return Given(self.kinds & NUMBER, frozenset(), self.same | self.counted)
+        return self._replace(
+            kinds=self.kinds & NUMBER, same=frozenset(), counted=self.same | self.counted
+        )
+
+    def size(self) -> Given:
+        """Whether it is whole, and no more."""
+        keys = self.same | self.counted | self.sized
+        return Given(self.kinds & FRACTION, sized=keys)
+
+    def sign(self) -> Given:
+        """Whether it is below 0, and no more."""
+        keys = self.same | self.counted | self.signed
+        return Given(_signs(self.kinds | (WHOLE if self.sized else 0)), signed=keys)
+
+    def below(self) -> Given:
+        """The kinds of it with the other sign."""
+        negative = NEGATIVE if self[1:] != Given()[1:] else 0
+        return self._replace(kinds=_negated(self.kinds) | negative)
+
+
+def _signs(kinds: int) -> int:
+    """The signs of numbers, as the kinds of whole ones; any of a fraction."""
+    return WHOLE if kinds & FRACTION else kinds & WHOLE
 
 
 @dataclass(frozen=True, slots=True)
@@ -264,9 +321,8 @@ class Facts:
     """Own blocks with what Python in them names, and whether it may give it another value."""
 
 
-_WHOLE_RESULTS = frozenset(
-    {"round", "random_integer", "text_length", "list_length", "text_find", "list_find"}
-    | {"table_length"}
+_NATURAL_RESULTS = frozenset(
+    {"text_length", "list_length", "text_find", "list_find", "table_length"}
 )
 _COUNTED = {
     "arithmetic": ("a", "b"),
@@ -367,7 +423,7 @@ class FactReader:
             self._reads(hat, _NOTHING)
         end = self._walk(chain[1:], _NOTHING, 0)
         if self._procedure and end is not None:  # it ends without giving back: 0
-            self._put.add((result_key(self._procedure), Given(WHOLE)))
+            self._put.add((result_key(self._procedure), Given(ZERO)))
         return Facts(
             frozenset(self._put),
             frozenset(self._taken),
@@ -431,7 +487,7 @@ class FactReader:
             if value:
                 self._put.add((KEPT, self._slot(block, f"{value}{part}")))
         if generator == "table_change":
-            self._put.add((KEPT, Given(WHOLE, counted=frozenset({KEPT}))))
+            self._put.add((KEPT, Given(ZERO, counted=frozenset({KEPT}))))
 
     def _inputs(self, block: Block, definition: Definition) -> None:
         for key in block.inputs:
@@ -460,12 +516,18 @@ class FactReader:
             self._put.add((key, value))
             self._set_to.add((variable, looks))
         elif generator == "count":
-            first, step = self._slot(block, "first"), self._slot(block, "step")
-            self._put.add((key, first.or_else(step).calculated()))
+            self._put.add((key, self._counted_with(block, definition)))
             self._set_to.add((variable, WHOLE))
         elif generator == "for_each":
             self._put.add((key, Given(same=frozenset({ITEMS}))))
             self._set_to.add((variable, WHOLE))
+
+    def _counted_with(self, block: Block, definition: Definition) -> Given:
+        """The kinds of the numbers between the two from which and to which a block counts."""
+        first, last, step = (self._slot(block, key) for key in ("first", "last", "step"))
+        ends = {"up": first, "down": last}
+        between = ends.get(str(definition.value(block, "way")), first.or_else(last))
+        return between.sign().or_else(Given(POSITIVE)).or_else(first.size()).or_else(step.size())
 
     def _looks(self, block: Block, key: str) -> int:
         """The kind of a value as a person sees it: by what is typed, or the block's outline."""
@@ -520,8 +582,15 @@ class FactReader:
             return Given(same=frozenset({variable_key(_variable(block))}))
         if generator in _COUNTED:
             return self._arithmetic(block, definition, depth)
-        if generator in _WHOLE_RESULTS:
+        if generator in _NATURAL_RESULTS:
+            return Given(NATURAL)
+        if generator == "round":
             return Given(WHOLE)
+        if generator == "random_integer":
+            ends = self._slot(block, "low", depth).or_else(self._slot(block, "high", depth))
+            return ends.sign()
+        if generator == "of_list" and definition.value(block, "function") in ("sum", "min", "max"):
+            return Given(ZERO, counted=frozenset({ITEMS}))
         if generator in _ITEMS_OF:
             return Given(same=frozenset({ITEMS}))
         if generator in ("table_get", "table_get_or"):
@@ -546,10 +615,16 @@ class FactReader:
         function = definition.value(block, "function") if "function" in definition.slots else ""
         if function in _ROOTS:
             return Given(NUMBER)
-        given = Given()
-        for key in _COUNTED[definition.generator]:
-            given = given.or_else(self._slot(block, key, depth))
-        return given
+        keys = _COUNTED[definition.generator]
+        given = self._slot(block, keys[0], depth)
+        for key in keys[1:]:
+            more = self._slot(block, key, depth)
+            given = given.or_else(more.below() if operation == "subtract" else more)
+        if function == "minus":
+            return given.below().calculated()
+        is_smaller = operation in ("remainder", "floor_divide")
+        given = given.or_else(Given(ZERO)) if is_smaller else given
+        return given.calculated()
 
     # Which variables are always set before they are read: blocks in the order in which they run.
 
@@ -730,7 +805,8 @@ def together(facts: Mapping[str, Facts], project: Project, names: ProgramNames) 
     for variable in names.variables:
         first = _first(variable, taken, set_to.get(variable, set()))
         kinds.first[variable] = _FIRST[first]
-        known[variable_key(variable)] = first if variable in early else 0
+        held = ZERO if first == WHOLE else first
+        known[variable_key(variable)] = held if variable in early else 0
     written = frozenset().union(*(one.written for one in facts.values()))
     if written:
         known.update(_written(written, project, names))

@@ -3,15 +3,16 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Collection, Mapping
+from collections.abc import Collection, Iterator, Mapping, Set
 from dataclasses import replace
 
 from nep_studio.blocks.deployment import chains
 from nep_studio.blocks.language import Language
+from nep_studio.blocks.procedures import DEFINE, parameters, procedure_of
 from nep_studio.blocks.program import SCOPE_KEPT, SCOPE_PROGRAM, Project
 
 from .kinds import FactReader, Facts
-from .names import ProgramNames
+from .names import NameTable, ProgramNames
 
 
 def local_variables(facts: Mapping[str, Facts]) -> set[str]:
@@ -64,7 +65,30 @@ def scoped(
         else:
             variables[variable.id] = name
             by_themselves.add(name)
-    return replace(names, variables=variables, locals=frozenset(by_themselves))
+    found = replace(names, variables=variables, locals=frozenset(by_themselves))
+    return replace(found, parameters=dict(_parameters(found, facts, project, written | set(plain))))
+
+
+def _parameters(
+    names: ProgramNames, facts: Mapping[str, Facts], project: Project, written: Set[str]
+) -> Iterator[tuple[str, str]]:
+    """What the values of own blocks are called: a variable of another rule may be called so, too.
+
+    ``written`` are the names that Python of a person has, and the ids of variables in it.
+    """
+    others = {*names.robots.values(), *names.procedures.values(), *names.outside}
+    variables = names.variables.items()
+    is_plain = {v: name in names.locals and not {v, name} & written for v, name in variables}
+    others |= {name.rpartition(".")[2] for v, name in variables if not is_plain[v]}
+    for key, one in facts.items():
+        header = project.blocks[project.stacks[key].body[0] if key in project.stacks else key]
+        procedure = procedure_of(header.type)
+        if not header.type.startswith(DEFINE) or procedure not in names.procedures:
+            continue
+        used = {names.variables[v] for v in one.used if v in names.variables}
+        table = NameTable(others | {name for name in used if name in names.locals})
+        for parameter in parameters(project.procedures[procedure]):
+            yield f"{procedure}.{parameter.id}", table.give(parameter.name, "value")
 
 
 def share_as_before(project: Project, language: Language) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import inspect
 import random
 from collections.abc import Callable
 from typing import Any
@@ -11,6 +12,7 @@ import pytest
 import nep_core
 from nep_core.program.tasks import Part, RuleStopped, Task
 
+ROBOT = nep_core.Robot
 LONGEST_S = 20.0
 MOST = 400
 """What a trace holds: a loop that has no end fills it, and is ended."""
@@ -38,6 +40,20 @@ def told(value: object) -> str:
     return repr(value) if is_plain else type(value).__name__
 
 
+def as_given(
+    method: str, values: tuple[object, ...], named: dict[str, object]
+) -> tuple[tuple[object, ...], dict[str, object]]:
+    """What a robot is given, the same by place or by name; it tells what it says itself."""
+    known = getattr(ROBOT, method, None)
+    if known is None:
+        return values, named
+    bound = inspect.signature(known).bind(None, *values, **named)
+    bound.apply_defaults()
+    if method == "say":
+        bound.arguments["text"] = str(bound.arguments["text"])
+    return bound.args[1:], bound.kwargs
+
+
 def trace_of(text: str, monkeypatch: pytest.MonkeyPatch) -> list[str]:
     """What a program does when each of its rules is begun once, in the order of the text."""
     trace = Trace()
@@ -48,7 +64,8 @@ def trace_of(text: str, monkeypatch: pytest.MonkeyPatch) -> list[str]:
 
         def __getattr__(self, method: str) -> Callable[..., str]:
             def act(*values: object, **named: object) -> str:
-                trace.note(f"{told(self._name)}.{method}", *values, **named)
+                given = as_given(method, values, named)
+                trace.note(f"{told(self._name)}.{method}", *given[0], **given[1])
                 return "yes"
 
             return act

@@ -337,7 +337,7 @@ def test_a_comment_at_the_top_of_the_text_is_in_no_body(language):
 def test_a_text_of_several_lines_keeps_its_margin(language):
     editor = build(language, [B("event.started"), B("control.wait")])
     text = generate_program(editor.project, language).text
-    written = "poem = title = '''\n  roses\nviolets\n'''"
+    written = "poem: str = '''\n  roses\nviolets\n'''"
 
     update_from_python(editor, text.replace("wait(1)", written))
 

@@ -188,7 +188,7 @@ def test_a_text_with_values_in_braces_is_a_value_among_blocks(language):
 
 @pytest.mark.parametrize(
     "body",
-    ["n, m = 1, 2", "with open('a') as n:\n    nao.say(n)", "import math as n"],
+    ["(n, m), k = [1, 2], 3", "with open('a') as n:\n    nao.say(n)", "import math as n"],
 )
 def test_a_variable_that_is_not_in_the_text_any_more_is_none(language, body):
     text = f"{HEAD}\n\n@behavior.when_started\ndef when_started():\n{indented(body)}\n\n\nbehavior.run()\n"
@@ -213,5 +213,5 @@ def test_a_variable_of_a_loose_block_is_that_of_its_name_in_the_text(language):
     assert [variable.name for variable in editor.project.variables] == ["n", "m"]
     assert "    n = 1\n" in generate_program(editor.project, language).text
     with pytest.raises(CodeUnread, match="a variable of the whole program"):
-        update_from_python(editor, text.format("n = m = 1"))
+        update_from_python(editor, text.format("n, *m = 1, 2"))
     assert [variable.name for variable in editor.project.variables] == ["n", "m"]
