@@ -352,7 +352,9 @@ def _place(code: Expressions, block: Block, then: ast.expr | None = None) -> _Pl
     is_from_end = code.choice(block, "end") == "end"
     options: dict[str, ast.expr] = {"from_end": ast.Constant(True)} if is_from_end else {}
     place, index = known_whole(number), None
-    if place is not None and place > 0 and are(kinds_of(items), _INDEXED):
+    kinds = kinds_of(items)
+    may_have_items = not kinds or kinds & LIST
+    if place is not None and place > 0 and may_have_items and are(kinds, _INDEXED):
         index = constant(-place if is_from_end else place - 1)
     return _Place(number, items, index, options)
 
