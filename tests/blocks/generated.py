@@ -111,6 +111,10 @@ def constants(tree: ast.AST) -> list[tuple[type, str]]:
     """The constants of a program with their types; a signed number is one constant."""
     found, signed = [], set()
     for node in ast.walk(tree):
+        if isinstance(node, ast.AugAssign) and isinstance(node.op, ast.Sub):  # how much less
+            value = getattr(node.value, "value", None)
+            if isinstance(value, int | float):
+                found.append((type(value), repr(-value)))
         if isinstance(node, ast.UnaryOp) and isinstance(node.op, ast.USub):
             value = getattr(node.operand, "value", None)
             if isinstance(value, int | float):

@@ -255,8 +255,9 @@ class Expressions:
         return plugged is None or is_clear_text(plugged, self.definition(plugged))
 
     def knows_text(self, node: ast.expr) -> bool:
-        """Whether all that a value may be is a text."""
-        return kinds_of(node) == TEXT
+        """Whether all that a value may be is a text, as its stack shows by itself."""
+        is_shared = isinstance(node, ast.Name) and "." in node.id
+        return kinds_of(node) == TEXT and not is_shared
 
     def may_swap(self, first: ast.expr, second: ast.expr) -> bool:
         """Whether two values may be worked out in the other order, and give the same."""
