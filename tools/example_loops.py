@@ -95,6 +95,7 @@ ACTS = {
     "animal_story": Act((_play("mouse", "crow"),), still_s=1.4),
     "theatre_cues": Act((_play("scared", "bow"),), still_s=1.2, light="#9060ff"),
     "quiz": Act((_play("thinking", "clap"),), still_s=1.4, light="#60ff90"),
+    "quiz_table": Act((_play("question", "cheer"),), still_s=1.4, light="#ffd060"),
     "touch_game": Act((_play("point_side", "cheer"),), still_s=1.2, light="#60ff90"),
     "follow_me": Act(
         ((("walk", {"forward_m": 0.16}), ("walk", {"forward_m": -0.16})),),
@@ -103,6 +104,7 @@ ACTS = {
     ),
     "museum_coach": Act((_play("strech_up", "clap"),), still_s=1.4, things=(_person(0.1, -0.5),)),
     "morning_greeter": Act((_play("wave"),), still_s=1.3, things=(_person(0.1, -0.5),)),
+    "reception": Act((_play("greet", "explain"),), still_s=1.3, things=(_person(0.1, -0.5),)),
     "interrupted_guide": Act((_play("point_side", "welcome"),), still_s=1.3),
     "count_visitors": Act((_play("count"),), still_s=1.3, things=(_person(0.1, -0.5),)),
     "own_blocks": Act((_play("wave"),), still_s=1.3, light="#ffa040"),

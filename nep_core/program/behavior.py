@@ -475,8 +475,8 @@ class Behavior:
         self._tell("rule_failed", rule, line, fault)
         self._first_error = self._first_error or error
 
-    def _entered(self, state: str) -> None:
-        self._tell("state_entered", state)
+    def _entered(self, machine: str, state: str) -> None:
+        self._tell("state_entered", state, machine=machine)
 
     def _tell_troubles(self) -> None:
         """Tell what a person should look at: what was left out, what could not be kept."""
@@ -608,12 +608,23 @@ class Behavior:
         )
 
     def _tell(
-        self, event: ProgramEvent, rule: str, line: int = 0, fault: Fault | None = None
+        self,
+        event: ProgramEvent,
+        rule: str,
+        line: int = 0,
+        fault: Fault | None = None,
+        *,
+        machine: str = "",
     ) -> None:
-        name = threading.current_thread().name
         self._states.send(
             ProgramState(
-                program=self.name, event=event, rule=rule, thread=name, line=line, **told(fault)
+                program=self.name,
+                event=event,
+                rule=rule,
+                machine=machine,
+                thread=threading.current_thread().name,
+                line=line,
+                **told(fault),
             )
         )
 

@@ -13,7 +13,7 @@ from enum import Enum
 from nep_core.errors import FactNotSo
 
 from .tasks import current_task, wait_until
-from .values import as_text, refuse, shown
+from .values import LOOK, as_text, refuse, shown
 
 MOST_FACTS = 10_000
 """A program that makes more facts true than these does so without end."""
@@ -38,12 +38,12 @@ Condition = Callable[[], object]
 def fact_of(items: object) -> Fact:
     """A fact of the list that a program has of it: its name, then its values."""
     if not isinstance(items, list | tuple) or not items:
-        refuse("A fact is a name with values, not {value}.", value=shown(items))
+        refuse("A fact is a name with values, not {value}.", LOOK, value=shown(items))
     if len(items) > MOST_VALUES + 1:
-        refuse("A fact has {most} values at most.", most=MOST_VALUES)
+        refuse("A fact has {most} values at most.", LOOK, most=MOST_VALUES)
     name, *values = items
     if not isinstance(name, str) or not name.strip():
-        refuse("A fact begins with its name, not with {value}.", value=shown(name))
+        refuse("A fact begins with its name, not with {value}.", LOOK, value=shown(name))
     return (name.strip(), *map(_value, values))
 
 
@@ -52,7 +52,9 @@ def _value(value: object) -> Value:
         return Truth(value)
     if isinstance(value, str | int | float | Truth):
         return value
-    refuse("A value of a fact is a number, a text or a truth, not {value}.", value=shown(value))
+    refuse(
+        "A value of a fact is a number, a text or a truth, not {value}.", LOOK, value=shown(value)
+    )
 
 
 def plain(value: Value) -> str | int | float | bool:

@@ -12,6 +12,8 @@ from pathlib import Path
 
 from faults import Fault, fault_of
 from faults.files import write_whole
+from nep_core.errors import ValueRefused
+from nep_core.program.tables import names_in, table_of
 from nep_core.program.variables import Variables
 
 log = logging.getLogger(__name__)
@@ -22,6 +24,8 @@ LOOK_S = 0.5
 """How often what is kept is compared with the file: so much is lost at most in a crash."""
 MOST_BYTES = 50_000_000
 """A larger file was not written by this."""
+ENTRIES = "table"
+"""Under this name alone are the entries of a table whose keys are not all texts, as in JSON."""
 
 _place: list[Path] = []
 _keepers: list[_Keeper] = []
@@ -84,14 +88,15 @@ class _Keeper:
             found = json.loads(self._file.read_bytes())
             if not isinstance(found, dict):
                 raise ValueError("not the values of variables")
+            kept = {name: _from_json(found[name]) for name in self._held.keys() & found.keys()}
         except FileNotFoundError:
-            found = {}
-        except (OSError, ValueError, RecursionError) as error:
+            found, kept = {}, {}
+        except (OSError, ValueError, TypeError, ValueRefused, RecursionError) as error:
             log.warning("%s cannot be read: %s", self._file, error)
             self._put_aside()
-            found = {}
+            found, kept = {}, {}
         self._others = {name: _text(value) for name, value in found.items()}
-        self._held.update({name: found[name] for name in self._held.keys() & found.keys()})
+        self._held.update(kept)
         self._written = self._now()
 
     def write(self) -> None:
@@ -118,7 +123,7 @@ class _Keeper:
         """The text of the file as it should be; a value that no file can hold stays as it was."""
         for name in list(self._held):
             try:
-                self._others[name] = _text(self._held[name])
+                self._others[name] = _text(_as_json(self._held[name]))
             except (TypeError, ValueError, RecursionError, RuntimeError):
                 continue  # no plain value, or it was changed meanwhile
         lines = [f"{_text(name)}: {value}" for name, value in sorted(self._others.items())]
@@ -154,6 +159,30 @@ class _Keeper:
                     file=str(self._file),
                 )
             )
+
+
+def _as_json(value: object) -> object:
+    """A value as JSON has it; what it has not is left to who writes it."""
+    if isinstance(value, list):
+        return [_as_json(item) for item in value]
+    if not isinstance(value, dict):
+        return value
+    keys, values = names_in(value), [_as_json(one) for one in list(value.values())]
+    if all(isinstance(key, str) for key in keys) and keys != [ENTRIES]:
+        return dict(zip(keys, values, strict=True))
+    return {ENTRIES: [list(entry) for entry in zip(keys, values, strict=True)]}
+
+
+def _from_json(found: object) -> object:
+    """The value in a file; raises ValueError, TypeError or ValueRefused for what is none."""
+    if isinstance(found, list):
+        return [_from_json(item) for item in found]
+    if not isinstance(found, dict):
+        return found
+    if list(found) != [ENTRIES]:
+        return {key: _from_json(value) for key, value in found.items()}
+    entries = [(key, _from_json(value)) for key, value in found[ENTRIES]]
+    return table_of(*(one for entry in entries for one in entry))
 
 
 def _text(value: object) -> str:

@@ -13,6 +13,7 @@ from __future__ import annotations
 
 import contextlib
 import contextvars
+import functools
 import threading
 from collections.abc import Callable
 from dataclasses import dataclass, field
@@ -49,6 +50,9 @@ class Transition:
 
 Entered = Callable[[str], None]
 """Hears that a machine is in a state from now on."""
+
+MachineEntered = Callable[[str, str], None]
+"""Hears the name of the machine, too, before the state."""
 
 Failed = Callable[[BaseException, str], None]
 """Hears that an activity, a transition or its condition has ended with an error, and which."""
@@ -241,7 +245,7 @@ _staying: contextvars.ContextVar[Stay | None] = contextvars.ContextVar("nep_stay
 class Machines:
     """The state machines of a behaviour, by name; most have one, whose name is empty."""
 
-    def __init__(self, entered: Entered, failed: Failed) -> None:
+    def __init__(self, entered: MachineEntered, failed: Failed) -> None:
         self._entered, self._failed = entered, failed
         self._machines: dict[str, Machine] = {}
         self._running: dict[str, Running] = {}
@@ -279,7 +283,8 @@ class Machines:
     def begin(self, start: Callable[[Action, str], object]) -> None:
         """Let all machines run; ``start`` begins a part of the program with a name."""
         for name, machine in self._machines.items():
-            self._running[name] = Running(machine, self._entered, self._failed)
+            entered = functools.partial(self._entered, name)
+            self._running[name] = Running(machine, entered, self._failed)
             start(self._running[name].run, f"states-{name}".rstrip("-"))
 
     def go_to(self, state: str, machine: str = "") -> None:

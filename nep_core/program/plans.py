@@ -23,7 +23,7 @@ from . import facts
 from .facts import FACTS, Fact, Value, fact_of, plain, told_fact
 from .planner import Parameter, Pattern, Step, Task, Term, find_plan
 from .tasks import CLOCK, current_task
-from .values import as_text, refuse
+from .values import LOOK, as_text, refuse
 
 MOST_PLANS = 5
 """So often a plan is made anew when a step does not do what it should."""
@@ -160,7 +160,7 @@ def _do(step: Step, function: FunctionType) -> None:
             words = (
                 "“{fact}” is not true afterwards." if is_made else "“{fact}” is true afterwards."
             )
-            raise FactNotSo(words, fact=told_fact(changed))
+            raise FactNotSo(words, checklist=(LOOK,), fact=told_fact(changed))
 
 
 def _given(fact: Fact) -> tuple[Any, ...]:

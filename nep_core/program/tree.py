@@ -92,6 +92,8 @@ class Trunk:
     open: list[Node] = field(default_factory=list)
     lines: dict[int, list[Node]] = field(default_factory=dict)
     changed: dict[int, Status] = field(default_factory=dict)
+    told: dict[int, Status] = field(default_factory=dict)
+    """The status of nodes as it was told last."""
 
     def note(self, node: Node) -> None:
         """Remember that the status of a node has changed; of several in a line, one may run."""
@@ -102,9 +104,12 @@ class Trunk:
 
     def tell_changes(self) -> None:
         """Tell what has changed since that was told last."""
-        if self.changed:
-            changed, self.changed = self.changed, {}
-            self.tell(changed)
+        noted, self.changed = self.changed, {}
+        # at each look a check may have begun anew, and come to the same
+        news = {line: status for line, status in noted.items() if self.told.get(line) != status}
+        if news:
+            self.told |= news
+            self.tell(news)
 
 
 _growing: ContextVar[Trunk | None] = ContextVar("nep_tree", default=None)

@@ -227,7 +227,8 @@ class ProgramState(Described, kw_only=True, omit_defaults=True):
     """What the cognitive program is doing (``/program_state``).
 
     ``line`` is a line of the generated file, from 1; ``rule`` the state that a rule waits for,
-    or the name of a goal, or the state of the program that is entered. A "line" event tells of
+    or the name of a goal, or the state of the program that is entered, by the state ``machine`` of
+    this name, which is empty where there is one. A "line" event tells of
     all threads at once: ``lines`` are, by thread, the lines that it is in now, the outermost
     call first; one that is not there has ended. A "value" event tells the ``values`` that
     changed, by the name of the variable, as Python; what fills the places of ``text`` is in
@@ -247,6 +248,7 @@ class ProgramState(Described, kw_only=True, omit_defaults=True):
     nodes: dict[str, str] = {}
     text_values: Any = {}
     rule: str = ""
+    machine: str = ""
     thread: str = ""
     plan: list[PlannedStep] = []
     step: int = 0

@@ -393,11 +393,23 @@ class Editor:
         if choices != self._offered:
             self._offered = dict(choices)
             changes.whole = True
-        for block in self.project.blocks.values() if changes.stacks else ():
+        if not self._may_begin_otherwise(changes):
+            return
+        for block in self.project.blocks.values():
             rule = block.fields.get(RULE_SLOT)
             if rule and self._is_renamed(str(rule), changes):
                 changes.stacks.add(self.project.stack_of(block.id).id)
                 changes.owners.add(block.id)
+
+    def _may_begin_otherwise(self, changes: Changes) -> bool:
+        """Whether a stack has come or gone, or another first block; most edits are inside."""
+        project = self.project
+        if any(stack not in project.stacks for stack in changes.stacks):
+            return True
+        firsts = (project.stacks[stack].body[0] for stack in changes.stacks)
+        return any(owner not in project.blocks for owner in changes.owners) or any(
+            first in changes.owners for first in firsts
+        )
 
     def _is_renamed(self, hat: str, changes: Changes) -> bool:
         """Whether what a rule begins with may say something else."""

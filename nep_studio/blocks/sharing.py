@@ -94,7 +94,7 @@ def look_at(project: Project, language: Language, chain: list[str]) -> Iterator[
             for variable in variables_set(project, language, block):
                 sets[variable].add(path)
         if block.type in CHANGING_LISTS | CHANGING_TABLES:
-            held = _held(project, block, _changed_slot(block))
+            held = changed_in(project, block)
             if held is not None and held.type == VARIABLE:
                 lists.add(str(held.fields.get("variable", "")))
             any_list |= held is not None and held.type != VARIABLE
@@ -128,19 +128,21 @@ def variables_set(project: Project, language: Language, block: Block) -> Iterato
     """The variables into which a block puts something, or into whose lists or tables."""
     definition = language.definitions[block.type]
     if block.type in CHANGING_LISTS | CHANGING_TABLES:
-        held = _held(project, block, _changed_slot(block))
+        held = changed_in(project, block)
         if held is not None and held.type == VARIABLE:
             yield str(held.fields.get("variable", ""))
     elif not definition.is_value and "variable" in definition.slots:
         yield str(block.fields.get("variable", ""))
 
 
-def _changed_slot(block: Block) -> str:
-    """The place of the list, or of the table, that a block changes."""
-    return LIST_SLOT if block.type in CHANGING_LISTS else TABLE_SLOT
+def changed_in(project: Project, block: Block) -> Block | None:
+    """The block that gives the list or table that a block changes, or None."""
+    if block.type in CHANGING_LISTS:
+        return _held(project, block)
+    return _held(project, block, TABLE_SLOT) if block.type in CHANGING_TABLES else None
 
 
-def _held(project: Project, block: Block, slot: str) -> Block | None:
+def _held(project: Project, block: Block, slot: str = LIST_SLOT) -> Block | None:
     """The block in the place of the list, or of the table, that a block changes, or None."""
     held = project.blocks.get(block.inputs.get(slot, ""))
     return None if held is None or held.disabled else held

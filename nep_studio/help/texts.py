@@ -26,6 +26,7 @@ from nep_studio.blocks.procedures import CALL, DEFINE, PARAMETER
 from nep_studio.blocks.program import (
     ALL_ROBOTS,
     ROBOT_BLOCK,
+    SCOPE_KEPT,
     Parameter,
     Procedure,
     Project,
@@ -43,10 +44,11 @@ from nep_studio.blocks.slots import FieldValue
 #       robot.play animation=nod
 #
 # A line is a block with the values of its slots; what is indented more is inside it, in its first
-# mouth or in the one that a line ``mouth:`` names. A value in brackets is a block. Quoted texts are
-# for people and can be translated, bare words cannot. ``own p1 value "double" a1:x:number`` defines
-# an own block, which the lines below use as ``my.define.p1``, ``my.call.p1``,
-# ``my.parameter.p1.a1``. A rule is named by the number of its stack, which stands above: rule=1.
+# mouth or in the one that a line ``mouth:`` names. A value in brackets is a block. ``wait=true``
+# adds the words of a group that has no places. Quoted texts are for people and can be translated,
+# bare words cannot. ``own p1 value "double" a1:x:number`` defines an own block, which the lines
+# below use as ``my.define.p1``, ``my.call.p1``, ``my.parameter.p1.a1``. ``kept "best"`` keeps a
+# variable for the next run. A rule is named by the number of its stack, which stands above: rule=1.
 
 _TOKEN = re.compile(r'\s*("(?:[^"\\]|\\.)*"|[()=]|[^\s()="]+)')
 _NUMBER = re.compile(r"-?\d+(\.\d+)?")
@@ -81,9 +83,13 @@ class Sketch:
 
 @dataclass
 class Written:
-    """A program as it was written down: its own blocks, and its stacks in their order."""
+    """A program as it was written down: its own blocks, and its stacks in their order.
+
+    ``kept`` are the variables that are kept for its next run.
+    """
 
     procedures: list[Procedure] = field(default_factory=list)
+    kept: list[str] = field(default_factory=list)
     stacks: list[list[Sketch]] = field(default_factory=list)
 
 
@@ -102,6 +108,8 @@ def read(text: str) -> Written:
             chain, open_ = [], []
         elif said.startswith("own "):
             written.procedures.append(_procedure(_tokens(said)))
+        elif said.startswith("kept "):
+            written.kept.append(json.loads(said.removeprefix("kept ")))
         else:
             if not open_:
                 open_ = [(depth, chain)]
@@ -190,6 +198,8 @@ def project_of(written: Written, language: Language, title: str, translate: Tran
     editor = Editor(Project(title), language)
     for number, procedure in enumerate(written.procedures):
         editor.apply(AddProcedure(_said(procedure, translate), number))
+    for variable in written.kept:
+        editor.add_variable(translate(variable), SCOPE_KEPT)
     for number, chain in enumerate(written.stacks):
         page = _definition(editor, chain[0].type).page
         place = editor.new_stack(page, 40.0, 40.0 + STEP * number)
@@ -224,6 +234,8 @@ def _make(editor: Editor, sketch: Sketch, place: Place, translate: Translate) ->
     bodies = {key or _first_mouth(definition): body for key, body in sketch.bodies.items()}
     _add_groups(editor, definition, block, [*sketch.values, *bodies])
     for key, value in _gathered(sketch.values).items():
+        if key in definition.groups:  # words without a place, as “and wait”
+            continue
         if isinstance(value, Sketch):
             _make(editor, value, InInput(block, key), translate)
         else:
@@ -247,6 +259,8 @@ def _add_groups(editor: Editor, definition: Definition, block: str, keys: Iterab
         name, number = split_slot(key)
         slot = definition.slots.get(name)
         group = slot.group if slot is not None else ""
+        if key in definition.groups:
+            group, number = key, 1
         while group and editor.project.blocks[block].groups.get(group, 0) < number:
             index = editor.project.blocks[block].groups.get(group, 0) + 1
             slots = definition.group_slots(group)

@@ -15,10 +15,13 @@ from typing import Any
 import msgspec
 
 from nep_studio import paths
+from nep_studio.blocks.definitions import Definition
 from nep_studio.blocks.language import Language
 from nep_studio.blocks.program import LANGUAGE, Block, Parameter, Project, split_slot
 
-_TEXT_KINDS = ("text", "lines", "line", "goal", "any")
+_NAME_KINDS = ("message", "mode")
+"""The kinds of fields with names that stand in several places, each with a default of its own."""
+_TEXT_KINDS = ("text", "lines", "line", "goal", "any", *_NAME_KINDS)
 """The kinds of fields in which people write words."""
 _OF_PROGRAMS = ("robots.robot", "nodes.launch", "code.lines", "code.value", "code.program")
 """Blocks whose texts are names and code: they are the same in every language."""
@@ -45,10 +48,9 @@ def translate(project: Project, name: str, language: Language, code: str) -> Non
     for block in project.blocks.values():
         definition = own.definitions[block.type]
         for key, text in _texts_of_block(block, own):
-            slot = split_slot(key)[0]
             said = told.get(text, text)
-            if text == definition.defaults.get(slot):
-                said = definition.said.get(slot, text)
+            if _is_default(definition, key, text):
+                said = definition.said.get(split_slot(key)[0], text)
             block.fields[key] = said
     for variable in project.variables:
         variable.name = told.get(variable.name, variable.name)
@@ -70,13 +72,20 @@ def texts_in(project: Project, language: Language) -> Iterator[str]:
     own = language.of(project)
     for block in project.blocks.values():
         for key, text in _texts_of_block(block, own):
-            if text != own.definitions[block.type].defaults.get(split_slot(key)[0]):
+            if not _is_default(own.definitions[block.type], key, text):
                 yield text
     yield from (variable.name for variable in project.variables)
     yield from (note.text for note in project.notes.values())
     for procedure in project.procedures.values():
         yield from (p.name if isinstance(p, Parameter) else p for p in procedure.parts)
     yield from (gesture["title"] for gesture in _own_gestures(project))
+
+
+def _is_default(definition: Definition, key: str, text: str) -> bool:
+    """Whether a text is what a new block says, which the language of the blocks can tell."""
+    slot = split_slot(key)[0]
+    is_name = definition.slots[slot].kind.name in _NAME_KINDS
+    return not is_name and text == definition.defaults.get(slot)
 
 
 def _texts_of_block(block: Block, language: Language) -> Iterator[tuple[str, str]]:

@@ -1,13 +1,18 @@
-"""A program inside a PNG file: an iTXt chunk with its text, found without decoding the picture."""
+"""Picture files: a program in a PNG or SVG file, and words of an SVG file that keep their width.
+
+In a PNG file a program is an iTXt chunk with its text, found without decoding the picture.
+"""
 
 from __future__ import annotations
 
 import base64
 import binascii
+import html
 import logging
+import re
 import struct
 import zlib
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from pathlib import Path
 
 from faults.files import content
@@ -146,3 +151,26 @@ def project_bytes_from(path: Path) -> bytes | None:
     if data.startswith(SIGNATURE):
         return program_in_png(data)
     return program_in_svg(data) if b"<svg" in data[:_FIRST_BYTES] else None
+
+
+# Words of an SVG file that stay inside what is drawn around them, whatever fonts a computer has.
+
+_TEXT = re.compile(r'(<text [^>]*font-weight="(\d+)"[^>]*?)\s*>([^<]*)</text>')
+_FAMILY = re.compile(r'font-family="([^"]*)"')
+
+
+def fitted(svg: bytes, width_of: Callable[[str, int], float | None]) -> bytes:
+    """An SVG file with the width of each of its words, and with a usual font after ours.
+
+    ``width_of`` gives the width of words in a weight of the font; None leaves them as they are.
+    """
+
+    def with_width(match: re.Match[str]) -> str:
+        opening, weight, said = match.groups()
+        width = width_of(html.unescape(said), int(weight)) if said.strip() else None
+        if width is None:
+            return match.group(0)
+        return f'{opening} textLength="{width:g}" lengthAdjust="spacingAndGlyphs">{said}</text>'
+
+    text = _FAMILY.sub(r'font-family="\1,sans-serif"', svg.decode())
+    return _TEXT.sub(with_width, text).encode()

@@ -25,7 +25,18 @@ PARTS_OF_PROGRAMS = {
 }
 HATS_AND_ROBOTS = {
     *("at", "days", "every", "when_told", "wait"),
-    *("goal", "when_goal", "when_heard", "when_noticed", "when_true", "when_idle", "source"),
+    *(
+        "goal",
+        "pursue",
+        "pursues",
+        "give_up",
+        "when_goal",
+        "when_heard",
+        "when_noticed",
+        "when_true",
+        "when_idle",
+        "source",
+    ),
     *("tree", "runs", "reactive", "keeps_place"),
     *("state", "first", "machine", "transition", "told", "after", "done", "go_to", "is_in"),
     "state_now",

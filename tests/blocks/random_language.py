@@ -109,7 +109,8 @@ class Maker:
         groups = {"repeated": 1} if again else {}
         fields = {"message": message, **({"again.1": again} if again else {})}
         said = self._say(B("event.told_value"))
-        rule = [B("event.told", fields, groups=groups), said, *self._chain(2)]
+        chain = self._perhaps_by_itself(self._chain(2))
+        rule = [B("event.told", fields, groups=groups), said, *chain]
         build(self.editor.language, rule, editor=self.editor)
 
     def _chance(self, part: float) -> bool:
@@ -129,11 +130,7 @@ class Maker:
 
     def _define(self, procedure: Procedure) -> None:
         self.where = Inside(procedure=procedure, variables=list(self.kinds))
-        chain = self._chain(self.dice.randint(1, 3))
-        if self._chance(0.3):  # it may have all of them for itself
-            begun = [v for v in self.kinds if self._chance(0.9)]
-            told = [self._say(B("variable.get", {"variable": v})) for v in begun[:2]]
-            chain = [*map(self._begin, begun), *told, *chain]
+        chain = self._perhaps_by_itself(self._chain(self.dice.randint(1, 3)))
         if self._chance(0.3) and procedure.gives_value:
             chain.insert(0, self._recursion(procedure))
         if procedure.gives_value and self._chance(0.9):
@@ -141,6 +138,14 @@ class Maker:
         place = self.editor.new_stack("behaviour", 400, 40)
         for index, block in enumerate([B(f"my.define.{procedure.id}"), *chain]):
             add(self.editor, block, place if index == 0 else InStack(place.stack, index))
+
+    def _perhaps_by_itself(self, chain: list[B]) -> list[B]:
+        """The chain, behind what sets variables so that it may have all of them for itself."""
+        if not self._chance(0.3):
+            return chain
+        begun = [v for v in self.kinds if self._chance(0.9)]
+        told = [self._say(B("variable.get", {"variable": v})) for v in begun[:2]]
+        return [*map(self._begin, begun), *told, *chain]
 
     def _end(self, back: B) -> B:
         """The end of an own block that gives a value: mostly that alone."""

@@ -8,7 +8,8 @@ from __future__ import annotations
 
 from collections.abc import Generator, Sequence
 
-from reference_interpreter import REPORTERS, STATEMENTS, Interpreter
+from reference_interpreter import STATEMENTS, Interpreter
+from reference_reporters import REPORTERS
 from reference_values import MOST_STEPS, GivenUp, Value, Wrong, is_yes, rounded
 
 from nep_studio.blocks.language import Language
@@ -29,17 +30,18 @@ class Trees(Interpreter):
     def __init__(self, project: Project, language: Language) -> None:
         super().__init__(project, language)
         self.board: dict[str, Value] = {}
-        self._looks = 0
+        self._looked = 0
 
     def do(self, name: str) -> str:
         """Do a tree from a new beginning to its end."""
         run = _Run(self)
         around, self.board = self.board, {}
+        self._own = [{}]  # what steps use belongs to the whole program
         try:
             tree = run.all(self.tree(name), ())
             while True:
-                self._looks += 1
-                if self._looks > MOST_STEPS:
+                self._looked += 1
+                if self._looked > MOST_STEPS:
                     raise GivenUp
                 try:
                     next(tree)

@@ -151,6 +151,25 @@ def test_two_rules_for_one_gesture_are_told_however_they_name_it(language):
     assert problem.kind == "same_trigger" and problem.block == block_of(editor, "event.human_state")
 
 
+def test_two_states_may_be_left_for_the_same_thing_and_two_rules_hear_a_message(language):
+    there = B("state.person", {"state": "open", "trigger": "touched_head", "target": "closed"})
+    back = B("state.person", {"state": "closed", "trigger": "touched_head", "target": "open"})
+    hears = B("event.told", {"message": "work"})
+    tells = B("event.tell", {"message": "work"})
+    begins = B("state.begins", {"state": "open"}, groups={"first": 1})
+    editor = sound(language, [begins, tells], [there], [back], [hears, WAIT], [hears, WAIT])
+
+    assert "same_trigger" not in kinds(editor, language)
+
+
+def test_two_ways_out_of_one_state_for_the_same_thing_are_told(language):
+    there = B("state.person", {"state": "open", "trigger": "touched_head", "target": "closed"})
+    begins = B("state.begins", {"state": "open"}, groups={"first": 1})
+    editor = sound(language, [begins, WAIT], [there], [there])
+
+    assert "same_trigger" in kinds(editor, language)
+
+
 def test_loose_blocks_are_only_worth_knowing(language):
     editor = sound(language, [B("event.started"), WAIT], [B("robot.say", {"robot": "Pepper"})])
 

@@ -59,11 +59,12 @@ def test_the_karate_greeting_is_a_program_that_a_teacher_would_show(language):
     assert generate_program(karate(language).project, language).text == KARATE
 
 
-API = "Behavior, Robot, human_state, stop_program, to_nearest, to_power, wait, wait_until"
-CONTROL = f'''\
+CONTROL = '''\
 """Test. Made with NEP Studio."""
 import random
-from nep_core import {API}
+from nep_core import (
+    Behavior, Robot, human_state, stop_program, to_nearest, to_power, wait, wait_until,
+)
 
 all_robots = Robot(["NAO", "Pepper 2"])
 behavior = Behavior("Test")

@@ -81,6 +81,31 @@ def test_a_value_that_waits_is_fine_where_nobody_else_sets_it(language):
     assert not found(elsewhere, "torn_apart")
 
 
+def test_what_is_put_into_a_list_or_table_while_others_change_it_is_not_lost(language):
+    answer = {"value": B("robot_speech.ask_for"), "list": get()}
+    fills = [B("event.started"), B("list.add", {}, answer)]
+    shorter = [B("event.human_state"), B("list.remove", {}, {"list": get()})]
+    votes = {"key": B("robot_speech.ask_for"), "table": get("v2")}
+    counts = [B("event.gesture"), B("table.change", {}, votes)]
+    empties = [
+        B("event.human_state", {"state": "seen_face"}),
+        B("table.take", {}, {"table": get("v2")}),
+    ]
+    editor = build(language, fills, shorter, counts, empties, variables=("list", "votes"))
+
+    assert not found(editor, "torn_apart")
+
+
+def test_a_value_of_a_table_that_is_read_before_a_wait_is_told(language):
+    held = B("table.get", {}, {"table": get()})
+    total = B("math.arithmetic", {}, {"a": held, "b": B("robot_speech.ask_number")})
+    sets = [B("event.started"), B("table.set", {}, {"table": get(), "value": total})]
+    other = [B("event.human_state"), B("table.change", {}, {"table": get()})]
+    editor = build(language, sets, other, variables=("votes",))
+
+    assert len(found(editor, "torn_apart")) == 1
+
+
 def test_a_list_that_grows_in_its_own_loop_is_told(language):
     def loop(grown):
         adds = B("list.add", inputs={"list": get(grown)})

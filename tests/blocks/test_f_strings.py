@@ -8,20 +8,19 @@ import pytest
 from block_building import B, build, read_program
 
 from nep_core.program.behavior import Behavior
+from nep_studio.blocks.edits.project import SetScope
 from nep_studio.blocks.errors import CodeRefused
 from nep_studio.blocks.generate.program import generate_program
-from nep_studio.blocks.program import Project
+from nep_studio.blocks.program import SCOPE_PROGRAM, Project
 
 HEAD = """from nep_core import Behavior, Robot, as_text
 
 nao = Robot("NAO")
 behavior = Behavior("Test")
-n = 0
 
 
 @behavior.when_started
 def go():
-    global n
     n = 1
 """
 
@@ -56,14 +55,16 @@ def put(variable, value):
 def made(language, value, *before):
     """The Python of a value in a place for a text, and what it gives when it runs."""
     rule = [B("event.started"), *before, put("v1", value)]
-    project = build(language, rule, variables=("out", "n", "w")).project
+    editor = build(language, rule, variables=("out", "n", "w"))
+    editor.apply(SetScope("v1", SCOPE_PROGRAM))
+    project = editor.project
     code = generate_program(project, language).text
     assert generate_program(read_program(code, language), language).text == code
-    (line,) = (line for line in code.splitlines() if line.startswith("    out = "))
+    (line,) = (line for line in code.splitlines() if line.startswith("    program.out = "))
     held = {}
     exec(compile(code.replace("\nbehavior.run()\n", ""), "program.py", "exec"), held)
     held["when_started"]()
-    return line.removeprefix("    out = "), held["out"]
+    return line.removeprefix("    program.out = "), held["program"].out
 
 
 POINTS, WORD = put("v2", 3), put("v3", "Ada")

@@ -12,9 +12,10 @@ from nep_studio.help.texts import examples
 
 EXAMPLES = sorted((Path(__file__).parents[2] / "resources/examples").glob("*.nep"))
 RULES = "B,SIM,PLW0603"
-AS_THE_BLOCK_SAYS = "SIM201,SIM905"
-"""Findings about a single block that the help shows: “repeat until” is ``while not``, which reads
-back as itself, and “the parts of” takes apart the text that is typed in it."""
+AS_THE_BLOCK_SAYS = "SIM117,SIM201,SIM905"
+"""Findings about a single block that the help shows: a part of a behaviour tree is a ``with`` of
+its own, also where it is the only one in another; “repeat until” is ``while not``, which reads back
+as itself; “the parts of” takes apart the text that is typed in it."""
 
 
 def findings(folder: Path, but: str = "") -> str:

@@ -83,7 +83,7 @@ def test_what_was_told_is_any_value(language: Language) -> None:
         ),
         (
             B("event.true", {}, {"condition": B("variable.get", {"variable": "v1"})}),
-            "@behavior.when_true(lambda: ready)",
+            "@behavior.when_true(lambda: program.ready)",
         ),
         (B("time.every", {"seconds": 2.5}), "@behavior.every(2.5)"),
         (B("time.at", {"time": "07:05"}), '@behavior.at("07:05")'),

@@ -42,6 +42,8 @@ def code_of(editor):
 
 FLAG = B("control.repeat_until", inputs={"condition": get()}, bodies={"do": [B("control.wait")]})
 WAIT = B("control.wait_until", inputs={"condition": get()})
+TRUE_WHILE = B("plan.true_while", {"fact": "lit"}, {"condition": get()})
+STEP = B("tree.step", bodies={"do": [put(), say()]})
 EACH = B("control.for_each", {"variable": "v1"}, bodies={"do": [say()]})
 
 
@@ -59,6 +61,12 @@ EACH = B("control.for_each", {"variable": "v1"}, bodies={"do": [say()]})
         ([started(put(), FLAG), touched(put(2), say())], False),
         ([started(put(), WAIT), touched(put(2), say())], False),
         ([started(put(), FLAG)], True),
+        ([started(put(), TRUE_WHILE)], False),
+        ([started(B("control.try", bodies={"do": [put(), say()]})), touched(put(), say())], True),
+        ([started(B("control.try", bodies={"do": [put()]}), say())], False),
+        ([started(B("control.try", bodies={"do": [put()], "otherwise": [say()]}))], False),
+        ([[B("tree.tree", {"name": "a"}), STEP]], False),
+        ([[B("event.told"), put(), say()], started(put(), say())], True),
         ([started(EACH), touched(EACH)], True),
         ([started(EACH, say())], False),
         ([started(put(), B("control.together", bodies={"do.1": [say()]}))], False),

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import pytest
-from block_building import B, build, read_program
+from block_building import B, build, held, read_program, share_variables
 
 from nep_core.errors import ValueRefused
 from nep_core.program.tables import change_at, has_key, names_in, set_at, table_of, value_at
@@ -51,8 +51,8 @@ def listed(*items):
     return block
 
 
-def at(key, held=None):
-    return slots("table.get", table=held or get(AGES), key=key)
+def at(key, inside=None):
+    return slots("table.get", table=inside or get(AGES), key=key)
 
 
 def change(key, amount=1):
@@ -63,9 +63,11 @@ TRUE = B("logic.truth", {"truth": "true"})
 ANNA_AND_BEN = put(AGES, table(("Anna", 3), ("Ben", 5)))
 
 
-def written(language, *chain, editor=None):
-    """The lines of a rule; its Python becomes blocks, and the same Python again."""
-    editor = build(language, [B("event.started"), *chain], variables=NAMES, editor=editor)
+def written(language, *chain, shared=False):
+    """The program of a rule; its Python becomes blocks, and the same Python again."""
+    editor = build(language, [B("event.started"), *chain], variables=NAMES)
+    if shared:
+        share_variables(editor)
     text = generate_program(editor.project, language).text
     read = read_program(text, language, Project())
     assert generate_program(read, language).text == text
@@ -75,16 +77,21 @@ def written(language, *chain, editor=None):
 
 def lines(language, *chain):
     body = written(language, *chain).split("def when_started():\n")[1].split("\n\n\n")[0]
-    return [line[4:] for line in body.splitlines() if "global " not in line]
+    return [line[4:] for line in body.splitlines()]
 
 
 def run(language, *chain):
     """What the variables hold after a rule."""
-    held = {}
-    text = written(language, *chain).replace("\nbehavior.run()\n", "\n")
-    exec(compile(text, "program.py", "exec"), held)
-    held["when_started"]()
-    return held
+    text = written(language, *chain, shared=True)
+    return held(started(text))
+
+
+def started(text):
+    """The names of a program after its rule."""
+    names = {}
+    exec(compile(text.replace("\nbehavior.run()\n", "\n"), "program.py", "exec"), names)
+    names["when_started"]()
+    return names
 
 
 @pytest.mark.parametrize(
@@ -113,9 +120,9 @@ def test_a_block_of_tables_is_one_plain_line(language, block, line):
 def test_votes_are_counted_and_told(language):
     votes = [put(AGES, table()), change("red"), change("blue"), change("red")]
 
-    held = run(language, *votes, put(OUT, slots("text.join", **{"item.1": get(AGES)})))
+    after = run(language, *votes, put(OUT, slots("text.join", **{"item.1": get(AGES)})))
 
-    assert held["out"] == "red: 2, blue: 1"
+    assert after["out"] == "red: 2, blue: 1"
 
 
 def test_a_table_is_gone_through_by_its_names(language):
@@ -128,7 +135,7 @@ def test_a_table_is_gone_through_by_its_names(language):
 
 
 def test_a_variable_that_a_block_takes_for_a_table_begins_as_an_empty_one(language):
-    assert "\nages = {}\n" in written(language, change("Anna"))
+    assert "\nprogram = Variables(ages={})\n" in written(language, change("Anna"))
     assert run(language, change("Anna"))["ages"] == {"Anna": 1}
 
 
@@ -150,15 +157,15 @@ def test_lists_and_tables_in_each_other_are_plain_places(language):
 
 def test_one_is_another_key_than_true_and_two_is_the_same_as_a_fraction(language):
     half = B("math.arithmetic", {"operation": "divide", "a": 4, "b": 2})
-    held = run(
+    after = run(
         language,
         put(AGES, table((1, "one"), (TRUE, "yes"), (2, "two"))),
         put(OUT, listed(at(1), at(TRUE), at(half), slots("table.names", table=get(AGES)))),
         put(WHO, slots("text.join", **{"item.1": get(AGES)})),
     )
 
-    assert held["out"] == ["one", "yes", "two", [1, True, 2]] and held["out"][3][1] is True
-    assert held["who"] == "1: one, true: yes, 2: two"
+    assert after["out"] == ["one", "yes", "two", [1, True, 2]] and after["out"][3][1] is True
+    assert after["who"] == "1: one, true: yes, 2: two"
 
 
 def test_own_blocks_take_tables(language):
@@ -170,12 +177,10 @@ def test_own_blocks_take_tables(language):
     call = slots(f"my.call.{own}", **{given.id: get(ages)})
     build(language, [B(f"my.define.{own}"), inner], editor=editor)
     build(language, [B("event.started"), put(ages, table(("Anna", 3))), call], editor=editor)
+    share_variables(editor)
     text = generate_program(editor.project, language).text
-    held = {}
-    exec(compile(text.replace("\nbehavior.run()\n", "\n"), "program.py", "exec"), held)
-    held["when_started"]()
 
-    assert held["ages"] == {"Anna": 4}
+    assert held(started(text))["ages"] == {"Anna": 4}
     assert generate_program(read_program(text, language, Project()), language).text == text
 
 
@@ -185,7 +190,7 @@ def test_what_two_rules_add_at_the_same_time_is_whole(language):
 
     text = generate_program(editor.project, language).text
 
-    assert text.count('with at_once: ages["red"] = ages.get("red", 0) + 1') == 2
+    assert text.count('with at_once: program.ages["red"] = program.ages.get("red", 0) + 1') == 2
 
 
 @pytest.mark.parametrize(
@@ -205,27 +210,27 @@ def test_what_two_rules_add_at_the_same_time_is_whole(language):
 def test_what_goes_wrong_is_a_sentence_with_what_to_do(language, tmp_path, chain, sentence):
     editor = build(language, [B("event.started"), *chain], variables=NAMES)
     text = generate_program(editor.project, language).text.replace("\nbehavior.run()\n", "\n")
-    file, held = tmp_path / "program.py", {}
+    file, names = tmp_path / "program.py", {}
     file.write_text(text, encoding="utf-8")
-    exec(compile(text, str(file), "exec"), held)
+    exec(compile(text, str(file), "exec"), names)
 
     with pytest.raises((ValueRefused, LookupError, TypeError)) as error:
-        held["when_started"]()
+        names["when_started"]()
 
     failure = failure_of(error.value)
     assert sentence in str(failure) and failure.checklist
 
 
 def test_functions_keep_one_and_true_apart_and_refuse_what_is_no_key():
-    held = table_of(1, "one", True, "yes", 1.0, "again")
+    kept = table_of(1, "one", True, "yes", 1.0, "again")
 
-    assert names_in(held) == [1, True] and value_at(held, 1) == "again"
-    assert has_key(held, True) and not has_key(held, False)
-    assert as_text(held) == "1: again, true: yes" and length_of(held) == 2
-    change_at(held, "n", 2)
-    assert value_at(held, "n") == 2 and value_at(held, "m", 7) == 7
+    assert names_in(kept) == [1, True] and value_at(kept, 1) == "again"
+    assert has_key(kept, True) and not has_key(kept, False)
+    assert as_text(kept) == "1: again, true: yes" and length_of(kept) == 2
+    change_at(kept, "n", 2)
+    assert value_at(kept, "n") == 2 and value_at(kept, "m", 7) == 7
     with pytest.raises(ValueRefused):
-        set_at(held, [1], 2)
+        set_at(kept, [1], 2)
 
 
 def test_tables_are_equal_whatever_their_order_but_not_one_and_true():

@@ -86,11 +86,12 @@ behavior.run()
 '''
 
 
-IMPORTED = (
-    "Behavior, Check, CoolDown, Delay, Fallback, ForceFailure, ForceSuccess, Input, Invert, "
-    "Output, Parallel, Repeat, Retry, Robot, Sequence, Step, SubTree, TimeLimit, WhileTrue, "
-    "as_number, as_text, do_tree, fail_step, human_state, set_tree_value, tree_value, wait"
-)
+IMPORTED = """(
+    Behavior, Check, CoolDown, Delay, Fallback, ForceFailure, ForceSuccess, Input,
+    Invert, Output, Parallel, Repeat, Retry, Robot, Sequence, Step, SubTree, TimeLimit,
+    WhileTrue, as_number, as_text, do_tree, fail_step, human_state, set_tree_value,
+    tree_value, wait,
+)"""
 GUIDE = GUIDE.replace("*", IMPORTED, 1)
 
 
@@ -159,7 +160,7 @@ def test_what_side_by_side_steps_add_to_a_variable_is_added_whole(language: Lang
     steps = [B("tree.step", {"name": name}, bodies={"do": [add]}) for name in ("a", "b")]
     editor = build(language, tree(B("tree.parallel", bodies={"do": steps})), variables=("n", "l"))
 
-    assert generate_program(editor.project, language).text.count("with at_once: n += ") == 2
+    assert generate_program(editor.project, language).text.count("with at_once: program.n += ") == 2
 
 
 def test_a_tree_too_deep_for_python_is_told(language: Language) -> None:

@@ -23,6 +23,8 @@ from nep_studio.blocks.program import Project
 
 TREES = int(os.environ.get("NEP_RANDOM_PROGRAMS", "300"))
 NAMES = ("v1", "v2")
+SET_FIRST = "v3"
+"""A variable that each step sets before it reads it."""
 
 
 class Maker:
@@ -34,7 +36,7 @@ class Maker:
     def project(self) -> Project:
         inner = [B("tree.tree", {"name": "inner", "runs": "when_asked"}), *self._parts(2, "")]
         outer = [B("tree.tree", {"name": "outer", "runs": "when_asked"}), *self._parts(4, "inner")]
-        return build(self._language, outer, inner, variables=("a", "b")).project
+        return build(self._language, outer, inner, variables=("a", "b", "c")).project
 
     def _parts(self, depth: int, other: str) -> list[B]:
         return [self._part(depth, other) for _ in range(self._rng.choice((0, 1, 1, 2, 2, 3)))]
@@ -109,6 +111,10 @@ class Maker:
                     )
                 )
             )
+        if self._rng.random() < 0.2:
+            found = B("variable.get", {"variable": SET_FIRST})
+            body.append(B("variable.set", {"variable": SET_FIRST}, {"value": self._variable()}))
+            body.append(B("robot.say", inputs={"text": found}))
         if self._rng.random() < 0.4:
             fails = B("control.if", inputs={"condition": self._condition()})
             fails.bodies = {"do": [B("tree.fail")]}

@@ -134,6 +134,16 @@ def test_every_block_has_pictures_python_and_robots(made_site: MadeSite) -> None
         assert "<pre" in part and "<h3>On which robots</h3>" in part, definition.id
 
 
+@pytest.mark.parametrize("language", ["", "ja/"])
+def test_a_page_shows_its_examples_and_offers_nothing_that_only_the_window_can_do(
+    made_site: MadeSite, language: str
+) -> None:
+    written = made_site.text(f"{language}how-to/three-ways.html")
+
+    assert written.count('<svg class="blocks"') == 9
+    assert "choose:" not in written and "drag:" not in written
+
+
 def test_messages_commands_and_guides_are_there(made_site: MadeSite) -> None:
     assert {topic.strip("/") for topic in BY_TOPIC} <= made_site.anchors("messages.html")
     assert {"run", "show", "train", "node"} <= made_site.anchors("commands.html")

@@ -13,6 +13,7 @@ import pytest
 
 from nep_core.program import kept as kept_file
 from nep_core.program.kept import Kept, keep_in, keep_now, take_troubles
+from nep_core.program.tables import names_in, table_of
 from nep_core.program.variables import Variables
 
 
@@ -48,6 +49,22 @@ def test_a_run_begins_with_what_the_last_one_held(file):
     assert not list(file.parent.glob(".*"))
 
 
+@pytest.mark.parametrize(
+    "keys", [(1, True, "1"), (2.5, False), ("table",), ("table", "Ada"), ("",), ()]
+)
+def test_the_keys_of_tables_are_of_the_kinds_that_they_were(file, keys):
+    inner = table_of(*(one for key in keys for one in (key, [{2: key}])))
+    kept = Kept(votes={}, rounds=[])
+    kept.votes = inner
+    kept.rounds.append(inner)
+    keep_now()
+
+    again = Kept(votes={}, rounds=[])
+
+    assert again.votes == inner and again.rounds == [inner]
+    assert [(type(key), key) for key in names_in(again.votes)] == [(type(k), k) for k in keys]
+
+
 def test_what_is_changed_in_place_is_in_the_file_soon(file):
     kept = Kept(names=[])
     kept.names.append("Ada")
@@ -69,7 +86,13 @@ def test_many_changes_are_few_writes(file, monkeypatch):
     assert kept.n == 100_000 and 1 <= len(writes) < 30
 
 
-@pytest.mark.parametrize("damage", [b"{bad", b"[1]", b"\xff\xfe", b"", b"[" * 100_000])
+@pytest.mark.parametrize(
+    "damage",
+    [
+        *(b"{bad", b"[1]", b"\xff\xfe", b"", b"[" * 100_000),
+        *(b'{"best": {"table": 1}}', b'{"best": {"table": [[[], 1]]}}'),
+    ],
+)
 def test_a_file_that_cannot_be_read_is_put_aside_and_told(file, damage):
     file.write_bytes(damage)
 

@@ -167,6 +167,23 @@ def test_several_machines_are_in_a_state_each(scene: Scene) -> None:
     assert scene.behavior.is_in("waiting")
 
 
+def test_the_network_hears_which_machine_is_in_which_state(scene: Scene) -> None:
+    stay(scene, "waiting", first=True)
+    scene.behavior.transition("off", "on", when="wave", machine="lamp")(lambda: None)
+    scene.behavior.state("off", first=True, machine="lamp")(lambda: None)
+    scene.begin()
+
+    scene.does("wave")
+
+    heard = set[tuple[str, str]]()
+    while len(heard) < 3:
+        told = scene.told.receive(WAIT_S)
+        assert told is not None, heard
+        if told.event == "state_entered":
+            heard.add((told.machine, told.rule))
+    assert heard == {("", "waiting"), ("lamp", "off"), ("lamp", "on")}
+
+
 def test_a_state_that_is_not_there_is_an_error_that_names_those_that_are(scene: Scene) -> None:
     stay(scene, "waiting", first=True)
     scene.begin()

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import threading
 import time
 from collections.abc import Callable, Iterator
@@ -367,3 +368,27 @@ def test_a_tree_that_always_runs_remembers_what_cools_down(network: PeerNetwork)
 
     assert written[:4] == ["once", "often", "often", "often"]
     assert written.count("once") == 1
+
+
+def test_what_is_as_it_was_at_the_look_before_is_told_once(network: PeerNetwork) -> None:
+    tasks.PROGRAM.cancelled.clear()
+    behavior, looks = Behavior("Trees", network=network), []
+    states = Subscriber(PROGRAM_STATE, ProgramState, network=network)
+
+    def is_there() -> bool:
+        looks.append("asked")
+        return len(looks) > 5
+
+    @behavior.tree("always", runs="always")
+    def always() -> None:
+        Check(is_there)
+        Step("greet")(tasks.PROGRAM.cancel)
+
+    with contextlib.suppress(tasks.Cancelled):
+        behavior.run()
+
+    told = []
+    while (state := states.receive(0.2)) is not None:
+        told += [status for status in state.nodes.values() if state.event == "tree"]
+    assert told.count("failed") == 1
+    assert len(looks) > 5

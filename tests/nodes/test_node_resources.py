@@ -22,7 +22,7 @@ def test_a_wheel_has_them_in_the_package_of_the_studio(
     installed = tmp_path / "nep_studio" / "resources"
     installed.mkdir(parents=True)
     (tmp_path / "resources").mkdir()  # somebody else's
-    monkeypatch.setattr("nodes.resources.__file__", str(tmp_path / "nodes" / "resources.py"))
+    monkeypatch.setattr("nep_core.places.__file__", str(tmp_path / "nep_core" / "places.py"))
 
     assert resource_folder() == installed
 

@@ -131,7 +131,9 @@ def staged(name: str, folder: Path, network: LocalNetwork, speed: float = FAST) 
     file = folder / "program.py"
     file.write_text(generate_program(project, language).text, encoding="utf-8")
     hats = {project.blocks[chain[0]].type for chain in rules(project, language)}
-    stage = Stage(example, network, has_rules=hats != {"event.started"})
+    # who is in a state hears all the time
+    begins = {hat for hat in hats if not hat.startswith("state.")}
+    stage = Stage(example, network, has_rules=not begins <= {"event.started"})
     network.listen(stage.hear)
     try:
         with Session(nodes, network, program=file):

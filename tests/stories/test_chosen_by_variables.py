@@ -10,9 +10,12 @@ import pytest
 
 from nep_core.errors import NepError
 from nep_core.program.values import speak
+from nep_core.program.variables import variables_in
 from nep_studio.blocks.edits.content import SetExtra
+from nep_studio.blocks.edits.project import SetScope
 from nep_studio.blocks.generate.program import generate_program
 from nep_studio.blocks.program import LANGUAGE as LANGUAGE_OF
+from nep_studio.blocks.program import SCOPE_PROGRAM
 from tests.blocks.block_building import B, build
 from tests.stories.robot_block_stage import DRIVERS, LANGUAGE, BlockStage, block_stage
 
@@ -32,11 +35,13 @@ def put(variable: str, value: B | str) -> B:
 def play(*stack: B, language: str = "en") -> dict[str, Any]:
     """Run a rule, and return what its variables hold then."""
     editor = build(LANGUAGE, [STARTED, *stack], variables=("which", "what", "x"))
+    for variable in list(editor.project.variables):
+        editor.apply(SetScope(variable.id, SCOPE_PROGRAM))
     editor.apply(SetExtra(LANGUAGE_OF, language))
     names: dict[str, Any] = {"__name__": "__main__"}
     code = generate_program(editor.project, LANGUAGE).text
     exec(compile(code, "program.py", "exec"), names)
-    return names
+    return dict(variables_in(names["program"]))
 
 
 @pytest.fixture(scope="module", params=DRIVERS)
@@ -64,6 +69,7 @@ def test_a_posture_is_called_as_in_python_or_as_in_blocks(stage: BlockStage, wor
 
 def test_a_robot_is_found_by_its_name_and_told_by_it(stage: BlockStage) -> None:
     names = play(
+        put("v3", B("robot.named")),
         put("v1", "nao"),
         put("v2", "clap"),
         B("robot.play", {}, {"robot": held("v1"), "animation": held("v2")}),

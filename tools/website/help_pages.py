@@ -26,7 +26,15 @@ from nep_studio.help.texts import (
     split,
 )
 from nep_studio.ui.canvas.fields.editors import slot_name
-from nep_studio.ui.plugins.help.repository import DRAG, EXAMPLE, PICTURE, Book, sample_clip, text_of
+from nep_studio.ui.plugins.help.repository import (
+    CHOOSE,
+    DRAG,
+    EXAMPLE,
+    PICTURE,
+    Book,
+    sample_clip,
+    text_of,
+)
 from nep_studio.ui.words import tr
 
 from .contents import DOCS
@@ -37,6 +45,8 @@ from .reference_pages import MESSAGES_PATH as MESSAGES
 PROBLEMS = "problems"
 
 _PICTURE = re.compile(rf'<img src="{PICTURE}([^"]+)">')
+_CHOICE = re.compile(rf'<p><a href="{CHOOSE}[^"]+">[^<]*</a></p>')
+"""What only the window can do."""
 _EXAMPLE = re.compile(rf'<a href="{DRAG}[^"]+"><img src="{EXAMPLE}([^"]+)"></a>')
 _WORDS = re.compile(r"<!--.*?\bwords: (.*?) -->")
 _QUOTED = re.compile(r"`([^`<>]+)`")
@@ -92,7 +102,8 @@ class HelpPages:
         page = self._book.page(name)
         path = self._path(name)
         group = PROBLEMS if name == HOW_TO + PROBLEMS else "how-to"
-        body = for_browsers(page.html, self.address)
+        html = for_browsers(_CHOICE.sub("", page.html), self.address)
+        body = _EXAMPLE.sub(lambda found: self._example(found[1]), html)
         made = Page(path, page.title, body, group, self._code, _about(body))
         written = page_texts(self._code)[name.removeprefix(HOW_TO)]
         words = _WORDS.search(written)

@@ -173,6 +173,8 @@ def check_real_robots(project: Project, language: Language, chain: list[str]) ->
 
 # Checks of rules: nothing starts, two rules for the same thing, blocks under no rule.
 
+_HEARS_BLOCK = "event.told"
+
 
 def check_rules(
     project: Project, language: Language, running: Iterable[list[str]]
@@ -191,6 +193,8 @@ def check_rules(
         )
     first: dict[str, str] = {}
     for hat in hats:
+        if hat.type == _HEARS_BLOCK:  # that several hear a message is what messages are for
+            continue
         if first.setdefault(_trigger(language, hat), hat.id) != hat.id:
             yield found("same_trigger", project, language, hat.id)
 
@@ -329,9 +333,13 @@ def _name(language: Language, block: Block) -> str:
 
 
 def _trigger(language: Language, hat: Block) -> str:
-    """What a rule waits for; a gesture is the human state that its node tells."""
+    """What a rule waits for; a gesture is the human state that its node tells.
+
+    What a state of the program waits for is that of this state alone.
+    """
     definition = language.definitions[hat.type]
-    for slot in definition.slots.values():
+    is_of_state = any(slot.kind.name == "mode" for slot in definition.slots.values())
+    for slot in () if is_of_state else definition.slots.values():
         if slot.kind.name == "gesture":
             return f"{GESTURE_STATE}{definition.value(hat, slot.name)}"
         if slot.kind.name == "state":

@@ -16,6 +16,7 @@ from nep_studio.blocks.sharing import (
     RESIZING_LISTS,
     VARIABLE,
     Sharing,
+    changed_in,
     is_slow,
     variables_set,
     waits,
@@ -130,7 +131,9 @@ def check_shared(project: Project, language: Language, sharing: Sharing, chain: 
         inside = list(project.within(list(block.inputs.values()), enabled=True))
         if not any(is_slow(language, sharing, one) for one in inside):
             continue
-        read = {str(one.fields.get("variable", "")) for one in inside if one.type == VARIABLE}
+        changed = changed_in(project, block)  # one thing for all: what others put into it stays
+        values = [one for one in inside if one is not changed]
+        read = {str(one.fields.get("variable", "")) for one in values if one.type == VARIABLE}
         read |= {str(block.fields.get("variable", ""))} if block.type == CHANGE else set()
         for variable in variables_set(project, language, block):
             known = project.variable(variable)

@@ -680,5 +680,6 @@ def is_junction(node: ast.expr) -> bool:
 
 
 def may_be(node: ast.expr, kinds: int, seen: Seen | None = None) -> bool:
-    """Whether a value can be of these kinds, as far as the text tells."""
-    return bool(kinds_of(node, seen) & kinds)
+    """Whether a value can be of these kinds, as far as the text tells; any if it never is any."""
+    found = kinds_of(node, seen)
+    return not found or bool(found & kinds)

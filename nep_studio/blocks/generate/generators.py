@@ -377,8 +377,9 @@ def _place(code: Expressions, block: Block, then: ast.expr | None = None) -> _Pl
     number, items = code.values_in(block, "number", "list", then=then)
     is_from_end = code.choice(block, "end") == "end"
     options: dict[str, ast.expr] = {"from_end": ast.Constant(True)} if is_from_end else {}
-    index = None
-    if are(kinds_of(items), _INDEXED) and code.may_swap(number, items):
+    index, kinds = None, kinds_of(items)
+    may_have_items = not kinds or kinds & LIST
+    if may_have_items and are(kinds, _INDEXED) and code.may_swap(number, items):
         place = known_whole(number) or 0
         index = index_of(number)
         if is_from_end:

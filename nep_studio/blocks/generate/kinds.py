@@ -655,6 +655,8 @@ class FactReader:
             return known.with_also(variable)
         if generator in ("change_variable", "append_text"):
             self._read_of({variable}, known)
+        if generator == "true_while" and "condition" in block.inputs:  # others ask it, later too
+            self._apart.update(self._variables_in([block.inputs["condition"]]))
         if "apart" in definition.flags:
             inside = [block_id for chain in block.bodies.values() for block_id in chain]
             self._apart.update(self._variables_in(inside))

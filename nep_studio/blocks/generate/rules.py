@@ -146,8 +146,9 @@ def _machine(code: Expressions, block: Block) -> dict[str, ast.expr]:
 
 
 def _state(code: Expressions, block: Block) -> Hat:
-    options = {"first": ast.Constant(True)} if block.groups.get("first") else {}
-    options |= _machine(code, block)
+    options = _machine(code, block)
+    if block.groups.get("first"):
+        options = {"first": ast.Constant(True), **options}
     name = f"state_{code.text(block, 'state')}"
     return _hat(name, "state", code.slot(block, "state"), **options)
 

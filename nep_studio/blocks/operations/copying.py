@@ -102,8 +102,8 @@ def copy(project: Project, language: Language, ids: Iterable[str], at: Points = 
     }
     for variable in project.variables:
         if variable.id in used:
-            place, scope = len(target.variables), variable.scope
-            AddVariable(variable.id, variable.name, place, scope).apply(target)
+            count, scope = len(target.variables), variable.scope
+            AddVariable(variable.id, variable.name, count, scope).apply(target)
     _add_procedures(clip.project, project)
     _note_rules(clip.project, project, language)
     take_along(clip.project, project, language)

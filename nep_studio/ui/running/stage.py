@@ -37,7 +37,8 @@ class Marks:
     ``glowing`` are the innermost blocks that run, ``around`` those that they were called from;
     ``values`` are by the Python name of the variable; ``results`` are what the reporters in a
     statement gave last, by the statement and the reporter. ``places`` finds a reporter's block.
-    ``nodes`` are the parts of behaviour trees that run, or have ended, as the program tells them.
+    ``nodes`` are the parts of behaviour trees that run, or have ended, as the program tells them;
+    ``modes`` are the states in which state machines are, by the names of these.
     """
 
     code: Code = field(default_factory=lambda: Code("", ()))
@@ -49,6 +50,7 @@ class Marks:
     values: dict[str, str] = field(default_factory=dict)
     results: dict[str, dict[str, str]] = field(default_factory=dict)
     nodes: dict[str, str] = field(default_factory=dict)
+    modes: dict[str, str] = field(default_factory=dict)
 
     def take(self, state: ProgramState) -> None:
         """Take in what the program told."""
@@ -67,6 +69,8 @@ class Marks:
                     self._value(name, clipped(text))
             case "tree":
                 self._nodes(state.nodes)
+            case "state_entered":
+                self.modes[state.machine] = state.rule
             case "paused":
                 block = self.code.block_at(state.line)
                 if block is not None:
@@ -95,6 +99,7 @@ class Marks:
         """Nothing runs any more; counts and values stay, for whoever wants to read them."""
         self.glowing = self.around = frozenset()
         self.paused.clear()
+        self.modes.clear()
         self.nodes = {block: how for block, how in self.nodes.items() if how != "running"}
 
     def _nodes(self, told: Mapping[str, str]) -> None:

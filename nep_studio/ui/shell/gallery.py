@@ -78,6 +78,7 @@ TAGS = {
     "values": "Counting and keeping",
     "sensors": "Sensors",
     "goals": "Goals",
+    "states": "States",
     "own_blocks": "My blocks",
 }
 """What a tag is called."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+import tomllib
 
 import pytest
 
@@ -13,15 +14,28 @@ from nep_studio.blocks.generate.program import generate_program
 from nep_studio.blocks.operations.copying import paste
 from nep_studio.blocks.program import PAGES, Project
 from nep_studio.help import texts as help_examples
-from nep_studio.help.texts import Example, NotationError, example_of, examples
+from nep_studio.help.texts import (
+    Example,
+    NotationError,
+    example_of,
+    examples,
+    help_folder,
+    translated_texts,
+)
 from nep_studio.run.installation import studio_language
 
 LANGUAGE = studio_language()
 ALL = sorted(examples())
+OTHERS = sorted({path.parent.name for path in help_folder().glob("*/examples.toml")})
+QUOTED = re.compile(r'"(?:[^"\\]|\\.)*"')
 
 
 def project_of(name: str) -> Project:
     return examples()[name].project(LANGUAGE, "en", name)
+
+
+def names_in(program: str) -> set[str]:
+    return {tomllib.loads(f"text = {quoted}")["text"] for quoted in QUOTED.findall(program)}
 
 
 def test_every_block_has_an_example():
@@ -48,6 +62,27 @@ def test_an_example_has_no_fault(name):
     )
     assert real == set()
     assert needs or not problems
+
+
+@pytest.mark.parametrize("code", OTHERS)
+def test_no_example_has_a_fault_in_another_language(code):
+    projects = {name: example.project(LANGUAGE, code, name) for name, example in examples().items()}
+
+    faults = {name: {p.kind for p in check(it, LANGUAGE)} for name, it in projects.items()}
+
+    assert {name: kinds for name, kinds in faults.items() if kinds - {"needs_real_robot"}} == {}
+
+
+@pytest.mark.parametrize("code", OTHERS)
+def test_two_names_of_an_example_are_not_one_in_another_language(code):
+    told = translated_texts(code)
+    names = {name: names_in(example.program) for name, example in examples().items()}
+
+    assert {
+        name: each
+        for name, each in names.items()
+        if len({told.get(text, text) for text in each}) < len(each)
+    } == {}
 
 
 @pytest.mark.parametrize("name", ALL)
@@ -139,3 +174,22 @@ def test_mouths_are_filled_in_the_order_of_the_lines():
     assert first.bodies[""][1].bodies[""][0].values == {"text": "b"}
     assert first.bodies["otherwise_do.1"][0].values == {"text": "c"}
     assert last.values == {"text": "d"}
+
+
+def test_words_without_a_place_and_kept_variables_are_written_down():
+    example = Example(
+        "x",
+        (),
+        'kept "best"\n'
+        "event.started\n"
+        'event.tell message="dance" wait=true\n'
+        'variable.set variable="best" value=1\n'
+        'variable.set variable="other" value=2\n',
+    )
+
+    project = example.project(LANGUAGE, "en", "x")
+
+    code = generate_program(project, LANGUAGE.of(project)).text
+    assert 'tell("dance", wait=True)' in code
+    assert "kept.best = 1" in code
+    assert "other = 2" in code and "kept.other" not in code

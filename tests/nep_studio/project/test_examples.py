@@ -14,7 +14,7 @@ from nep_studio.blocks.deployment import robot_entries
 from nep_studio.blocks.files import load
 from nep_studio.blocks.generate.program import generate_program
 from nep_studio.blocks.language import Language
-from nep_studio.blocks.program import LANGUAGES, Project
+from nep_studio.blocks.program import LANGUAGES, Block, Project
 from nep_studio.project.example_texts import texts_in, texts_of_examples, translate
 from nep_studio.project.examples import Example, Try, examples
 from nep_studio.run.installation import all_problems, studio_language
@@ -128,17 +128,31 @@ def test_a_translated_example_is_in_order_and_makes_python(example: Example, cod
     python = generate_program(project, language).text
     compile(python, example.path.stem, "exec")
     assert f'language="{code}"' in python
-    before = {block.id: shape_of(block.fields) for block in english.blocks.values()}
-    assert {block.id: shape_of(block.fields) for block in project.blocks.values()} == before
+    before = {block.id: shape_of(block) for block in english.blocks.values()}
+    assert {block.id: shape_of(block) for block in project.blocks.values()} == before
 
 
-def shape_of(fields: dict[str, object]) -> dict[str, object]:
-    """The fields that no language changes, and that the others are there."""
-    names = ("text", "question", "word", "item", "value", "name", "who")
+def shape_of(block: Block) -> dict[str, object]:
+    """The fields of a block that no language changes, and that the others are there."""
+    names = ["text", "question", "word", "item", "key", "value", "name", "who"]
+    if block.type.startswith("state."):
+        names += ["state", "target"]
     return {
         key: isinstance(value, str) if key.partition(".")[0] in names else value
-        for key, value in fields.items()
+        for key, value in block.fields.items()
     }
+
+
+def test_a_state_is_called_alike_wherever_it_stands(code: str) -> None:
+    example = next(each for each in examples() if each.path.stem == "reception")
+
+    project, _ = told(example, code)
+
+    ways = [block for block in project.blocks.values() if block.type.startswith("state.")]
+    begun = {way.fields["state"] for way in ways if way.type == "state.begins"}
+    left = {way.fields[key] for way in ways for key in ("state", "target") if key in way.fields}
+    assert left == begun and len(begun) == 3
+    assert "listening" not in begun
 
 
 def test_spaces_between_joined_words_stay_where_a_language_has_them(code: str) -> None:
@@ -162,7 +176,7 @@ def test_what_the_gallery_says_to_try_is_what_a_translated_example_hears(
         value.casefold()
         for block in project.blocks.values()
         for key, value in block.fields.items()
-        if key.startswith("word") and isinstance(value, str)
+        if key.startswith(("word", "value")) and isinstance(value, str)
     }
 
     for one in example.tries:

@@ -13,6 +13,12 @@ from tests.ui.help.conftest import LANGUAGE
 LEFT = Qt.MouseButton.LeftButton
 
 
+WAYS = [
+    f"{what}_{way}" for what in ("karate", "quiz", "guide") for way in ("rules", "tree", "states")
+]
+"""The examples of the page Three ways to say it."""
+
+
 def types(canvas: Canvas) -> list[str]:
     return [block.type for block in canvas.editor.project.blocks.values()]
 
@@ -109,3 +115,54 @@ def test_only_pages_with_an_example_have_its_buttons(panel):
     panel.open("howto/words")
 
     assert not panel.example.isVisible()
+
+
+def tab_to(panel, address, qtbot):
+    """Go from link to link with the keyboard, as far as the one with this address."""
+    panel.browser.setFocus()
+    for _ in range(100):
+        qtbot.keyClick(panel.browser, Qt.Key.Key_Tab)
+        if panel.browser.textCursor().charFormat().anchorHref() == address:
+            return
+    raise AssertionError(f"the keyboard does not come to {address}")
+
+
+def test_a_page_shows_the_same_behaviours_as_rules_as_a_tree_and_as_states(panel):
+    panel.open("howto/three-ways")
+
+    html = panel.browser.page.html
+    assert [html.count(f'src="example:{name}"') for name in WAYS] == [1] * len(WAYS)
+    assert not panel.example.isVisible()
+
+
+def test_the_buttons_act_on_the_example_of_the_page_that_was_chosen(panel, canvas, qtbot):
+    panel.open("howto/three-ways")
+
+    tab_to(panel, "choose:karate_tree", qtbot)
+    qtbot.keyClick(panel.browser, Qt.Key.Key_Return)
+
+    assert panel.example.isVisible()
+    assert "Impressive" in panel.example.insert.accessibleDescription()
+    qtbot.mouseClick(panel.example.insert, LEFT)
+    assert types(canvas)[0] == "tree.tree" and "robot.say" in types(canvas)
+
+
+def test_each_of_several_examples_of_a_page_is_dragged_out_by_itself(panel, canvas, qtbot):
+    panel.open("howto/three-ways")
+    browser = panel.browser
+    viewport = browser.viewport()
+    browser._go_to("part-4")  # “As states”, under the first heading
+    place = next(
+        QPoint(x, y)
+        for y in range(0, viewport.height(), 4)
+        for x in range(0, viewport.width(), 8)
+        if browser.anchorAt(QPoint(x, y)) == "drag:karate_states"
+    )
+    target = viewport.mapFromGlobal(canvas.viewport().mapToGlobal(QPoint(300, 200)))
+
+    qtbot.mousePress(viewport, LEFT, pos=place)
+    qtbot.mouseMove(viewport, place + QPoint(30, 30))
+    qtbot.mouseMove(viewport, target)
+    qtbot.mouseRelease(viewport, LEFT, pos=target)
+
+    assert types(canvas).count("state.begins") == 2

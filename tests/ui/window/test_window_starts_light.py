@@ -20,6 +20,7 @@ WHEN_USED = {
     *("zmq", "psutil", "nep_core.processes.launcher", "nep_studio.run.local_network"),
     *("nep_studio.blocks.from_python.learning", "nep_studio.blocks.typing_in.suggesting"),
     *("nep_studio.ui.plugins.help.panel", "nep_studio.ui.plugins.log.panel"),
+    "nep_studio.ui.plugins.diagrams.panel",
 }
 """What the first run needs, typing, and panels that are closed at first."""
 

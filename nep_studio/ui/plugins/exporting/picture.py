@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import html
 import math
-import re
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Literal, cast
@@ -49,28 +47,6 @@ from nep_studio.ui.canvas.painting.painter import BlockPainter
 from nep_studio.ui.widgets.layouts import in_column
 from nep_studio.ui.words import tr
 from nep_studio.ui.workbench.pages_bar import page_title
-
-# Words of an SVG file that stay inside their blocks, whatever fonts the computer has.
-
-_TEXT = re.compile(r'(<text [^>]*font-weight="(\d+)"[^>]*?)\s*>([^<]*)</text>')
-_FAMILY = re.compile(r'font-family="([^"]*)"')
-
-
-def fitted(svg: bytes, canvas: CanvasHost) -> bytes:
-    """The file with the width of each word, and with a usual font after ours."""
-    text = svg.decode()
-    text = _FAMILY.sub(r'font-family="\1,sans-serif"', text)
-    weight = str(int(canvas.look.block_font.weight()))
-
-    def with_width(match: re.Match[str]) -> str:
-        opening, its_weight, said = match.groups()
-        if its_weight != weight or not said.strip():
-            return match.group(0)
-        width = canvas.look.measures.text_width(html.unescape(said))
-        return f'{opening} textLength="{width:g}" lengthAdjust="spacingAndGlyphs">{said}</text>'
-
-    return _TEXT.sub(with_width, text).encode()
-
 
 # What is in a picture: the stacks of a page, of all pages, or the selected blocks.
 
@@ -251,7 +227,13 @@ def svg_of(canvas: CanvasHost, options: PictureOptions) -> bytes:
     generator.setViewBox(QRectF(0, 0, scene.width, scene.height))
     with QPainter(generator) as painter:
         _paint(painter, scene, canvas, options, 1.0)
-    svg = fitted(bytes(buffer.data().data()), canvas)
+    look = canvas.look
+
+    def width_of(words: str, weight: int) -> float | None:
+        is_of_blocks = weight == int(look.block_font.weight())
+        return look.measures.text_width(words) if is_of_blocks else None
+
+    svg = picture_files.fitted(bytes(buffer.data().data()), width_of)
     if not options.has_program:
         return svg
     return picture_files.svg_with_program(svg, program_of(canvas, options))

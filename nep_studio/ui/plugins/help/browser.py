@@ -32,7 +32,7 @@ from nep_studio.ui.widgets.layouts import in_row
 from nep_studio.ui.words import is_right_to_left, language_code, tr
 from nep_studio.ui.workbench.placing import free_place
 
-from .repository import DRAG, EXAMPLE, PICTURE, Book, Page, sample_clip
+from .repository import CHOOSE, DRAG, EXAMPLE, PICTURE, Book, Page, sample_clip
 
 # How pages of the help look: their style sheet, from the theme and the size of the text.
 
@@ -77,9 +77,13 @@ NARROWEST = 120
 
 
 class HelpBrowser(QTextBrowser):
-    """A page. ``page_asked`` brings the name of another one that a person wants to see."""
+    """A page. ``page_asked`` brings the name of another one that a person wants to see.
+
+    ``example_chosen`` brings the name of one of several examples of a page, to do more with it.
+    """
 
     page_asked = Signal(str)
+    example_chosen = Signal(str)
     zoom_changed = Signal(float)
 
     def __init__(
@@ -211,6 +215,8 @@ class HelpBrowser(QTextBrowser):
         address = url.toString()
         if address.startswith(HELP):
             self.page_asked.emit(address.removeprefix(HELP))
+        elif address.startswith(CHOOSE):
+            self.example_chosen.emit(address.removeprefix(CHOOSE))
 
     def mousePressEvent(self, event: QMouseEvent) -> None:
         """Begin to drag an example out of the page."""
@@ -221,11 +227,11 @@ class HelpBrowser(QTextBrowser):
 
     def _begin_drag(self, place: QPoint, event: QMouseEvent) -> bool:
         address = self.anchorAt(place)
-        page = self.page
-        if not address.startswith(DRAG) or page is None or page.example is None:
+        example = examples().get(address.removeprefix(DRAG))
+        if not address.startswith(DRAG) or example is None:
             return False
         kind = self._canvas.editor.project.kind_of_page(self._canvas.page)
-        clip = page.example.clip(self._book().language, language_code(), kind)
+        clip = example.clip(self._book().language, language_code(), kind)
         if clip.stacks:
             where = event.globalPosition().toPoint()
             self._canvas.begin_external_drag(clip, where, self.viewport())
@@ -291,6 +297,11 @@ class ExampleBar(QWidget):
             told = ". ".join(sentence(clip.project, language, block.id) for block in steps)
             self.insert.setAccessibleDescription(told)
             self.try_it.setAccessibleDescription(told)
+
+    def take_focus(self) -> None:
+        """Let the keyboard and the screen reader be at the first button."""
+        first = self.insert if self.can_insert else self.try_it
+        first.setFocus(Qt.FocusReason.OtherFocusReason)
 
     def dress(self, theme: Theme) -> None:
         """Take the theme and the size of the text."""

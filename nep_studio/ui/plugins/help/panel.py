@@ -26,7 +26,7 @@ from PySide6.QtWidgets import (
 
 from nep_studio.blocks.language import Language
 from nep_studio.help.index import Findable, Hit, Index
-from nep_studio.help.texts import BLOCK, CATEGORY, HOME, NODE, split
+from nep_studio.help.texts import BLOCK, CATEGORY, HOME, NODE, examples, split
 from nep_studio.ui.canvas.canvas import Canvas
 from nep_studio.ui.labels import explained, follow_words, labelled
 from nep_studio.ui.messages import announce
@@ -442,6 +442,13 @@ class HelpPages(InLines):
         announce(self, page.title)
         self.page_shown.emit(page.name)
 
+    def _on_example_chosen(self, name: str) -> None:
+        """Let the buttons below the page act on one of its examples, and be there."""
+        page = self.browser.page
+        if page is not None and name in examples():
+            self.example.show_example(examples()[name], page.title)
+            self.example.take_focus()
+
     def _show_tools(self) -> None:
         self.tools.back.setEnabled(self.trail.can_go_back)
         self.tools.forward.setEnabled(self.trail.can_go_forward)
@@ -461,6 +468,7 @@ class HelpPages(InLines):
         self.search.installEventFilter(self)
         self.browser.installEventFilter(self)
         self.browser.page_asked.connect(self.open)
+        self.browser.example_chosen.connect(self._on_example_chosen)
         self.contents.chosen.connect(self._on_chosen)
         self.contents.found.left_upwards.connect(self.search.setFocus)
         self.example.try_requested.connect(self.try_requested)

@@ -35,6 +35,7 @@ from nep_studio.help.texts import (
     error_anchor,
     error_texts,
     example_of,
+    examples,
     node_texts,
     page_texts,
     split,
@@ -57,7 +58,9 @@ TAKES_BLOCKS_TOO = frozenset({"checkbox", "choice", "line", "robot", "state"})
 """Kinds of slot of which nobody sees that they take blocks: they are chosen, or typed."""
 
 PICTURE, EXAMPLE, DRAG = "picture:", "example:", "drag:"
-"""What addresses of pictures begin with, and links out of which an example is dragged."""
+CHOOSE = "choose:"
+"""What addresses of pictures begin with, links out of which an example is dragged, and links that
+let the buttons below the page act on one."""
 
 
 def block_html(language: Language, definition: Definition, titles: dict[str, str]) -> str:
@@ -503,8 +506,17 @@ class Book:
             for words, key in self._shortcuts()
         )
         table = _table((tr("Keys"), tr("What it does")), keys)
+        source = page_texts(language_code())[name]
         inserts = {"shortcuts": table, "errors": _errors_html()}
-        return markdown.read(page_texts(language_code())[name], inserts).html
+        inserts |= {each: _shown(each) for each in examples() if f"{{{{{each}}}}}" in source}
+        return markdown.read(source, inserts).html
+
+
+def _shown(example: str) -> str:
+    """The picture of an example in a page, to be dragged out, and a link to do more with it."""
+    picture = f'<a href="{DRAG}{example}"><img src="{EXAMPLE}{example}"></a>'
+    words = escape(tr("Put it on the page, or try it"))
+    return f'<p>{picture}</p><p><a href="{CHOOSE}{example}">{words}</a></p>'
 
 
 def _errors_html() -> str:

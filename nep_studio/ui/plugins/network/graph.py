@@ -155,7 +155,6 @@ TOPIC_HEIGHT = 2.4
 ROW = 3.7
 GAP = 3.0
 ARROW = 0.55
-MARGIN = 1.2
 
 
 @dataclass(frozen=True)
@@ -190,22 +189,6 @@ class Shapes:
         for curve in self.curves:
             found = found.united(curve.path.boundingRect())
         return found
-
-    def at(self, place: QPointF) -> Key | None:
-        """What is at a place."""
-        return next((key for key, rect in self.rects.items() if rect.contains(place)), None)
-
-    def next_to(self, key: Key, dx: int, dy: int) -> Key | None:
-        """The nearest item in a direction: what an arrow key goes to."""
-        start = self.rects[key].center()
-        best: tuple[float, Key] | None = None
-        for other, rect in self.rects.items():
-            way = rect.center() - start
-            ahead = way.x() * dx + way.y() * dy
-            aside = abs(way.x() * dy) + abs(way.y() * dx)
-            if other != key and ahead > 1:
-                best = min(filter(None, (best, (ahead + 2 * aside, other))))
-        return best[1] if best else None
 
 
 def shapes_of(graph: Graph, line: float, *, is_mirrored: bool = False) -> Shapes:

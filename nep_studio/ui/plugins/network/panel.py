@@ -26,12 +26,13 @@ from nep_studio.ui.node_style import ago_words, names, rate_words, state_look, t
 from nep_studio.ui.running.runner import Runner
 from nep_studio.ui.theme.icons import icon
 from nep_studio.ui.theme.look import Look
+from nep_studio.ui.widgets.drawing_board import ZOOM_STEP
 from nep_studio.ui.widgets.forms import plain_label
 from nep_studio.ui.widgets.layouts import in_column, in_row
 from nep_studio.ui.words import count_words, tr
 
 from .graph import Graph, Key, graph_of
-from .graph_view import ZOOM_STEP, GraphView
+from .graph_view import GraphView
 from .topics import TopicPane
 
 

@@ -65,8 +65,14 @@ def test_a_changed_rule_changes_its_button(human: Human, window: MainWindow, qtb
     qtbot.waitUntil(lambda: words(panel) == ["Say “goodbye”"])
 
 
-NOTHING_HAPPENS = ("event.started", "goal.when_goal", "code.program")
-"""Hats for which a person does nothing."""
+NOTHING_HAPPENS = (
+    *("event.started", "goal.when_goal", "code.program", "goal.goal_asked", "tree.tree"),
+    *("event.told", "time.every", "time.at", "state.begins"),
+    *("state.told", "state.after", "state.done"),
+)
+"""Hats for which a person does nothing: the program, the clock or another rule begins them."""
+ASKING = ("event.true", "goal.goal_when", "plan.true_while", "state.when")
+"""Hats that wait for whatever is asked in their place."""
 
 
 def hats_and_questions() -> list[str]:
@@ -91,6 +97,8 @@ def test_there_is_a_control_for_every_hat_and_question(human: Human) -> None:
 
 
 def program_with(block: str) -> list[B]:
+    if block in ASKING:
+        return [B(block, {}, {"condition": B("robot_senses.is_touched")})]
     if LANGUAGE.definitions[block].shape == "hat":
         return [B(block, {"state": "please"} if block == "goal.goal" else {})]
     return [B("event.started"), B("variable.set", {"variable": "v1"}, {"value": B(block)})]
