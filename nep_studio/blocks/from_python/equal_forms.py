@@ -66,13 +66,18 @@ def other_statements(node: ast.stmt) -> Iterator[ast.stmt]:
             if isinstance(value, ast.Constant) and isinstance(value.value, float):
                 less = constant(-value.value)
             yield ast.copy_location(ast.AugAssign(node.target, ast.Add(), less), node)
-        case ast.Assign([ast.Subscript(held, index)], value) if not isinstance(index, ast.Slice):
+        case ast.Assign([ast.Subscript(held, index)], value) if _is_worked_out(index):
             yield _done(node, call("set_item", one_more(index), held, value))
-        case ast.Delete([ast.Subscript(held, index)]) if not isinstance(index, ast.Slice):
+        case ast.Delete([ast.Subscript(held, index)]) if _is_worked_out(index):
             yield _done(node, call("remove_item", one_more(index), held))
         case ast.Expr(ast.Call(ast.Attribute(held, "remove"), [item], [])):
             place = call("place_of", item, copy.deepcopy(held))
             yield _done(node, call("remove_item", place, held))
+
+
+def _is_worked_out(index: ast.expr) -> bool:
+    """Whether a place is not typed: those that are have patterns of their own."""
+    return not isinstance(index, ast.Slice | ast.Constant) and known_whole(index) is None
 
 
 def _counted(given: list[ast.expr]) -> ast.expr | None:
