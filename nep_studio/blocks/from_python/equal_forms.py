@@ -102,12 +102,14 @@ def _done(node: ast.stmt, made: ast.expr) -> ast.Expr:
 # Forms that are the same whatever the values are, but for what is known of those in the text.
 
 
-def is_gone_through(ours: ast.For, theirs: ast.For) -> bool:
+def is_gone_through(ours: ast.For, theirs: object) -> bool:
     """Whether two loops go through the same, where the blocks make a list of that first.
 
     Letters, and the keys of a table, are the same in a list of them: a table to which something is
     added meanwhile ends its loop by an error. All else must not be changed in the loop.
     """
+    if not isinstance(theirs, ast.For):
+        return False
     if ast.dump(_without_keys(ours.iter)) == ast.dump(theirs.iter):
         return True
     match theirs.iter:
@@ -156,14 +158,18 @@ def as_said(node: ast.Call) -> ast.Call:
     return node
 
 
-def told_by_robot(ours: ast.Call, theirs: ast.Call) -> list[tuple[object, object]]:
+def told_by_robot(ours: ast.Call, theirs: object) -> list[tuple[object, object]]:
     """What must be the same where a robot says a number: it tells it as blocks do."""
     match ours, theirs:
         case (
             ast.Call(ast.Attribute(_, "say"), [told, *more]),
             ast.Call(ast.Attribute(_, "say"), [ast.Call(ast.Name("as_text"), [shown], [])]),
         ) if is_number(told):
-            words = [(ours.func, theirs.func), (ours.keywords, theirs.keywords)]
+            assert isinstance(theirs, ast.Call)
+            words: list[tuple[object, object]] = [
+                (ours.func, theirs.func),
+                (ours.keywords, theirs.keywords),
+            ]
             return [(told, shown), (more, []), *words]
     return []
 
