@@ -131,7 +131,7 @@ def test_a_table_is_gone_through_by_its_names(language):
     loop.bodies["do"][0].fields["variable"] = NUMBER
 
     assert run(language, ANNA_AND_BEN, put(NUMBER, 0), loop)["n"] == 8
-    assert "for who in list(ages):" in lines(language, ANNA_AND_BEN, put(NUMBER, 0), loop)
+    assert "for who in ages:" in lines(language, ANNA_AND_BEN, put(NUMBER, 0), loop)
 
 
 def test_a_variable_that_a_block_takes_for_a_table_begins_as_an_empty_one(language):
