@@ -346,7 +346,7 @@ class Maker:
         fields = {"variable": self._variable("number"), "first": 1, "last": 3, "step": 1}
         fields["step"] = self.dice.choice([1, 1, 2, -1, 0.5, 0.1, -0.3])
         fields["first"] = self.dice.randint(-1, 4)
-        fields["way"] = self.dice.choice(["either", "up", "down"])
+        fields["way"] = ("either", "up", "down")[fields["first"] % 3]
         return B("control.count", fields, inputs, {"do": self._body(loop=True)})
 
     def _for_each(self) -> B:
