@@ -66,13 +66,18 @@ def other_statements(node: ast.stmt) -> Iterator[ast.stmt]:
             if isinstance(value, ast.Constant) and isinstance(value.value, float):
                 less = constant(-value.value)
             yield ast.copy_location(ast.AugAssign(node.target, ast.Add(), less), node)
-        case ast.Assign([ast.Subscript(held, index)], value) if not isinstance(index, ast.Slice):
+        case ast.Assign([ast.Subscript(held, index)], value) if _is_worked_out(index):
             yield _done(node, call("set_item", one_more(index), held, value))
-        case ast.Delete([ast.Subscript(held, index)]) if not isinstance(index, ast.Slice):
+        case ast.Delete([ast.Subscript(held, index)]) if _is_worked_out(index):
             yield _done(node, call("remove_item", one_more(index), held))
         case ast.Expr(ast.Call(ast.Attribute(held, "remove"), [item], [])):
             place = call("place_of", item, copy.deepcopy(held))
             yield _done(node, call("remove_item", place, held))
+
+
+def _is_worked_out(index: ast.expr) -> bool:
+    """Whether a place is not typed: those that are have patterns of their own."""
+    return not isinstance(index, ast.Slice | ast.Constant) and known_whole(index) is None
 
 
 def _counted(given: list[ast.expr]) -> ast.expr | None:
@@ -97,12 +102,14 @@ def _done(node: ast.stmt, made: ast.expr) -> ast.Expr:
 # Forms that are the same whatever the values are, but for what is known of those in the text.
 
 
-def is_gone_through(ours: ast.For, theirs: ast.For) -> bool:
+def is_gone_through(ours: ast.For, theirs: object) -> bool:
     """Whether two loops go through the same, where the blocks make a list of that first.
 
     Letters, and the keys of a table, are the same in a list of them: a table to which something is
     added meanwhile ends its loop by an error. All else must not be changed in the loop.
     """
+    if not isinstance(theirs, ast.For):
+        return False
     if ast.dump(_without_keys(ours.iter)) == ast.dump(theirs.iter):
         return True
     match theirs.iter:
@@ -151,14 +158,18 @@ def as_said(node: ast.Call) -> ast.Call:
     return node
 
 
-def told_by_robot(ours: ast.Call, theirs: ast.Call) -> list[tuple[object, object]]:
+def told_by_robot(ours: ast.Call, theirs: object) -> list[tuple[object, object]]:
     """What must be the same where a robot says a number: it tells it as blocks do."""
     match ours, theirs:
         case (
             ast.Call(ast.Attribute(_, "say"), [told, *more]),
             ast.Call(ast.Attribute(_, "say"), [ast.Call(ast.Name("as_text"), [shown], [])]),
         ) if is_number(told):
-            words = [(ours.func, theirs.func), (ours.keywords, theirs.keywords)]
+            assert isinstance(theirs, ast.Call)
+            words: list[tuple[object, object]] = [
+                (ours.func, theirs.func),
+                (ours.keywords, theirs.keywords),
+            ]
             return [(told, shown), (more, []), *words]
     return []
 

@@ -85,7 +85,13 @@ class Given(NamedTuple):
 
     def or_else(self, other: Given) -> Given:
         """The kinds of one of two values."""
-        return Given(*(one | more for one, more in zip(self, other, strict=True)))
+        return Given(
+            self.kinds | other.kinds,
+            self.same | other.same,
+            self.counted | other.counted,
+            self.sized | other.sized,
+            self.signed | other.signed,
+        )
 
     def calculated(self) -> Given:
         """The kinds of what arithmetic makes of the value, which must be a number then."""

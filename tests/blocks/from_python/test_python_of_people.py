@@ -49,6 +49,8 @@ def said(text: str) -> tuple[Counter[str], Counter[str]]:
         match node:  # braces mean a value as a block tells it
             case ast.FormattedValue(value=ast.Call(func=ast.Name(id="as_text"), args=[told])):
                 node.value = told
+            case ast.For(iter=ast.Call(func=ast.Name(id="list"), args=[items])):
+                node.iter = items
             case ast.Assign(value=ast.Call(func=ast.Name(id="to_power"), args=[base, power])):
                 node.value = ast.BinOp(base, ast.Pow(), power)
     statements = Counter(
