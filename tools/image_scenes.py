@@ -250,6 +250,15 @@ def help_page(stage: Stage) -> QImage:
         return picture(window)
 
 
+@scene("diagram")
+def diagram(stage: Stage) -> QImage:
+    """States as blocks, and drawn beside them."""
+    with stage.window(example="reception") as window:
+        _panel(window, "DiagramPanel")
+        quiet()
+        return picture(window)
+
+
 @scene("robots-and-nodes")
 def robots_and_nodes(stage: Stage) -> QImage:
     """What the karate example needs, before it runs."""

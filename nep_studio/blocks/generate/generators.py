@@ -8,11 +8,8 @@ own, for what runs at the same time).
 from __future__ import annotations
 
 import ast
-from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Sequence
 from functools import reduce
-from operator import itemgetter
-from typing import Any
 
 from nep_studio.blocks.code_text import CodeText, read_lines, read_value
 from nep_studio.blocks.errors import CodeRefused
@@ -46,16 +43,11 @@ from .expressions import (
     show,
 )
 from .kinds import (
-    ITEMS,
-    LIST,
-    NATURAL,
     NUMBER,
-    OTHER,
     TABLE,
     TEXT,
     TRUTH,
     WHOLE,
-    ZERO,
     are,
     are_mixed,
     kinds_of,
@@ -64,64 +56,15 @@ from .kinds import (
     parameter_key,
     result_key,
 )
+from .lists import LIST_STATEMENTS, LIST_VALUES
 from .names import API, MODULES
 from .plans import FACT_LINES, FACT_VALUES
-from .positions import index_of, one_less, one_more
+from .positions import index_of, is_length_of, one_less, one_more
 from .tables import TABLE_STATEMENTS, TABLE_VALUES
+from .templates import by_choice, python_of
 from .trees import TREE_PARTS
 
 # Values that are one line of Python.
-
-
-def _python(text: str) -> ValueGenerator:
-    """The generator of an expression in which the names of slots stand for what is in them.
-
-    Modules, and functions of nep_core, are noted for the import.
-    """
-    template = ast.parse(text, mode="eval").body
-    named = [node for node in ast.walk(template) if isinstance(node, ast.Name)]
-    functions = [node.func for node in ast.walk(template) if isinstance(node, ast.Call)]
-    modules = MODULES.intersection(name.id for name in named)
-    api = API.intersection(name.id for name in named)
-    names = [node.id for node in named if node not in functions]
-    slots = list(dict.fromkeys(name for name in names if name not in MODULES))
-    make = _maker(template, slots)
-
-    def generate(code: Expressions, block: Block) -> ast.expr:
-        if modules or api:
-            code.modules |= modules
-            code.api |= api
-        made: ast.expr = make({slot: code.slot(block, slot) for slot in slots})
-        return made
-
-    if isinstance(template, ast.Name):  # nothing but a slot: most numbers, texts and colours
-        return lambda code, block: code.slot(block, text)
-    return generate
-
-
-_Maker = Callable[[Mapping[str, ast.expr]], Any]
-
-
-def _maker(part: Any, slots: Sequence[str]) -> _Maker:
-    """What copies a part of a template with what is in the slots; ``list(...)`` is no slot."""
-    if isinstance(part, ast.Name) and part.id in slots:
-        return itemgetter(part.id)
-    if isinstance(part, list):
-        makers = [_maker(one, slots) for one in part]
-        return lambda filled: [make(filled) for make in makers]
-    if not isinstance(part, ast.expr) or isinstance(part, ast.Name | ast.Constant):
-        return lambda _filled: part
-    if isinstance(part, ast.Call) and isinstance(part.func, ast.Name):
-        arguments, function = _maker(part.args, slots), part.func
-        return lambda filled: ast.Call(function, arguments(filled), [])
-    kind, parts = type(part), [_maker(getattr(part, name), slots) for name in part._fields]
-    return lambda filled: kind(*[make(filled) for make in parts])
-
-
-def _by_choice(slot: str, texts: dict[str, str]) -> ValueGenerator:
-    """The generator of one of several expressions, by what is chosen in a slot."""
-    generators = {choice: _python(text) for choice, text in texts.items()}
-    return lambda code, block: generators[code.choice(block, slot)](code, block)
 
 
 _LINES = {
@@ -243,7 +186,6 @@ def _junction(code: Expressions, block: Block) -> ast.expr:
 
 
 _SAME: dict[str, ast.cmpop] = {"equal": ast.Eq(), "not_equal": ast.NotEq()}
-_RANDOM_ITEM = _python("random.choice(list)")
 _ORDER: dict[str, tuple[ast.cmpop, str]] = {
     "less": (ast.Lt(), "is_less"),
     "less_or_equal": (ast.LtE(), "is_at_most"),
@@ -338,14 +280,6 @@ def _letter(code: Expressions, block: Block) -> ast.expr:
     return code.api_call("letter_of", number, text)
 
 
-def is_length_of(number: ast.expr, of: ast.expr) -> bool:
-    """Whether a number is the length of a value with a name, or of one that is typed."""
-    match number:
-        case ast.Call(func=ast.Name(id="len" | "length_of"), args=[inner]):
-            return isinstance(of, ast.Name) and ast.dump(inner) == ast.dump(of)
-    return False
-
-
 def _emotion(code: Expressions, block: Block) -> ast.expr:
     chosen = code.chosen(block, "emotion")
     state: ast.expr = ast.Constant(f"emotion_{chosen}")
@@ -356,138 +290,6 @@ def _emotion(code: Expressions, block: Block) -> ast.expr:
 
 EMOTION_S = 3
 """How long a person looks so after a node has told it."""
-
-
-@dataclass(frozen=True, slots=True)
-class _Place:
-    """The number of an item, and the list: ``index`` is where Python has it, if that is plain."""
-
-    number: ast.expr
-    items: ast.expr
-    index: ast.expr | None
-    options: dict[str, ast.expr]
-
-
-_INDEXED = LIST | NUMBER | TRUTH
-"""What has items, or refuses to be asked for one, as what is kept in lists of lists."""
-
-
-def _place(code: Expressions, block: Block, then: ast.expr | None = None) -> _Place:
-    """Item 1 from the start is item 0 of Python, item 1 from the end is item -1."""
-    number, items = code.values_in(block, "number", "list", then=then)
-    is_from_end = code.choice(block, "end") == "end"
-    options: dict[str, ast.expr] = {"from_end": ast.Constant(True)} if is_from_end else {}
-    index, kinds = None, kinds_of(items)
-    may_have_items = not kinds or kinds & LIST
-    if may_have_items and are(kinds, _INDEXED) and code.may_swap(number, items):
-        place = known_whole(number) or 0
-        index = index_of(number)
-        if is_from_end:
-            index = constant(-place) if place > 0 else None
-    return _Place(number, items, index, options)
-
-
-def _get(code: Expressions, block: Block) -> ast.expr:
-    at = _place(code, block)
-    if at.index is not None:
-        return note(ast.Subscript(at.items, at.index), code.kinds_at(ITEMS))
-    got = code.api_call("item_of", at.number, at.items, **at.options)
-    return note(got, code.kinds_at(ITEMS))
-
-
-def _take(code: Expressions, block: Block) -> ast.expr:
-    at = _place(code, block)
-    if at.index is not None:
-        place = [] if known_whole(at.index) == -1 else [at.index]
-        return note(method_call(at.items, "pop", place), code.kinds_at(ITEMS))
-    taken = code.api_call("take_item", at.number, at.items, **at.options)
-    return note(taken, code.kinds_at(ITEMS))
-
-
-def _random_item(code: Expressions, block: Block) -> ast.expr:
-    return note(_RANDOM_ITEM(code, block), code.kinds_at(ITEMS))
-
-
-def _part(code: Expressions, block: Block) -> ast.expr:
-    first, last, items = code.values_in(block, "first", "last", "list")
-    begin = index_of(first)
-    is_plain = (
-        are(kinds_of(items), LIST)
-        and (is_length_of(last, items) or are(kinds_of(last), NATURAL))
-        and code.may_swap(first, items)
-        and code.may_swap(last, items)
-    )
-    if begin is None or not is_plain:
-        return code.api_call("items_between", first, last, items)
-    end = None if is_length_of(last, items) else last
-    return note(
-        ast.Subscript(items, ast.Slice(None if known_whole(begin) == 0 else begin, end)), LIST
-    )
-
-
-def _filled(code: Expressions, block: Block) -> ast.expr:
-    item, times = code.slot(block, "item"), code.value_in(block, "times")
-    if are(kinds_of(times), WHOLE) and not kinds_of(item) & (LIST | TABLE | OTHER):
-        return note(ast.BinOp(ast.List([item]), ast.Mult(), times), LIST)
-    return code.api_call("list_with", item, times)
-
-
-def _list_contains(code: Expressions, block: Block) -> ast.expr:
-    items, item = code.slot(block, "list"), code.slot(block, "item")
-    is_plain = not are_mixed(kinds_of(item), code.kinds_at(ITEMS))
-    if is_plain and code.may_swap(items, item):
-        return compare(item, ast.In(), items)
-    return code.api_call("has_item", items, item)
-
-
-def _sorted(code: Expressions, block: Block) -> ast.expr:
-    items, is_down = code.slot(block, "list"), code.choice(block, "order") == "down"
-    keywords: dict[str, ast.expr] = {"reverse": ast.Constant(True)} if is_down else {}
-    held = code.kinds_at(ITEMS)
-    if are(held, NUMBER) or are(held, TEXT):
-        return call("sorted", items, **keywords)
-    return code.api_call("sorted_items", items, **keywords)
-
-
-_OF_LIST = {
-    "sum": ("sum", "sum_of"),
-    "min": ("min", "smallest_of"),
-    "max": ("max", "largest_of"),
-    "mean": ("statistics.mean", "mean_of"),
-    "median": ("statistics.median", "median_of"),
-    "stdev": ("statistics.stdev", "deviation_of"),
-}
-_OF_WHOLE = ("sum", "min", "max")
-"""The functions of lists of numbers, and those that look first whether all are numbers."""
-
-
-def _of_list(code: Expressions, block: Block) -> ast.expr:
-    plain, careful = _OF_LIST[code.choice(block, "function")]
-    held, items = code.kinds_at(ITEMS), code.slot(block, "list")
-    if not are(held, NUMBER):
-        return code.api_call(careful, items)
-    if plain in ("min", "max") and isinstance(items, ast.List) and len(items.elts) > 1:
-        return call(plain, *items.elts)
-    made = _python(f"{plain}(list)")(code, block)
-    return note(made, held | ZERO) if held and are(held, WHOLE) and plain in _OF_WHOLE else made
-
-
-def _joined(code: Expressions, block: Block) -> ast.expr:
-    items, mark = code.slot(block, "list"), code.slot(block, "mark")
-    held = code.kinds_at(ITEMS)
-    if (not are(held, WHOLE) and not are(held, TEXT)) or not code.may_swap(items, mark):
-        return code.api_call("join_items", items, mark)
-    texts = items if are(held, TEXT) else call("map", ast.Name("str"), items)
-    return method_call(mark, "join", [texts])
-
-
-def _split(code: Expressions, block: Block) -> ast.expr:
-    text, mark = code.slot(block, "text"), code.slot(block, "mark")
-    if not isinstance(mark, ast.Constant):
-        return code.api_call("parts_of", text, mark)
-    if mark.value:
-        return method_call(text, "split", [mark])
-    return call("list", code.clear(block, "text", text))
 
 
 # The Python of own blocks and of code that a person wrote: calls, parameters, the names in it.
@@ -560,7 +362,7 @@ def note_names(code: Expressions, read: CodeText) -> None:
 _NO_ARGUMENTS = ast.arguments([], [], None, [], [], None, [])
 
 
-_ARITHMETIC = _by_choice(*_CHOSEN["arithmetic"])
+_ARITHMETIC = by_choice(*_CHOSEN["arithmetic"])
 
 
 def _arithmetic(code: Expressions, block: Block) -> ast.expr:
@@ -575,8 +377,8 @@ def _arithmetic(code: Expressions, block: Block) -> ast.expr:
 
 
 REPORTERS: dict[str, ValueGenerator] = {
-    **{name: _python(text) for name, text in _LINES.items()},
-    **{name: _by_choice(slot, texts) for name, (slot, texts) in _CHOSEN.items()},
+    **{name: python_of(text) for name, text in _LINES.items()},
+    **{name: by_choice(slot, texts) for name, (slot, texts) in _CHOSEN.items()},
     "variable": _variable,
     "join": _join,
     "junction": _junction,
@@ -584,7 +386,6 @@ REPORTERS: dict[str, ValueGenerator] = {
     "compare": _compare,
     "arithmetic": _arithmetic,
     "random_integer": _random_integer,
-    "random_item": _random_item,
     "text_length": _text_length,
     "text_is_empty": _text_is_empty,
     "text_contains": _text_contains,
@@ -592,16 +393,7 @@ REPORTERS: dict[str, ValueGenerator] = {
     "text_replace": _text_replace,
     "letter": _letter,
     "emotion": _emotion,
-    "list_create": lambda code, block: ast.List(code.slots(block, "item", "item")),
-    "list_get": _get,
-    "list_take": _take,
-    "list_part": _part,
-    "list_filled": _filled,
-    "list_contains": _list_contains,
-    "list_sorted": _sorted,
-    "list_split": _split,
-    "list_joined": _joined,
-    "of_list": _of_list,
+    **LIST_VALUES,
     **TABLE_VALUES,
     **BEHAVIOUR_VALUES,
     "own_call": _own_call,
@@ -621,7 +413,7 @@ WORDS = "expected_words"
 
 def _loop(word: str, text: str) -> StatementGenerator:
     """The generator of a loop around the blocks in slot ``do``."""
-    value = _python(text)
+    value = python_of(text)
     return lambda code, block: [f"{word} {show(value(code, block))}:", Body("do", loop=True)]
 
 
@@ -794,49 +586,6 @@ ERROR = "Exception"
 """What is caught: not what ends a rule or the program."""
 
 
-def _add(code: Expressions, block: Block) -> list[Piece]:
-    value, items = code.slot(block, "value"), code.value_in(block, "list")
-    if are(kinds_of(items), LIST) and code.may_swap(value, items):
-        return [show(method_call(items, "append", [value]))]
-    return [show(code.api_call("add_item", value, items))]
-
-
-def _set_item(code: Expressions, block: Block) -> list[Piece]:
-    value = code.slot(block, "value")
-    at = _place(code, block, then=value)
-    if at.index is not None and code.may_swap(at.items, value):
-        return [f"{show(ast.Subscript(at.items, at.index))} = {show(value)}"]
-    return [show(code.api_call("set_item", at.number, at.items, value, **at.options))]
-
-
-def _insert(code: Expressions, block: Block) -> list[Piece]:
-    value, at = code.slot(block, "value"), _place(code, block)
-    if known_whole(at.number) == 1 and at.index is not None and code.may_swap(value, at.items):
-        first = [] if at.options else [ast.Constant(0)]
-        method = "insert" if first else "append"
-        return [show(method_call(at.items, method, [*first, value]))]
-    return [show(code.api_call("insert_item", value, at.number, at.items, **at.options))]
-
-
-def _remove(code: Expressions, block: Block) -> list[Piece]:
-    at = _place(code, block)
-    if (found := _first_such(code, at)) is not None:
-        return [show(method_call(at.items, "remove", [found]))]
-    if at.index is not None:
-        return [f"del {show(ast.Subscript(at.items, at.index))}"]
-    return [show(code.api_call("remove_item", at.number, at.items, **at.options))]
-
-
-def _first_such(code: Expressions, at: _Place) -> ast.expr | None:
-    """The item whose own place in the list is asked for; where there is none, both ways refuse."""
-    match at.number:
-        case ast.Call(func=ast.Name(id="place_of"), args=[item, items]) if not at.options:
-            is_plain = are(kinds_of(at.items), LIST) and isinstance(items, ast.Name)
-            is_same = is_plain and ast.dump(items) == ast.dump(at.items)
-            return None if are_mixed(kinds_of(item), code.kinds_at(ITEMS)) or not is_same else item
-    return None
-
-
 def _ask(code: Expressions, block: Block) -> list[Piece]:
     words = code.slots(block, "word", "answer")
     possible: ast.expr = ast.List(words)
@@ -887,10 +636,7 @@ STATEMENTS: dict[str, StatementGenerator] = {
     "set_variable": _assign("=", "value"),
     "change_variable": _change,
     "append_text": _append,
-    "list_add": _add,
-    "list_set": _set_item,
-    "list_insert": _insert,
-    "list_remove": _remove,
+    **LIST_STATEMENTS,
     **TABLE_STATEMENTS,
     "ask": _ask,
     "wait_for_word": _wait_for_word,

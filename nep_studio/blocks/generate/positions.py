@@ -60,3 +60,11 @@ def _moved(node: ast.expr, by: int) -> ast.expr:
     if not are(kinds_of(moved), NUMBER):
         note(moved, NUMBER)  # the place of a number makes it one
     return moved
+
+
+def is_length_of(number: ast.expr, of: ast.expr) -> bool:
+    """Whether a number is the length of a value with a name, or of one that is typed."""
+    match number:
+        case ast.Call(func=ast.Name(id="len" | "length_of"), args=[inner]):
+            return isinstance(of, ast.Name) and ast.dump(inner) == ast.dump(of)
+    return False

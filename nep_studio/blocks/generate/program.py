@@ -29,16 +29,9 @@ from nep_studio.blocks.slices import Steps, at_once
 from nep_studio.blocks.slots import Setting, constant
 
 from .expressions import Expressions, call, literal, method_call, refusing, show
+from .facts import FactReader, Facts, together
 from .generators import REPORTERS
-from .kinds import (
-    FactReader,
-    Facts,
-    Kinds,
-    parameter_key,
-    result_key,
-    together,
-    variable_key,
-)
+from .kinds import Kinds, parameter_key, result_key, variable_key
 from .names import CLASSES, MODULES, NameTable, ProgramNames
 from .rules import HATS, Hat, Line, RuleWriter
 from .scopes import as_shared, scoped

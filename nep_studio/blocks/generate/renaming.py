@@ -26,7 +26,7 @@ from nep_studio.blocks.procedures import DEFINE, parameters, procedure_of
 from nep_studio.blocks.program import Block, Project
 from nep_studio.blocks.shared_objects import SHARED_OBJECTS
 
-from .kinds import FactReader, Facts
+from .facts import FactReader, Facts
 from .names import ProgramNames
 from .program import give_names
 from .scopes import scoped

@@ -11,7 +11,7 @@ from nep_studio.blocks.language import Language
 from nep_studio.blocks.procedures import DEFINE, parameters, procedure_of
 from nep_studio.blocks.program import SCOPE_KEPT, SCOPE_PROGRAM, Project
 
-from .kinds import FactReader, Facts
+from .facts import FactReader, Facts
 from .names import NameTable, ProgramNames
 
 
