@@ -187,7 +187,7 @@ def test_most_random_programs_can_be_judged(language: Language) -> None:
 def test_a_planted_difference_is_found(language: Language, monkeypatch: pytest.MonkeyPatch) -> None:
     """The test can fail: Python that counts wrongly differs."""
     with stand_ins(monkeypatch):
-        project = Maker(1, language).project()
+        project = Maker(2, language).project()
         expected = Interpreter(project, language).run()
         text = generate_program(project, language).text
         assert "nao.say(" in text
