@@ -6,6 +6,7 @@ from pathlib import Path
 
 import pytest
 
+from nep_core.program import tasks
 from nep_studio.blocks.language import Language
 from nep_studio.run.installation import load_language
 
@@ -19,3 +20,11 @@ def language() -> Language:
     return load_language(
         RESOURCES / "blocks", RESOURCES / "robots/nao/robot.toml", gestures=gestures, nodes=nodes
     )
+
+
+@pytest.fixture(autouse=True)
+def _own_program() -> None:
+    """A program of its own for each test: PROGRAM is one a process, and another may have ended."""
+    tasks.PROGRAM.cancelled.clear()
+    tasks.PROGRAM._children.clear()
+    tasks.PROGRAM.undo.clear()

@@ -506,6 +506,22 @@ def test_locals_of_a_persons_function_stay_its_own(language):
     assert "global" not in again and "part = part + one(1)" in again
 
 
+@pytest.mark.parametrize(
+    ("count", "first", "last", "numbers"),
+    [
+        (values.count_up, 0, -1, []),
+        (values.count_up, 1, 3, [1, 2, 3]),
+        (values.count_up, 2, 2, [2]),
+        (values.count_down, 1, 3, []),
+        (values.count_down, 3, 1, [3, 2, 1]),
+    ],
+)
+def test_counting_one_way_does_nothing_where_the_other_would_be_needed(count, first, last, numbers):
+    assert list(count(first, last)) == numbers
+    with pytest.raises(values.ValueRefused):
+        list(count(first, last, 0))
+
+
 def test_many_powers_and_roundings_agree_with_what_they_are():
     for number in (0.5, 1.5, 2.5, -0.5, -1.5, 0.49999999999999994, 1e15 + 0.5):
         away = math.copysign(math.floor(abs(number) + 0.5), number)
