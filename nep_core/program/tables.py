@@ -1,7 +1,7 @@
 """What blocks do with tables where a dict does something else: docs/language.md says what.
 
-Python takes True for the key 1. These functions keep what is at a truth under a ``TruthKey``; in
-a program that uses them, all that may be such a key goes through them.
+Python takes True for the key 1. These functions keep what is at a truth under a ``TruthKey``; all
+that may be such a key goes through them.
 
 The arguments stand in the order of the sentence of the block, in which they are worked out.
 """

@@ -469,7 +469,7 @@ class Maker:
         return B("table.create", inputs=inputs, groups={"entry": count})
 
     def _typed_key(self) -> B:
-        if self._chance(0.05):
+        if self._chance(0.1):
             return B("logic.truth", {"truth": self.dice.choice(["true", "false"])})
         key = self.dice.choice(KEYS)
         kind = "text" if isinstance(key, str) else "number"
@@ -526,10 +526,21 @@ class Maker:
 
     def _place(self) -> B:
         """The place of an item or letter: mostly one that is there."""
-        if self._chance(0.04):
-            return self._get("number")
+        if self._chance(0.2):
+            return self._worked_out_place()
         odd = [3, 0, -1, 1.5] if self._chance(0.1) else [1, 1, 2]
         return B("math.number", {"number": self.dice.choice(odd)})
+
+    def _worked_out_place(self) -> B:
+        """A place that is a variable, a length, or near one of them."""
+        length = B("list.length", inputs={"list": self._list_variable()})
+        number = self._get("number") if self._chance(0.4) else length
+        if self._chance(0.4):
+            return number
+        operation = self.dice.choice(["add", "subtract", "subtract", "multiply", "remainder"])
+        inputs = [number, self._small() if self._chance(0.7) else self._get("number")]
+        self.dice.shuffle(inputs)
+        return B("math.arithmetic", {"operation": operation}, dict(zip("ab", inputs, strict=True)))
 
     def _number(self) -> B:
         if not self._deeper():

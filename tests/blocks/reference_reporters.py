@@ -209,7 +209,7 @@ def _fact(run: Interpreter, block: Block) -> list[Value]:
 
 def asked_fact(run: Interpreter, block: Block) -> list[Value]:
     name, *values = _fact(run, block)
-    if not str(name).strip() or any(kind(value) == "list" for value in values):
+    if not str(name).strip() or any(kind(value) in ("list", "table") for value in values):
         raise Wrong("no fact")
     return [str(name).strip(), *values]
 

@@ -12,7 +12,7 @@ from contextlib import contextmanager
 from typing import Any
 
 import pytest
-from block_building import read_program
+from block_building import B, build, read_program
 from random_language import Maker
 from reference_interpreter import GivenUp, Interpreter
 
@@ -182,6 +182,17 @@ def test_most_random_programs_can_be_judged(language: Language) -> None:
             outcomes["judged"] += 1
             outcomes["ended well"] += said[-1:] != ["error"]
     assert outcomes["judged"] >= 70 and outcomes["ended well"] >= 35, outcomes
+
+
+@pytest.mark.parametrize("value", ["list.create", "table.create"])
+def test_a_list_or_a_table_in_a_fact_is_an_error_to_both(
+    value: str, language: Language, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    fact = B("plan.now_true", {"fact": "held"}, {"value.1": B(value)}, groups={"of": 1})
+    project = build(language, [B("event.started"), fact]).project
+    with stand_ins(monkeypatch):
+        assert played(generate_program(project, language).text) == ["error"]
+        assert Interpreter(project, language).run() == ["error"]
 
 
 def test_a_planted_difference_is_found(language: Language, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -168,6 +168,29 @@ def test_one_is_another_key_than_true_and_two_is_the_same_as_a_fraction(language
     assert after["who"] == "1: one, true: yes, 2: two"
 
 
+def test_a_truth_is_one_key_however_it_is_asked_for(language):
+    votes = put(AGES, table((TRUE, 1), ("Anna", 3)))
+    whoever = put(WHO, table(("key", TRUE)))
+    asked = put(OUT, at(slots("table.get", table=get(WHO), key="key")))
+
+    assert run(language, votes, change(TRUE), put(OUT, at(TRUE)))["out"] == 2
+    assert run(language, votes, whoever, asked)["out"] == 1
+    names = run(language, votes, change(TRUE), put(OUT, slots("table.names", table=get(AGES))))
+    assert names["out"] == [True, "Anna"]
+
+
+def test_a_number_is_a_plain_key_in_any_program(language):
+    blocks = [put(AGES, table((1, "one"))), change(2, 5), put(OUT, at(1)), put(WHO, at(TRUE))]
+
+    assert lines(language, *blocks)[:3] == [
+        'ages = {1: "one"}',
+        "ages[2] = ages.get(2, 0) + 5",
+        "out = ages[1]",
+    ]
+    with pytest.raises(ValueRefused):
+        run(language, *blocks)
+
+
 def test_own_blocks_take_tables(language):
     editor = Editor(Project(), language)
     given = editor.new_parameter("ages", "table")

@@ -670,3 +670,21 @@ def test_a_number_with_its_sign_changed_is_read_back(language, number):
     minus = with_slots("math.function", {"function": "minus"}, number=number)
 
     assert given(language, minus) == -number
+
+
+def test_the_length_of_another_list_is_no_place_from_the_end(language):
+    length = with_slots("list.length", None, list=get(ROUND))
+    last = with_slots("list.get", None, number=length, list=get(LIST))
+
+    with pytest.raises(ValueRefused):
+        run(language, A_AND_B, put(ROUND, listed()), put(OUT, last))
+    assert given(language, last, A_AND_B, put(ROUND, listed("x"))) == "a"
+
+
+def test_products_of_numbers_below_0_are_not_taken_for_such(language):
+    product = with_slots("math.arithmetic", {"operation": "multiply"}, a=-1, b=-2)
+    below_0 = with_slots("math.arithmetic", {"operation": "subtract"}, a=1, b=product)
+    item = with_slots("list.get", None, number=get(NUMBER), list=get(LIST))
+
+    with pytest.raises(ValueRefused):
+        run(language, A_AND_B, put(NUMBER, below_0), put(OUT, item))

@@ -96,7 +96,7 @@ class Given(NamedTuple):
     def calculated(self) -> Given:
         """The kinds of what arithmetic makes of the value, which must be a number then."""
         return self._replace(
-            kinds=self.kinds & NUMBER, same=frozenset(), counted=self.same | self.counted
+            kinds=counted(self.kinds & NUMBER), same=frozenset(), counted=self.same | self.counted
         )
 
     def size(self) -> Given:

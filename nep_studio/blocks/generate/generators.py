@@ -272,7 +272,7 @@ def _letter(code: Expressions, block: Block) -> ast.expr:
     text = code.slot(block, "text")
     (number,) = code.values_in(block, "number", then=text)
     is_text = code.shows_text(block, "text") or code.knows_text(text)
-    index = index_of(number)
+    index = index_of(number, text)
     if is_length_of(number, text):
         index = constant(-1)
     if index is not None and is_text and code.may_swap(number, text):

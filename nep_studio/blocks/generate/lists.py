@@ -64,7 +64,7 @@ def _place(code: Expressions, block: Block, then: ast.expr | None = None) -> _Pl
     may_have_items = not kinds or kinds & LIST
     if may_have_items and are(kinds, _INDEXED) and code.may_swap(number, items):
         place = known_whole(number) or 0
-        index = index_of(number)
+        index = index_of(number, items)
         if is_from_end:
             index = constant(-place) if place > 0 else None
     return _Place(number, items, index, options)
@@ -93,7 +93,7 @@ def _random_item(code: Expressions, block: Block) -> ast.expr:
 
 def _part(code: Expressions, block: Block) -> ast.expr:
     first, last, items = code.values_in(block, "first", "last", "list")
-    begin = index_of(first)
+    begin = index_of(first, items)
     is_plain = (
         are(kinds_of(items), LIST)
         and (is_length_of(last, items) or are(kinds_of(last), NATURAL))

@@ -23,24 +23,19 @@ def one_less(node: ast.expr) -> ast.expr:
     return _moved(node, -1)
 
 
-def index_of(number: ast.expr) -> ast.expr | None:
-    """Where Python has the item of this number; None where it might count from the end."""
+def index_of(number: ast.expr, of: ast.expr) -> ast.expr | None:
+    """Where Python has the item of this number; None where it might count from the end.
+
+    An empty list has none at ``len(names) - 1`` either; but another list may have one there.
+    """
     whole = known_whole(number)
     if whole is not None:
         return constant(whole - 1) if whole > 0 else None
     index = one_less(number)
-    if _is_last(index) or (kinds_of(number) and are(kinds_of(number), POSITIVE)):
+    if is_length_of(number, of) or (kinds_of(number) and are(kinds_of(number), POSITIVE)):
         return index
     is_natural = bool(kinds_of(index)) and are(kinds_of(index), NATURAL)
     return index if is_natural else None
-
-
-def _is_last(index: ast.expr) -> bool:
-    """Whether it is ``len(names) - 1``: of an empty list there is no item at -1 either."""
-    match index:
-        case ast.BinOp(ast.Call(func=ast.Name(id="len")), ast.Sub(), ast.Constant(value=1)):
-            return True
-    return False
 
 
 def _moved(node: ast.expr, by: int) -> ast.expr:

@@ -1,7 +1,7 @@
 """The Python of the blocks of tables: a dict where its keys are plain, else functions of nep_core.
 
-Python takes True for 1. So wherever a program may use both as keys, what is no text goes through
-functions; a key that is a text is plain in any program.
+Python takes True for 1. So whatever may be a truth goes through functions, which keep it under a
+key of its own; a key that is a text or a number is plain in any program.
 """
 
 from __future__ import annotations
@@ -20,29 +20,24 @@ from .expressions import (
     method_call,
     show,
 )
-from .kinds import KEPT, KEYS, LIST, NUMBER, OTHER, TABLE, TEXT, TRUTH, are, kinds_of, note
+from .kinds import KEPT, KEYS, LIST, OTHER, TABLE, TEXT, TRUTH, are, kinds_of, note
 
 
-def _are_mixed(kinds: int) -> bool:
-    """Whether keys of these kinds may be one for Python that are two: True and 1."""
-    return bool(kinds & (TRUTH | OTHER) and kinds & (NUMBER | OTHER))
-
-
-def _is_plain(code: Expressions, key: ast.expr) -> bool:
-    """Whether Python's dict finds what is kept at a key."""
-    return are(kinds_of(key), TEXT) or not _are_mixed(code.kinds_at(KEYS))
+def _is_plain(key: int) -> bool:
+    """Whether Python's dict has what is kept at a key of these kinds where functions look, too."""
+    return not key & (TRUTH | OTHER)
 
 
 def _is_place(code: Expressions, table: ast.expr, key: ast.expr) -> bool:
     """Whether ``table[key]`` is what a block means: nothing but a table takes a text there."""
     is_named = bool(kinds_of(key)) and are(kinds_of(key), TEXT)
-    return is_named or (are(kinds_of(table), TABLE) and _is_plain(code, key))
+    return is_named or (are(kinds_of(table), TABLE) and _is_plain(kinds_of(key)))
 
 
 def _create(code: Expressions, block: Block) -> ast.expr:
     parts = range(1, block.groups.get("entry", 0) + 1)
     entries = [(code.slot(block, f"key.{n}"), code.slot(block, f"value.{n}")) for n in parts]
-    if all(_is_plain(code, key) for key, _ in entries):
+    if all(_is_plain(kinds_of(key)) for key, _ in entries):
         return ast.Dict([key for key, _ in entries], [value for _, value in entries])
     return code.api_call("table_of", *(one for entry in entries for one in entry))
 
@@ -57,21 +52,21 @@ def _get(code: Expressions, block: Block) -> ast.expr:
 def _get_or(code: Expressions, block: Block) -> ast.expr:
     table, key, otherwise = code.values_in(block, "table", "key", "otherwise")
     kinds = code.kinds_at(KEPT) | kinds_of(otherwise)
-    if are(kinds_of(table), TABLE) and _is_plain(code, key):
+    if are(kinds_of(table), TABLE) and _is_plain(kinds_of(key)):
         return note(method_call(table, "get", [key, otherwise]), kinds)
     return note(code.api_call("value_at", table, key, otherwise), kinds)
 
 
 def _has(code: Expressions, block: Block) -> ast.expr:
     table, key = code.values_in(block, "table", "key")
-    is_plain = are(kinds_of(table), TABLE) and _is_plain(code, key)
+    is_plain = are(kinds_of(table), TABLE) and _is_plain(kinds_of(key))
     if is_plain and code.may_swap(table, key):
         return compare(key, ast.In(), table)
     return code.api_call("has_key", table, key)
 
 
 def _names(code: Expressions, block: Block) -> ast.expr:
-    if _are_mixed(code.kinds_at(KEYS)):
+    if not _is_plain(code.kinds_at(KEYS)):
         return code.api_call("names_in", code.value_in(block, "table"))
     return note(call("list", code.slot(block, "table")), LIST)
 
@@ -97,7 +92,7 @@ def _change(code: Expressions, block: Block) -> list[Piece]:
     place = ast.Subscript(table, key)
     held = method_call(table, "get", [key, ast.Constant(0)])
     is_simple = isinstance(table, ast.Name) and isinstance(key, ast.Name | ast.Constant)
-    is_plain = are(kinds_of(table), TABLE) and _is_plain(code, key) and is_simple
+    is_plain = are(kinds_of(table), TABLE) and _is_plain(kinds_of(key)) and is_simple
     is_number = not code.kinds_at(KEPT) & (TRUTH | OTHER)  # a text or a list refuses a number
     held_elsewhere = code.has_two_names(_variable(code, block))
     if is_plain and is_number and not held_elsewhere and code.may_swap(held, amount):
