@@ -254,14 +254,26 @@ def _innermost(there: Sequence[ast.stmt], again: Sequence[ast.stmt], around: int
 def _inside(node: ast.stmt) -> dict[str, list[ast.stmt]]:
     """The statements in another one, by where they are."""
     bodies = {name: getattr(node, name, []) for name in ("body", "orelse")}
+    match node:
+        case ast.Try(handlers=[ast.ExceptHandler(body=body)], finalbody=[]):
+            bodies["handlers"] = body
     return {name: body for name, body in bodies.items() if body}
 
 
 def _is_so_begun(one: ast.stmt, other: ast.stmt) -> bool:
     """Whether two statements are the same but for what is in their bodies."""
     plain = [as_block(one), as_block(other)]
-    parts = [[getattr(n, f, None) for f in n._fields if f not in ("body", "orelse")] for n in plain]
+    inside = ("body", "orelse", *(["handlers"] if "handlers" in _inside(one) else []))
+    parts = [[getattr(n, f, None) for f in n._fields if f not in inside] for n in plain]
+    parts[0] += _caught(one)
+    parts[1] += _caught(other)
     return bool(_inside(one)) and type(plain[0]) is type(plain[1]) and _same(*parts)
+
+
+def _caught(node: ast.stmt) -> list[object]:
+    """What the parts of a “try” catch, and by which names."""
+    handlers = node.handlers if isinstance(node, ast.Try) else []
+    return [part for handler in handlers for part in (handler.type, handler.name)]
 
 
 def _setting(source: Source, lines: set[int]) -> set[int]:

@@ -9,9 +9,9 @@ import ast
 import itertools
 import re
 from collections import defaultdict
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager, suppress
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import lru_cache
 
 from faults import Words, text_of
@@ -477,8 +477,8 @@ def _is_range(nodes: Sequence[ast.AST]) -> bool:
     return False
 
 
-def _patterns(definition: Definition, language: Language) -> Iterator[Pattern]:
-    seen: set[str] = set()
+def _patterns(definition: Definition, language: Language) -> Iterable[Pattern]:
+    found: dict[str, Pattern] = {}
     every = KNOWN[:1] if definition.generator in _SAME_WHATEVER_IS_KNOWN else KNOWN
     for groups in itertools.islice(_group_counts(definition), MOST_PATTERNS):
         for fields in _choices(definition, language, groups):
@@ -496,17 +496,19 @@ def _patterns(definition: Definition, language: Language) -> Iterator[Pattern]:
                 except _NOT_MADE:
                     continue  # not made in this variant
                 form, has_other = _form(nodes), has_other or learner.has_other
-                if nodes and form not in (*seen, _MARKER) and not _is_range(nodes):
-                    seen.add(form)
+                if form in found and not learner.must_show:  # it says so whatever is shown
+                    found[form] = replace(found[form], clear=frozenset())
+                elif nodes and form not in (*found, _MARKER) and not _is_range(nodes):
                     size = sum(_says(inner) for node in nodes for inner in ast.walk(node))
                     free = frozenset(learner.free if learner.api & VALUES else ())
                     clear = frozenset(learner.must_show)
                     fractions = _numbers(definition, keys) - typed if known is not KNOWN[0] else ()
                     said = {k: v for k, v in fields.items() if k not in learner.worked_out}
-                    yield Pattern(
+                    found[form] = Pattern(
                         *(definition, nodes, said, groups, keys, size, clear, free),
                         fractions=frozenset(fractions),
                     )
+    return found.values()
 
 
 def _group_counts(definition: Definition) -> Iterator[dict[str, int]]:

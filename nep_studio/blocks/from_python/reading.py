@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections import Counter
 from collections.abc import Collection, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from nep_studio.blocks.code_text import CodeTextRefused, read_lines
 from nep_studio.blocks.editor import Editor
@@ -227,10 +227,17 @@ class StatementReader:
                 yield one
                 if is_best_enough and not _written(one):
                     return
+        if not is_best_enough:  # their Python will tell whether a value in them is a text
+            yield from self._of_patterns(nodes, may_be_unclear=True)
 
-    def _of_patterns(self, nodes: Sequence[ast.stmt], *, is_other: bool) -> Iterator[_Candidate]:
+    def _of_patterns(
+        self, nodes: Sequence[ast.stmt], *, is_other: bool = False, may_be_unclear: bool = False
+    ) -> Iterator[_Candidate]:
         """The blocks that the first statements are by their patterns."""
-        for pattern in self._learned.statements.get(beginning(nodes[0]), ()):
+        patterns = self._learned.statements.get(beginning(nodes[0]), ())
+        if may_be_unclear:
+            patterns = [replace(one, clear=frozenset()) for one in patterns if one.clear]
+        for pattern in patterns:
             count = len(pattern.nodes)
             is_kept = any(node.lineno in self._kept for node in nodes[:count])
             found = match(pattern, nodes[:count]) if count <= len(nodes) and not is_kept else None
