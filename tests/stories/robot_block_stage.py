@@ -75,7 +75,8 @@ def robot_blocks() -> list[Definition]:
         for definition in LANGUAGE.definitions.values()
         if definition.result != "robot"  # a value, that does nothing by itself
         and (
-            "robot" in definition.slots
+            # those that may name one besides do nothing to it by themselves
+            ("robot" in definition.slots and not definition.slots["robot"].group)
             or definition.category.id in ("robot_events", "robot_speech")
         )
     ]

@@ -161,18 +161,27 @@ def test_every_hat_about_robots_and_goals_fires(theatre: RobotTheatre) -> None:
         "robot_events.idle": lambda: None,
         "goal.goal": lambda: theatre.person_is("please"),
         "goal.when_goal": lambda: theatre.person_is("enough"),
+        "goal.goal_when": lambda: theatre.sense("bumper_left"),
+        "goal.goal_asked": lambda: theatre.person_is("wanted"),
     }
     fields = {
         "robot_events.idle": {"seconds": 0.5},
         "goal.goal": {"state": "please", "stop_state.1": "enough"},
+        "goal.goal_when": {"name": "look"},
+        "goal.goal_asked": {"name": "help"},
     }
+    touched = B("robot_senses.is_touched", {"part": "bumper_left"})
     stay = B("control.wait", {"seconds": 60})
     stacks = []
     for hat in hats:
-        first = B(hat, fields.get(hat, {}), groups={"stop": 1} if hat == "goal.goal" else {})
+        asked = {"condition": touched} if hat == "goal.goal_when" else {}
+        groups = {"stop": 1} if hat == "goal.goal" else {}
+        first = B(hat, fields.get(hat, {}), asked, groups=groups)
         said = B("robot.say", {"text": hat})
         stacks.append([first, said, *([stay] if hat == "goal.goal" else [])])
-    playing = theatre.play_along(*stacks, [STARTED, B("robot.say", {"text": "begun"})])
+    wanted = [B("event.human_state", {"state": "wanted"}), B("goal.pursue", {"name": "help"})]
+    begun = [STARTED, B("robot.say", {"text": "begun"})]
+    playing = theatre.play_along(*stacks, wanted, begun)
     wait_until(lambda: "begun" in theatre.said())
 
     for hat, make in hats.items():
