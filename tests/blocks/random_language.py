@@ -469,7 +469,7 @@ class Maker:
         return B("table.create", inputs=inputs, groups={"entry": count})
 
     def _typed_key(self) -> B:
-        if self._chance(0.1):
+        if self._chance(0.05):
             return B("logic.truth", {"truth": self.dice.choice(["true", "false"])})
         key = self.dice.choice(KEYS)
         kind = "text" if isinstance(key, str) else "number"
@@ -526,7 +526,7 @@ class Maker:
 
     def _place(self) -> B:
         """The place of an item or letter: mostly one that is there."""
-        if self._chance(0.2):
+        if self._chance(0.1):
             return self._worked_out_place()
         odd = [3, 0, -1, 1.5] if self._chance(0.1) else [1, 1, 2]
         return B("math.number", {"number": self.dice.choice(odd)})
