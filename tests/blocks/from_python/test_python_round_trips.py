@@ -265,7 +265,7 @@ SAID_IN_TWO_WAYS = {
         [DEFINED, set_x(joined(X, GIVEN)), SAYS_X],
         [STARTED, B("my.call.own", inputs={"given": B("text.text", inputs={"text": Y})})],
     ],
-    "tried": [[STARTED, B("control.try", bodies={"do": [COUNTED_DOWN]})]],
+    "after what was tried": [[STARTED, B("control.try", bodies={"otherwise": [COUNTED_DOWN]})]],
     "a letter for nobody": [[DEFINED, set_x(LETTER), SAYS_X]],
     "appended for nobody": [
         [DEFINED, set_x(A_TEXT), B("text.append", {"variable": "v1"}, {"text": CHOSEN})],
