@@ -62,9 +62,9 @@ def other_statements(node: ast.stmt) -> Iterator[ast.stmt]:
             yield _through(node, call("list", items))
         case ast.AugAssign(ast.Name(), ast.Sub(), value):
             number = known_whole(value)
-            is_below = number is not None and number < 0  # what adds it would be written with +=
             less = ast.UnaryOp(ast.USub(), value)
-            less = less if number is None or is_below else constant(-number)
+            if number is not None and number > 0:  # to add none, or more, is written with +=
+                less = constant(-number)
             if isinstance(value, ast.Constant) and isinstance(value.value, float):
                 less = constant(-value.value)
             yield ast.copy_location(ast.AugAssign(node.target, ast.Add(), less), node)

@@ -351,7 +351,17 @@ def _kinds_given(tree: ast.Module, names: SourceNames) -> dict[str, int]:
     for _ in range(MOST_NAMES_OF_ONE):
         for name, others in same.items():
             found[name] = found.get(name, 0) | _all_kinds(found.get(one, 0) for one in others)
-    return {name: kinds for name, kinds in found.items() if kinds and name not in names.variables}
+    of_variables = {name: kinds for name, kinds in found.items() if kinds}
+    never = dict.fromkeys(_never_given(tree), 0)
+    return {n: kinds for n, kinds in (of_variables | never).items() if n not in names.variables}
+
+
+def _never_given(tree: ast.Module) -> Iterator[str]:
+    """The values of own blocks that nothing calls, which may be anything; as kinds name them."""
+    named = {node.id for node in ast.walk(tree) if isinstance(node, ast.Name)}
+    for node in tree.body:
+        if isinstance(node, ast.FunctionDef) and not node.decorator_list and node.name not in named:
+            yield from (f"{node.name}({one.arg})" for one in node.args.args)
 
 
 MOST_NAMES_OF_ONE = 4
@@ -375,13 +385,16 @@ def _note_kinds(tree: ast.Module, kinds: Mapping[str, int]) -> None:
     for top in tree.body:
         known = kinds
         if isinstance(top, ast.FunctionDef):
-            given = {one.arg: kinds.get(f"{top.name}({one.arg})", 0) for one in top.args.args}
-            known = {**kinds, **given}
+            names = {one.arg: f"{top.name}({one.arg})" for one in top.args.args}
+            given = {arg: kinds[name] for arg, name in names.items() if name in kinds}
+            others = {name: kind for name, kind in kinds.items() if name not in names}
+            known = {**others, **given}
         for node in ast.walk(top):
             name = getattr(node, "id", "")
             if isinstance(node, ast.Call):
                 name = f"{getattr(node.func, 'id', '')}()"
-            if isinstance(node, ast.Name | ast.Call) and (found := known.get(name)):
+            found = known.get(name)
+            if isinstance(node, ast.Name | ast.Call) and found is not None:
                 note(node, found)
 
 

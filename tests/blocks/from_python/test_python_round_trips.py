@@ -227,6 +227,12 @@ SAYS_X = B("robot.say", inputs={"text": X})
 A_TEXT, ONE = B("text.text", {"text": "a"}), B("math.number", {"number": 1})
 ABSOLUTE = B("math.function", {"function": "absolute"}, {"number": ONE})
 ROUNDED = B("math.round", {"way": "nearest"}, {"number": GIVEN})
+LETTER = B("text.letter", inputs={"text": GIVEN, "number": ONE})
+TRUE = B("logic.truth", {"truth": "true"})
+CHOSEN = B("logic.choose", inputs={"condition": TRUE, "a": GIVEN, "b": A_TEXT})
+LESS = B("math.function", {"function": "minus", "number": -1})
+BACK_TO_ITSELF = {"variable": "v1", "first": -1, "last": -1, "step": -1, "way": "down"}
+COUNTED_DOWN = B("control.count", BACK_TO_ITSELF, bodies={"do": [SAYS_X]})
 DEFINED, STARTED = B("my.define.own"), B("event.started")
 STOP = [B("control.stop_rule")]
 STOPS_ANYWAY = B("control.if", bodies={"do": STOP, "otherwise_do.1": STOP}, groups={"otherwise": 1})
@@ -258,6 +264,15 @@ SAID_IN_TWO_WAYS = {
     "a text for any value": [
         [DEFINED, set_x(joined(X, GIVEN)), SAYS_X],
         [STARTED, B("my.call.own", inputs={"given": B("text.text", inputs={"text": Y})})],
+    ],
+    "after what was tried": [[STARTED, B("control.try", bodies={"otherwise": [COUNTED_DOWN]})]],
+    "a letter for nobody": [[DEFINED, set_x(LETTER), SAYS_X]],
+    "appended for nobody": [
+        [DEFINED, set_x(A_TEXT), B("text.append", {"variable": "v1"}, {"text": CHOSEN})],
+        [STARTED, set_x(A_TEXT), SAYS_X],
+    ],
+    "less than nothing less": [
+        [STARTED, B("variable.change", {"variable": "v1"}, {"amount": LESS})]
     ],
 }
 
