@@ -62,7 +62,7 @@ def other_statements(node: ast.stmt) -> Iterator[ast.stmt]:
             yield _through(node, call("list", items))
         case ast.AugAssign(ast.Name(), ast.Sub(), value):
             number = known_whole(value)
-            less = ast.UnaryOp(ast.USub(), value)
+            less: ast.expr = ast.UnaryOp(ast.USub(), value)
             if number is not None and number > 0:  # to add none, or more, is written with +=
                 less = constant(-number)
             if isinstance(value, ast.Constant) and isinstance(value.value, float):
