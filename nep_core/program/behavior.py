@@ -38,7 +38,7 @@ from .human import human_listener
 from .kept import keep_now, take_troubles
 from .machines import Machines, Transition
 from .messages import Run, heard_by, own_run
-from .plans import tell_by
+from .plans import tell_by, tell_nobody
 from .robot import Robot
 from .tasks import (
     CLOCK,
@@ -419,6 +419,7 @@ class Behavior:
             PROGRAM.end_undone()
             keep_now()
             self._tell_troubles()
+            tell_by(tell_nobody)
             self._states.close()
             words.close()
         if self._first_error is not None and not PROGRAM.cancelled.is_set():

@@ -39,13 +39,13 @@ Teller = Callable[[PlanTold, str, Sequence[PlannedStep], int, Fault | None], Non
 """Told what happened, the goal in words, the plan, the step that runs (from 1), what is wrong."""
 
 
-def _tell_nobody(
+def tell_nobody(
     event: PlanTold, goal: str, plan: Sequence[PlannedStep], step: int, fault: Fault | None
 ) -> None:
     """A script without a behaviour tells of its plans to nobody."""
 
 
-_tellers: list[Teller] = [_tell_nobody]
+_tellers: list[Teller] = [tell_nobody]
 
 
 def tell_by(teller: Teller) -> None:

@@ -5,13 +5,13 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Iterable, Mapping
 from copy import deepcopy
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 from PySide6.QtCore import QObject, QPointF, QRectF, Qt, Signal
 from PySide6.QtGui import QColor, QFontMetricsF, QPainter, QPen
 
 from nep_core.wire import messages as m
-from nep_core.wire.messages import ProgramState
+from nep_core.wire.messages import PlannedStep, ProgramState
 from nep_studio.blocks.generate.source_map import Code, ReporterPlaces
 from nep_studio.ui.canvas.canvas import Canvas
 from nep_studio.ui.canvas.editing.menu import MenuEntry, MenuPlace
@@ -28,6 +28,28 @@ from .runner import Runner
 LONGEST_VALUE = 40
 CALL = "@"
 """What the name of a value begins with that a call gave: "@line:begin-end"."""
+MOST_PLANS = 20
+OF_PLAN = {
+    "plan_made": "",
+    "plan_step": "running",
+    "plan_step_failed": "failed",
+    "plan_done": "succeeded",
+}
+"""The status of a plan after each event that tells of it."""
+
+
+@dataclass(frozen=True)
+class Plan:
+    """A plan for a goal in words; the ``step`` from 1 is the one that has begun, 0 before any.
+
+    The ``status`` is that of this step: running, failed, or succeeded where it was the last one.
+    It is empty before the first step, and where the program has ended on the way.
+    """
+
+    goal: str
+    steps: tuple[PlannedStep, ...]
+    step: int = 0
+    status: str = ""
 
 
 @dataclass
@@ -38,7 +60,8 @@ class Marks:
     ``values`` are by the Python name of the variable; ``results`` are what the reporters in a
     statement gave last, by the statement and the reporter. ``places`` finds a reporter's block.
     ``nodes`` are the parts of behaviour trees that run, or have ended, as the program tells them;
-    ``modes`` are the states in which state machines are, by the names of these.
+    ``modes`` are the states in which state machines are, by the names of these, and ``plans``
+    are those that were made for goals, by these in words: at most ``MOST_PLANS``, the newest last.
     """
 
     code: Code = field(default_factory=lambda: Code("", ()))
@@ -51,6 +74,7 @@ class Marks:
     results: dict[str, dict[str, str]] = field(default_factory=dict)
     nodes: dict[str, str] = field(default_factory=dict)
     modes: dict[str, str] = field(default_factory=dict)
+    plans: dict[str, Plan] = field(default_factory=dict)
 
     def take(self, state: ProgramState) -> None:
         """Take in what the program told."""
@@ -71,6 +95,8 @@ class Marks:
                 self._nodes(state.nodes)
             case "state_entered":
                 self.modes[state.machine] = state.rule
+            case "plan_made" | "plan_step" | "plan_step_failed" | "plan_done":
+                self._plan(state)
             case "paused":
                 block = self.code.block_at(state.line)
                 if block is not None:
@@ -92,6 +118,7 @@ class Marks:
                 self.values.clear()
                 self.results.clear()
                 self.nodes.clear()
+                self.plans.clear()
             case "finished" | "failed":
                 self.still()
 
@@ -101,6 +128,9 @@ class Marks:
         self.paused.clear()
         self.modes.clear()
         self.nodes = {block: how for block, how in self.nodes.items() if how != "running"}
+        for goal, plan in self.plans.items():
+            if plan.status == "running":
+                self.plans[goal] = replace(plan, status="")
 
     def _nodes(self, told: Mapping[str, str]) -> None:
         for line, status in told.items():
@@ -109,6 +139,15 @@ class Marks:
                 self.nodes.pop(block, None)
                 if status in STATUSES:
                     self.nodes[block] = status
+
+    def _plan(self, state: ProgramState) -> None:
+        """A plan that is made anew for a goal takes the place of the one before."""
+        self.plans.pop(state.rule, None)
+        if state.plan:  # else it was true already
+            steps, status = tuple(state.plan), OF_PLAN[state.event]
+            self.plans[state.rule] = Plan(state.rule, steps, state.step, status)
+        while len(self.plans) > MOST_PLANS:
+            del self.plans[next(iter(self.plans))]
 
     def _value(self, name: str, text: str) -> None:
         if not name.startswith(CALL):

@@ -66,7 +66,7 @@ def test_the_counts_of_rules_and_the_values_of_variables_are_on_the_blocks(
     assert runner.send(m.HUMAN_BEHAVIOR, m.HumanBehavior(human_state="waved"))
 
     qtbot.waitUntil(lambda: marks.counts[rule] == 1, timeout=WAIT_MS)
-    qtbot.waitUntil(lambda: marks.values.get("how_many") == "1", timeout=WAIT_MS)
+    qtbot.waitUntil(lambda: marks.values.get("program.how_many") == "1", timeout=WAIT_MS)
 
 
 def test_a_node_is_started_and_stopped_by_hand_without_a_program(
@@ -131,7 +131,7 @@ def test_pause_and_go_on_by_the_buttons(window: MainWindow, open_program, qtbot:
     )
     press(window, qtbot, "run")
     qtbot.waitUntil(
-        lambda: int(window.running.stage.marks.values.get("turns", "0")) > 2, timeout=WAIT_MS
+        lambda: int(window.running.stage.marks.values.get("program.turns", "0")) > 2, timeout=WAIT_MS
     )
 
     press(window, qtbot, "pause")

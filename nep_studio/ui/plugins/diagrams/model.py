@@ -1,20 +1,24 @@
-"""The diagrams of a program as data: its state machines and behaviour trees, in words."""
+"""The diagrams of a program as data: its state machines, behaviour trees and plans, in words."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+import re
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Literal
 
+from nep_studio.blocks.generate.source_map import Code
 from nep_studio.blocks.language import Language
+from nep_studio.blocks.procedures import CALL, parameters, procedure_of
 from nep_studio.blocks.program import Block, Project
 from nep_studio.blocks.states import ANY, DONE, Arrow, Machine, machines_of
 from nep_studio.blocks.text import field_text, sentence
+from nep_studio.ui.running.stage import Plan
 from nep_studio.ui.words import count_words, tr
 
-Shape = Literal["state", "any", "root", "sign", "diamond", "leaf", "ellipse"]
-Kind = Literal["states", "tree"]
+Shape = Literal["state", "any", "root", "sign", "diamond", "leaf", "ellipse", "step"]
+Kind = Literal["states", "tree", "plan"]
 Key = tuple[Literal["box", "arrow"], str]
 """What is chosen on a diagram: a box by its key, or an arrow by its block."""
 
@@ -70,9 +74,9 @@ class Line:
 
 @dataclass(frozen=True)
 class Diagram:
-    """One machine or one tree; ``key`` is the machine's name, or the block that begins the tree.
+    """One machine, tree or plan; ``key`` is its name, of a tree the block that begins it.
 
-    The name of a machine may be empty.
+    The name of a machine may be empty; that of a plan is its goal.
     """
 
     kind: Kind
@@ -88,6 +92,8 @@ class Diagram:
         """What it is called in the list of diagrams."""
         if self.kind == "tree":
             return tr("Tree: {name}", name=self.name)
+        if self.kind == "plan":
+            return tr("Plan: {goal}", goal=self.name)
         return tr("States of {machine}", machine=self.name) if self.name else tr("States")
 
     @property
@@ -265,3 +271,66 @@ def _part(block: Block, project: Project, language: Language, can_fold: bool, hi
 
 def _name(hat: Block, language: Language) -> str:
     return str(language.definitions[hat.type].value(hat, "name") or "")
+
+
+# Plans
+
+
+GOAL = "goal"
+"""The box below the last step."""
+
+
+def diagrams_of_plans(
+    plans: Iterable[Plan], code: Code, project: Project, language: Language
+) -> tuple[Diagram, ...]:
+    """The plans of a program that runs, or has run, with this code: their steps as its blocks."""
+    return tuple(_of_plan(plan, code, project, language) for plan in plans)
+
+
+def statuses_of(plan: Plan) -> dict[str, str]:
+    """How the boxes of a plan are; empty for those that have not begun."""
+    done = plan.step - 1 if plan.step else 0
+    if plan.status == "succeeded":
+        done = len(plan.steps)
+    found = {str(number): "succeeded" for number in range(1, done + 1)}
+    if plan.status == "succeeded":
+        found[GOAL] = plan.status
+    elif plan.step and plan.status:
+        found[str(plan.step)] = plan.status
+    return found
+
+
+def _of_plan(plan: Plan, code: Code, project: Project, language: Language) -> Diagram:
+    keys = [str(number) for number in range(1, len(plan.steps) + 1)]
+    items = []
+    for key, step in zip(keys, plan.steps, strict=True):
+        block = _defined_at(step.task, code)
+        words = _step_words(block, list(step.values), project, language)
+        title = words or " ".join([step.task.replace("_", " "), *map(str, step.values)])
+        is_first = key == keys[0]
+        items.append(Item(key, block, "step", title, f"{key} / {keys[-1]}", is_first=is_first))
+    items.append(Item(GOAL, "", "ellipse", plan.goal))
+    ends = [*keys[1:], GOAL]
+    lines = [Line(f"{a}-{b}", a, b) for a, b in zip(keys, ends, strict=True)]
+    return Diagram("plan", plan.goal, plan.goal, tuple(items), tuple(lines), (keys[0],))
+
+
+def _defined_at(function: str, code: Code) -> str:
+    """The block that defines a function of the program, or an empty text."""
+    found = re.search(rf"^def {re.escape(function)}\(", code.text, re.MULTILINE)
+    line = code.text.count("\n", 0, found.start()) + 1 if found is not None else 0
+    return code.block_at(line) or ""
+
+
+def _step_words(
+    block: str, values: list[str | int | float | bool], project: Project, language: Language
+) -> str:
+    """What an own block says with these values; empty where it is not there any more."""
+    header = project.blocks.get(block)
+    own = project.procedures.get(procedure_of(header.type)) if header is not None else None
+    call = language.of(project).definitions.get(f"{CALL}{own.id}") if own is not None else None
+    if own is None or call is None or len(parameters(own)) != len(values):
+        return ""
+    given = {one.id: str(value) for one, value in zip(parameters(own), values, strict=True)}
+    said = (p if isinstance(p, str) else given.get(getattr(p, "name", ""), "") for p in call.parts)
+    return " ".join(word for word in said if word)

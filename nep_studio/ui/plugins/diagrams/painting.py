@@ -17,7 +17,7 @@ from .shapes import DOT, Arrow, Box, Measures, Shapes, Words
 
 STATUS_ICONS = {"running": "circle-play", "succeeded": "circle-check", "failed": "octagon-x"}
 FALLBACK = "?"
-STATES, TREES = "states", "trees"
+STATES, TREES, OWN = "states", "trees", "my_blocks"
 """The colours of the blocks."""
 
 
@@ -130,8 +130,8 @@ class DiagramPainter:
     def _colours(self, item: Item) -> tuple[QColor, QColor, QColor]:
         """What a box is filled with, its edge, and its words."""
         theme = self._theme
-        colours = theme.block(STATES if item.shape == "state" else TREES)
-        if item.shape in ("state", "root", "sign", "diamond") and not item.is_plain:
+        colours = theme.block({"state": STATES, "step": OWN}.get(item.shape, TREES))
+        if item.shape in ("state", "root", "sign", "diamond", "step") and not item.is_plain:
             return colours.fill, colours.line, colours.text
         if item.shape == "any":
             return theme.colour("panel_alt"), theme.colour("field_line"), theme.colour("text")
@@ -152,7 +152,7 @@ class DiagramPainter:
             path.addPolygon(QPolygonF(corners))
             path.closeSubpath()
         else:
-            usual = {"state": 0.7, "sign": 0.25, "leaf": 0.25}
+            usual = {"state": 0.7, "sign": 0.25, "leaf": 0.25, "step": 0.25}
             round_ = min(usual.get(item.shape, 9.0) * unit, rect.height() / 2)
             path.addRoundedRect(rect, round_, round_)
         return path

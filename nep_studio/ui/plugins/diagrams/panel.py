@@ -23,12 +23,12 @@ from nep_studio.ui.widgets.questions import Asking, ask_for_path, tell_not_saved
 from nep_studio.ui.words import tr
 
 from .changes import Changes
-from .model import Diagram, Key, diagrams_of
+from .model import Diagram, Key, diagrams_of, diagrams_of_plans, statuses_of
 from .picture import image_of, png_of, svg_of
 from .view import DiagramView
 
 PICTURES = {".svg": "SVG", ".png": "PNG"}
-ICONS = {"states": "route", "tree": "git-branch"}
+ICONS = {"states": "route", "tree": "git-branch", "plan": "list"}
 
 
 class DiagramPage(QWidget):
@@ -40,6 +40,7 @@ class DiagramPage(QWidget):
         self._canvas = host.workbench.canvas
         self._changes = Changes(self._canvas)
         self._diagrams: tuple[Diagram, ...] = ()
+        self._plans: tuple[Diagram, ...] = ()
         self._folded: frozenset[str] = frozenset()
         self._project: Project | None = None
         self._is_watching = False
@@ -111,9 +112,11 @@ class DiagramPage(QWidget):
         """Draw the program as it is now."""
         editor = self._open.editor
         if editor is None:
-            self._diagrams = ()
+            self._diagrams = self._plans = ()
         else:
-            self._diagrams = diagrams_of(editor.project, editor.language, self._folded)
+            self._plans = self._plans_now()
+            drawn = diagrams_of(editor.project, editor.language, self._folded)
+            self._diagrams = (*drawn, *self._plans)
         shown = self.view.diagram.id
         place = next((i for i, one in enumerate(self._diagrams) if one.id == shown), 0)
         self.choice.clear()
@@ -158,14 +161,27 @@ class DiagramPage(QWidget):
 
     def _show_run(self) -> None:
         """Show where the program is; it is asked at most as often as messages are told of."""
+        if self._plans != self._plans_now():
+            self.refresh()  # which shows the statuses too
+            return
         diagram, marks = self.diagram, self._services.running.stage.marks
         if diagram is None:
             return
         if diagram.kind == "tree":
             self.view.show_statuses(marks.nodes)
+        elif diagram.kind == "plan":
+            self.view.show_statuses(statuses_of(marks.plans[diagram.key]))
         else:
             now = marks.modes.get(diagram.key)
             self.view.show_statuses({now: "running"} if now else {})
+
+    def _plans_now(self) -> tuple[Diagram, ...]:
+        """What the program has planned since it began."""
+        editor, marks = self._open.editor, self._services.running.stage.marks
+        if editor is None or not marks.plans:
+            return ()
+        plans = marks.plans.values()
+        return diagrams_of_plans(plans, marks.code, editor.project, editor.language)
 
     def _on_changed(self) -> None:
         document = self._services.document

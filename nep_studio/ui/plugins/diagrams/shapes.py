@@ -243,7 +243,7 @@ class _Shaping:
             label = QRectF(0, 0, words.width, words.height)
             label.moveCenter(QPointF(*drawing.words[line.key]))
         head = QPolygonF()
-        if self._diagram.kind == "states":
+        if self._diagram.kind != "tree":
             tip = way[-1]
             towards = 1.0 if tip.y() > way[-2].y() else -1.0
             way[-1] = tip - QPointF(0, towards * ARROW * self._line)

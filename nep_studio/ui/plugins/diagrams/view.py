@@ -189,7 +189,7 @@ class DiagramView(DrawingBoard[Key]):
     def _remarks(self, item: Item) -> list[str]:
         """What else is to be seen of a box."""
         found = []
-        if item.is_first:
+        if item.is_first and item.shape == "state":
             found.append(tr("The program begins here."))
         if not item.is_reached and item.shape == "state":
             found.append(tr("No arrow leads here from where the program begins."))
