@@ -35,6 +35,7 @@ from nep_core.wire.pubsub import Publisher, Subscriber
 from nep_studio.blocks.definitions import Definition
 from nep_studio.blocks.generate.program import generate_program
 from nep_studio.run.installation import studio_language
+from tests.blocks.block_building import held, share_variables
 from tests.node_running import NodeRunner
 from tests.stories.robot_block_looks import ANSWERS, LOOKS
 from tests.stories.robot_block_pictures import before
@@ -174,10 +175,11 @@ class BlockStage(NodeRunner):
 
     def _play(self, stacks: list[list[B]]) -> dict[str, Any]:
         editor = build(LANGUAGE, *stacks, variables=("x",))
+        share_variables(editor)
         code = generate_program(editor.project, LANGUAGE).text
         names: dict[str, Any] = {"__name__": "__main__"}
         exec(compile(code, "program.py", "exec"), names)
-        return names
+        return held(names)
 
     def _calm_down(self, look: Look, *, is_hat: bool) -> None:
         """Take away what was sensed; what a rule waits to see must be out of sight before."""

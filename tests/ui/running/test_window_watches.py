@@ -137,10 +137,10 @@ def test_pause_and_go_on_by_the_buttons(window: MainWindow, open_program, qtbot:
     press(window, qtbot, "pause")
     qtbot.waitUntil(lambda: bool(window.running.stage.marks.paused), timeout=WAIT_MS)
     assert window.running.runner.state == "paused"
-    held = window.running.stage.marks.values["turns"]
+    held = window.running.stage.marks.values["program.turns"]
 
     press(window, qtbot, "run")
-    qtbot.waitUntil(lambda: window.running.stage.marks.values["turns"] != held, timeout=WAIT_MS)
+    qtbot.waitUntil(lambda: window.running.stage.marks.values["program.turns"] != held, timeout=WAIT_MS)
     assert window.running.runner.state == "running"
 
 
