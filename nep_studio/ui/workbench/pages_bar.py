@@ -11,6 +11,7 @@ from PySide6.QtWidgets import QLineEdit, QMenu, QTabBar, QToolButton, QWidget
 
 from nep_studio.blocks.editor import Editor
 from nep_studio.blocks.edits.project import AddPage, MovePage, RenamePage
+from nep_studio.blocks.operations.states import add_tree
 from nep_studio.blocks.program import PAGES, Project
 from nep_studio.ui.labels import explained, follow_words, labelled
 from nep_studio.ui.theme.colours import Theme
@@ -22,6 +23,8 @@ from nep_studio.ui.words import tr
 from .side_panels import Rooms
 
 KIND_ICONS = {"behaviour": "blocks", "robots": "bot", "nodes": "network"}
+BEGINNING = (40.0, 40.0)
+"""Where the first block of a page is put."""
 
 
 class PagesBar(QWidget):
@@ -89,17 +92,36 @@ class PagesBar(QWidget):
 
     def add_page(self) -> None:
         """Add a page for behaviour behind the last one of those, and show it."""
+        edit = self._new_page(lambda number: tr("Behaviour {number}", number=number), 2)
+        if self._attempt(lambda: self._editor.apply(edit)):
+            self.page_chosen.emit(edit.page)
+
+    def add_tree_page(self) -> None:
+        """Add a page on which a behaviour tree is begun, as one step, and show it."""
+
+        def title(number: int) -> str:
+            several = tr("Behaviour tree {number}", number=number)
+            return several if number > 1 else tr("Behaviour tree")
+
+        edit = self._new_page(title, 1)
+
+        def add() -> None:
+            with self._editor.transaction("add a behaviour tree"):
+                self._editor.apply(edit)
+                add_tree(self._editor, edit.page, BEGINNING)
+
+        if self._attempt(add):
+            self.page_chosen.emit(edit.page)
+
+    def _new_page(self, title: Callable[[int], str], number: int) -> AddPage:
+        """A page behind the last one for behaviour; its title, from a number on, is no other's."""
         project = self._editor.project
+        taken = {page_title(project, page) for page in project.pages}
         kinds = [project.kind_of_page(page) for page in project.pages]
         position = len(kinds) - kinds[::-1].index("behaviour")
-        page = project.new_id("page")
-        taken = {page_title(project, page) for page in project.pages}
-        number = 2
-        while (title := tr("Behaviour {number}", number=number)) in taken:
+        while (named := title(number)) in taken:
             number += 1
-        edit = AddPage(page, title, position)
-        if self._attempt(lambda: self._editor.apply(edit)):
-            self.page_chosen.emit(page)
+        return AddPage(project.new_id("page"), named, position)
 
     def rename_page(self, index: int, title: str) -> None:
         """Give a page another title; an empty one is the title it has by itself."""
@@ -183,6 +205,8 @@ class PagesBar(QWidget):
         menu.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
         sign = icon(KIND_ICONS["behaviour"], theme)
         menu.addAction(sign, tr("New page for behaviour"), self.add_page)
+        sign = icon("list-tree", theme)
+        menu.addAction(sign, tr("New page for a behaviour tree"), self.add_tree_page)
         menu.addSeparator()
         for page in PAGES[1:]:
             title = page_title(self._editor.project, page).replace("&", "&&")

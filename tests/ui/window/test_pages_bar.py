@@ -126,6 +126,24 @@ def test_plus_adds_a_page_for_behaviour_and_shows_it(karate: MainWindow, bar, qt
     assert karate.workbench.canvas.page == list(karate.files.document.project.pages)[1]
 
 
+def test_plus_adds_a_page_on_which_a_behaviour_tree_is_begun(
+    karate: MainWindow, bar, qtbot: QtBot
+) -> None:
+    choose(bar, "New page for a behaviour tree", qtbot)
+    choose(bar, "New page for a behaviour tree", qtbot)
+
+    project = karate.files.document.project
+    page = list(project.pages)[2]
+    assert titles(bar)[:3] == ["Behaviour", "Behaviour tree", "Behaviour tree 2"]
+    assert karate.workbench.canvas.page == page
+    stack = project.pages[page][0]
+    assert [project.blocks[block].type for block in stack.body] == ["tree.tree", "tree.sequence"]
+
+    karate.actions_by_name["undo"].trigger()
+
+    assert titles(bar)[:3] == ["Behaviour", "Behaviour tree", "Robots"]
+
+
 def test_undo_takes_an_added_page_away_and_shows_the_first(
     karate: MainWindow, bar, qtbot: QtBot
 ) -> None:
