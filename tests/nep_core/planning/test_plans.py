@@ -65,7 +65,7 @@ def no_facts() -> Iterator[None]:
     FACTS.clear()
     yield
     FACTS.clear()
-    plans.tell_by(plans._tell_nobody)
+    plans.tell_by(plans.tell_nobody)
 
 
 @pytest.fixture

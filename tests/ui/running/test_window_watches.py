@@ -131,7 +131,8 @@ def test_pause_and_go_on_by_the_buttons(window: MainWindow, open_program, qtbot:
     )
     press(window, qtbot, "run")
     qtbot.waitUntil(
-        lambda: int(window.running.stage.marks.values.get("program.turns", "0")) > 2, timeout=WAIT_MS
+        lambda: int(window.running.stage.marks.values.get("program.turns", "0")) > 2,
+        timeout=WAIT_MS,
     )
 
     press(window, qtbot, "pause")
@@ -140,7 +141,9 @@ def test_pause_and_go_on_by_the_buttons(window: MainWindow, open_program, qtbot:
     held = window.running.stage.marks.values["program.turns"]
 
     press(window, qtbot, "run")
-    qtbot.waitUntil(lambda: window.running.stage.marks.values["program.turns"] != held, timeout=WAIT_MS)
+    qtbot.waitUntil(
+        lambda: window.running.stage.marks.values["program.turns"] != held, timeout=WAIT_MS
+    )
     assert window.running.runner.state == "running"
 
 
