@@ -24,7 +24,7 @@ SAY = "say"
 def other_values(node: ast.expr) -> Iterator[ast.expr]:
     """The other forms of a value."""
     match node:
-        case ast.Subscript(held, ast.Slice(low, high, None)) if low is not None or high is not None:
+        case ast.Subscript(held, ast.Slice(low, high, None)):
             last = call("len", copy.deepcopy(held)) if high is None else high
             yield call("items_between", one_more(low or constant(0)), last, held)
         case ast.Subscript(held, ast.Slice()):
