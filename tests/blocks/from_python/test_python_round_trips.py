@@ -250,7 +250,12 @@ def joined(a: B, b: B) -> B:
     return B("text.join", inputs={"item.1": a, "item.2": b}, groups={"item": 2})
 
 
+ALL_OF_X = B("list.part", {"first": 1}, {"last": B("list.length", inputs={"list": X}), "list": X})
+ITEMS = B("list.create", {"item.1": 1, "item.2": 2}, groups={"item": 2})
 SAID_IN_TWO_WAYS = {
+    "a part of all of it": [
+        [STARTED, set_x(ITEMS), set_x(B("list.part", {"first": 1, "last": 1}, {"list": ALL_OF_X}))]
+    ],
     "added to itself": [[STARTED, set_x(A_TEXT), set_x(added(X, X)), SAYS_X]],
     "set, not changed": [[STARTED, set_x(A_TEXT), set_x(added(X, ABSOLUTE)), SAYS_X]],
     "inside": [
