@@ -241,6 +241,8 @@ def test_a_goal_can_be_interrupted_again_and_again(scene: Scene) -> None:
     for _ in range(3):
         scene.does("alarm")
         assert [scene.diary.next(), scene.diary.next()] == ["alarm begins", "alarm done"]
+        # What it writes last is not its end, and while it is pursued it does not begin again
+        assert wait_until(lambda: not scene.behavior.pursues("alarm"), WAIT_S)
 
     assert scene.diary.next() == "ends"
     assert scene.diary.is_quiet()
