@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import random
+import re
 from collections.abc import Callable
 from typing import Any
 
@@ -17,9 +18,12 @@ import nep_core
 from nep_core.program import tasks, tree
 from nep_core.program.tasks import Part
 from nep_core.program.values import speak
+from nep_studio.blocks.editor import Editor
 from nep_studio.blocks.generate.program import generate_program
 from nep_studio.blocks.language import Language
 from nep_studio.blocks.program import Project
+from nep_studio.blocks.tree_files.elements import read_elements
+from nep_studio.blocks.tree_files.reading import import_trees
 
 TREES = int(os.environ.get("NEP_RANDOM_PROGRAMS", "300"))
 NAMES = ("v1", "v2")
@@ -142,7 +146,7 @@ class Grower:
     def __init__(self, _name: str, **_options: object) -> None:
         speak("en")
 
-    def tree(self, name: str) -> Callable[[Callable[[], object]], object]:
+    def tree(self, name: str, **_options: object) -> Callable[[Callable[[], object]], object]:
         def plant(function: Callable[[], object]) -> object:
             note = lambda _error: Listener.said.append("error")  # noqa: E731
             return tree.plant(tree.Plan(name, function, lambda _nodes: None, note))
@@ -228,3 +232,52 @@ def test_the_judge_finds_a_planted_difference(
 
     with pytest.raises(AssertionError):
         compare(range(25), language)
+
+
+TEA = """
+<root BTCPP_format="4" main_tree_to_execute="outer">
+  <BehaviorTree ID="outer">
+    <Sequence>
+      <Fallback><Inverter><IsCold/></Inverter><SubTree ID="Warm"/></Fallback>
+      <Pour/>
+    </Sequence>
+  </BehaviorTree>
+  <BehaviorTree ID="Warm">
+    <Fallback>
+      <Microwave/>
+      <RetryUntilSuccessful num_attempts="3"><LightStove/></RetryUntilSuccessful>
+      <AskForHelp/>
+    </Fallback>
+  </BehaviorTree>
+</root>
+"""
+"""The shape of the tutorial of BehaviorTree.CPP with a closed door, which was played so, too."""
+
+
+@pytest.mark.usefixtures("stand_ins")
+@pytest.mark.parametrize(
+    ("lit_at", "done"),
+    [
+        (2, ["IsCold", "Microwave", *["LightStove"] * 2, "Pour"]),
+        (9, ["IsCold", "Microwave", *["LightStove"] * 3, "AskForHelp", "Pour"]),
+    ],
+)
+def test_a_tree_from_a_file_plays_once_its_own_blocks_are_filled_in(
+    language: Language, lit_at: int, done: list[str]
+) -> None:
+    editor = Editor(Project("Tea"), language)
+    import_trees(editor, read_elements(TEA.encode()))
+    text = generate_program(editor.project, editor.language).text
+    seen: list[str] = []
+
+    def does(name: str) -> None:
+        seen.append(name)
+        if name == "Microwave" or (name == "LightStove" and seen.count(name) < lit_at):
+            nep_core.fail_step()
+
+    Grower.end = None
+    filled = re.sub(r"(def (\w+)\(\):\n)    # fill in .*\n    .*\n", r"\1    does('\2')\n", text)
+    exec(compile(filled, "program.py", "exec"), {"__name__": "__main__", "does": does})
+
+    assert seen == done
+    assert Grower.end == "succeeded"

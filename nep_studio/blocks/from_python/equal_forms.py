@@ -16,6 +16,7 @@ from ..generate.expressions import call, known_whole
 from ..generate.kinds import TABLE, TEXT, are, kinds_of
 from ..generate.positions import one_less, one_more
 from .joined import is_number
+from .told_names import looked_at
 
 SAY = "say"
 """What a robot is asked that tells any value as str() does."""
@@ -135,21 +136,10 @@ def _is_changed_in(loop: ast.For, items: ast.expr) -> bool:
     """Whether what is gone through may be another at a later round."""
     named = {part.id for part in ast.walk(items) if isinstance(part, ast.Name)}
     parts = [part for line in loop.body for part in ast.walk(line)]
-    asked = {id(one) for part in parts for one in _only_asked(part)}
+    asked = {id(one) for part in parts for one in looked_at(part)}
     return any(
         isinstance(part, ast.Name) and part.id in named and id(part) not in asked for part in parts
     )
-
-
-def _only_asked(node: ast.AST) -> Iterator[ast.expr]:
-    """What is asked for an item, or for what is in it, and not changed."""
-    match node:
-        case ast.Subscript(held, _, ast.Load()):
-            yield held
-        case ast.Compare(comparators=others):
-            yield from others
-        case ast.Call(ast.Name("len"), [held]):
-            yield held
 
 
 def as_said(node: ast.Call) -> ast.Call:

@@ -195,7 +195,7 @@ class Names:
     def is_changed_in(self, name: str, loop: ast.For) -> bool:
         """Whether a list may be changed while a loop goes through it."""
         inside = [node for line in loop.body for node in ast.walk(line)]
-        looked_at = {id(one) for node in inside for one in _looked_at(node)}
+        only_asked = {id(one) for node in inside for one in looked_at(node)}
         named = [n for n in inside if isinstance(n, ast.Name) and n.id == name]
         elsewhere = {
             node.id
@@ -204,7 +204,7 @@ class Names:
             for node in ast.walk(function)
             if isinstance(node, ast.Name)
         }
-        return name in elsewhere or any(id(node) not in looked_at for node in named)
+        return name in elsewhere or any(id(node) not in only_asked for node in named)
 
 
 def _holds(function: ast.FunctionDef, loop: ast.For) -> bool:
@@ -231,7 +231,7 @@ def _is_fresh(value: ast.expr | None) -> bool:
     return False
 
 
-def _looked_at(node: ast.AST) -> Iterator[ast.expr]:
+def looked_at(node: ast.AST) -> Iterator[ast.expr]:
     """What is asked for an item, or for what is in it, and not changed."""
     match node:
         case ast.Subscript(held, _, ast.Load()):
@@ -244,7 +244,7 @@ def _looked_at(node: ast.AST) -> Iterator[ast.expr]:
 
 def _asked(node: ast.AST) -> Iterator[ast.expr]:
     """Where a list stands and gets no other name."""
-    yield from _looked_at(node)
+    yield from looked_at(node)
     match node:
         case ast.Subscript(held):
             yield held
