@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import ast
+import itertools
 from collections import Counter
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
+from typing import TypeGuard
 
 from nep_studio.blocks.code_text import CodeTextRefused, read_lines
 from nep_studio.blocks.editor import Editor
@@ -51,6 +53,10 @@ class StatementReader:
         self._language = language
         self._source = source
         self._learned = learned(language)
+        self._above: dict[str, ast.FunctionDef] = {}
+        """Functions above a loop that something in it is given, by their names."""
+        self._reach = 0
+        """The first line of such functions that a statement was given; 0 for none."""
 
     def body(self, nodes: Sequence[ast.stmt]) -> list[Made]:
         """The blocks of statements that are moved in, with the comments above and below them."""
@@ -74,7 +80,9 @@ class StatementReader:
                 code += left[:count]
                 del left[:count]
                 continue
+            earlier, self._reach = self._reach, 0
             found = self._statement(left, begin)
+            reach, self._reach = self._reach, _first(earlier, self._reach)
             is_end = found is None or not _without_end(left[found[1] :])
             if found is None or (self._language.definitions[found[0].type].is_last and not is_end):
                 code.append(left.pop(0))
@@ -84,7 +92,7 @@ class StatementReader:
             del left[: found[1]]
             if self._language.definitions[found[0].type].is_last:
                 left.clear()
-            self._describe(found[0], used, begin)
+            self._describe(found[0], used, begin, reach)
             made.append(found[0])
             begin = end_of(used)
         begin = self._keep_code(made, code, begin)
@@ -175,6 +183,10 @@ class StatementReader:
             inner = self._statement([plain], begin)
             if inner is not None:
                 return inner
+        if above := _functions_above(nodes):
+            return self._below_functions(nodes[: above + 1], begin)
+        if functions := self._given(nodes[0]):
+            return self._with_functions(functions, nodes, begin)
         first = nodes[0]
         if first.lineno in self._kept:
             return None
@@ -194,6 +206,41 @@ class StatementReader:
         except _NotSaid:
             return None
         return made, count
+
+    def _below_functions(self, nodes: Sequence[ast.stmt], begin: int) -> tuple[Made, int] | None:
+        """The block of a statement that uses all functions above it, and how many these are."""
+        *functions, last = nodes
+        before = dict(self._above)
+        self._above |= {one.name: one for one in functions if isinstance(one, ast.FunctionDef)}
+        found = self._statement([last], begin)
+        if found is None or self._above != before:
+            self._above = before
+            return None
+        return found[0], len(nodes)
+
+    def _given(self, node: ast.stmt) -> list[ast.FunctionDef]:
+        """The functions above a loop that a statement in it gives to a block."""
+        match node:
+            case ast.Expr(ast.Call(args=[_, *_] as given)):
+                names = [one.id if isinstance(one, ast.Name) else "" for one in given]
+                if self._above.keys() >= set(names):
+                    return [self._above[name] for name in names]
+        return []
+
+    def _with_functions(
+        self, functions: Sequence[ast.FunctionDef], nodes: Sequence[ast.stmt], begin: int
+    ) -> tuple[Made, int] | None:
+        """The block of a statement as if these functions stood directly above it."""
+        for one in functions:
+            self._above.pop(one.name, None)
+        found = self._statement([*functions, *nodes], begin)
+        if found is None or found[1] <= len(functions):
+            self._above |= {one.name: one for one in functions}
+            return None
+        self._reach = _first(self._reach, *(self._source.first_line(one, 0) for one in functions))
+        said = [self._source.comment_of(one, 0) for one in functions]
+        found[0].comment = "\n".join(filter(None, said))
+        return found[0], found[1] - len(functions)
 
     def _ways(self, nodes: Sequence[ast.stmt]) -> list[_Candidate]:
         """All the different blocks that the first statements are, with no more Python than needed.
@@ -256,11 +303,17 @@ class StatementReader:
         code.clear()
         return end
 
-    def _describe(self, made: Made, nodes: Sequence[ast.stmt], begin: int) -> None:
+    def _describe(self, made: Made, nodes: Sequence[ast.stmt], begin: int, reach: int) -> None:
+        """Give a block its text and comment; ``reach`` is a line of what it has above a loop."""
         if is_made(nodes[0]):
             return
-        made.comment = self._source.comment_of(nodes[0], begin)
-        first = self._source.first_line(nodes[0], begin)
+        first, said = _first(reach, self._source.first_line(nodes[0], begin)), nodes[0]
+        if _functions_above(nodes):
+            said = nodes[-1]
+            above = [end_of([one]) for one in nodes[:-1] if one.lineno < said.lineno]
+            begin = max(begin, *above, 0)
+        said_there = self._source.comment_of(said, begin)
+        made.comment = "\n".join(filter(None, [made.comment, said_there]))
         made.text = self._source.text(first, self._source.end_inside(nodes[-1]))
 
 
@@ -282,6 +335,29 @@ def as_block(node: ast.stmt) -> ast.stmt:
         case ast.Expr(value=ast.Call(ast.Name("stop_rule"), [], [])):
             return ast.copy_location(ast.Return(None), node)
     return node
+
+
+def _functions_above(nodes: Sequence[ast.stmt]) -> int:
+    """How many functions stand above a statement in which blocks are given each of them once."""
+    functions = list(itertools.takewhile(_is_part, nodes))
+    below = nodes[len(functions) : len(functions) + 1]
+    if not functions or not below or isinstance(below[0], ast.Expr):
+        return 0
+    given: Counter[str] = Counter()
+    for inner in ast.walk(below[0]):
+        match inner:
+            case ast.Expr(ast.Call(args=names)):
+                given.update(one.id for one in names if isinstance(one, ast.Name))
+    return len(functions) if all(given[one.name] == 1 for one in functions) else 0
+
+
+def _is_part(node: ast.stmt) -> TypeGuard[ast.FunctionDef]:
+    return isinstance(node, ast.FunctionDef) and not node.decorator_list
+
+
+def _first(*lines: int) -> int:
+    """The first of those lines that are some."""
+    return min(filter(None, lines), default=0)
 
 
 def _without_pass(body: Sequence[ast.stmt]) -> list[ast.stmt]:
