@@ -7,7 +7,6 @@ import itertools
 from collections import Counter
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
-from typing import TypeGuard
 
 from nep_studio.blocks.code_text import CodeTextRefused, read_lines
 from nep_studio.blocks.editor import Editor
@@ -339,7 +338,7 @@ def as_block(node: ast.stmt) -> ast.stmt:
 
 def _functions_above(nodes: Sequence[ast.stmt]) -> int:
     """How many functions stand above a statement in which blocks are given each of them once."""
-    functions = list(itertools.takewhile(_is_part, nodes))
+    functions = [getattr(one, "name", "") for one in itertools.takewhile(_is_part, nodes)]
     below = nodes[len(functions) : len(functions) + 1]
     if not functions or not below or isinstance(below[0], ast.Expr):
         return 0
@@ -348,10 +347,10 @@ def _functions_above(nodes: Sequence[ast.stmt]) -> int:
         match inner:
             case ast.Expr(ast.Call(args=names)):
                 given.update(one.id for one in names if isinstance(one, ast.Name))
-    return len(functions) if all(given[one.name] == 1 for one in functions) else 0
+    return len(functions) if all(given[name] == 1 for name in functions) else 0
 
 
-def _is_part(node: ast.stmt) -> TypeGuard[ast.FunctionDef]:
+def _is_part(node: ast.stmt) -> bool:
     return isinstance(node, ast.FunctionDef) and not node.decorator_list
 
 

@@ -179,4 +179,4 @@ class ColourPopup(FieldPopup):
     def _show(self) -> None:
         now = str(self.edit.value or "")
         self.palette_grid.show_colour(now)
-        self.name.setText((_NAMES.get(now) and name_of_colour(now)) or "")
+        self.name.setText((NAMES_OF_COLOURS.get(now) and name_of_colour(now)) or "")
