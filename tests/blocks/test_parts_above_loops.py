@@ -112,6 +112,18 @@ def test_an_edit_in_one_changes_that_block_alone(language: Language) -> None:
     assert again.blocks.keys() == project.blocks.keys()
 
 
+def test_a_note_above_the_loop_stays_there(language: Language) -> None:
+    note = B("control.note", {"text": "a note"})
+    loop = B("control.repeat", bodies={"do": [together("a", "b")]})
+    project = project_of(language, note, loop)
+    text = generate_program(project, language).text
+
+    again = read_program(text, language, project)
+
+    assert again.blocks == project.blocks
+    assert generate_program(again, language).text == text
+
+
 IN_THE_LOOP = """\
     nao.say("first")
     # over and over

@@ -52,8 +52,9 @@ class StatementReader:
         self._language = language
         self._source = source
         self._learned = learned(language)
-        self._above: dict[str, ast.FunctionDef] = {}
-        """Functions above a loop that something in it is given, by their names."""
+        self._above: dict[str, tuple[ast.FunctionDef, int]] = {}
+        """Functions above a loop that something in it is given, by their names; the lines after
+        which comments are theirs."""
         self._reach = 0
         """The first line of such functions that a statement was given; 0 for none."""
 
@@ -92,14 +93,11 @@ class StatementReader:
             if self._language.definitions[found[0].type].is_last:
                 left.clear()
             self._describe(found[0], used, begin, reach)
+            made += self._notes_above(used, begin)
             made.append(found[0])
             begin = end_of(used)
         begin = self._keep_code(made, code, begin)
-        said = self._source.comments_between(begin + 1, until, margin)
-        note = self.values.type_of("note")
-        made += [
-            Made(note, {"text": line}, text=comment_line(line)) for line in said if line and note
-        ]
+        made += self._notes(self._source.comments_between(begin + 1, until, margin))
         return made
 
     def _are_blocks(self, nodes: Sequence[ast.stmt], begin: int) -> bool:
@@ -210,36 +208,55 @@ class StatementReader:
         """The block of a statement that uses all functions above it, and how many these are."""
         *functions, last = nodes
         before = dict(self._above)
-        self._above |= {one.name: one for one in functions if isinstance(one, ast.FunctionDef)}
+        for one in functions:
+            is_above = one.lineno < last.lineno
+            if isinstance(one, ast.FunctionDef):
+                self._above[one.name] = one, self._source.right_above(one) if is_above else 0
         found = self._statement([last], begin)
         if found is None or self._above != before:
             self._above = before
             return None
         return found[0], len(nodes)
 
-    def _given(self, node: ast.stmt) -> list[ast.FunctionDef]:
+    def _given(self, node: ast.stmt) -> list[str]:
         """The functions above a loop that a statement in it gives to a block."""
         match node:
             case ast.Expr(ast.Call(args=[_, *_] as given)):
                 names = [one.id if isinstance(one, ast.Name) else "" for one in given]
                 if self._above.keys() >= set(names):
-                    return [self._above[name] for name in names]
+                    return names
         return []
 
     def _with_functions(
-        self, functions: Sequence[ast.FunctionDef], nodes: Sequence[ast.stmt], begin: int
+        self, names: Sequence[str], nodes: Sequence[ast.stmt], begin: int
     ) -> tuple[Made, int] | None:
-        """The block of a statement as if these functions stood directly above it."""
-        for one in functions:
-            self._above.pop(one.name, None)
+        """The block of a statement as if the functions of these names stood directly above it."""
+        taken = {name: self._above.pop(name) for name in dict.fromkeys(names)}
+        functions = [function for function, _ in taken.values()]
         found = self._statement([*functions, *nodes], begin)
-        if found is None or found[1] <= len(functions):
-            self._above |= {one.name: one for one in functions}
+        if found is None or found[1] <= len(names):
+            self._above |= taken
             return None
         self._reach = _first(self._reach, *(self._source.first_line(one, 0) for one in functions))
-        said = [self._source.comment_of(one, 0) for one in functions]
+        said = [self._source.comment_of(*one) for one in taken.values()]
         found[0].comment = "\n".join(filter(None, said))
         return found[0], found[1] - len(functions)
+
+    def _notes_above(self, nodes: Sequence[ast.stmt], begin: int) -> list[Made]:
+        """The comments that stand alone above the functions that are above a statement."""
+        said: list[str] = []
+        for one in nodes[: _functions_above(nodes)]:
+            if one.lineno < nodes[-1].lineno:
+                last = self._source.right_above(one)
+                said += self._source.comments_between(begin + 1, last, one.col_offset)
+                begin = end_of([one])
+        return self._notes(said)
+
+    def _notes(self, said: Sequence[str]) -> list[Made]:
+        note = self.values.type_of("note")
+        return [
+            Made(note, {"text": line}, text=comment_line(line)) for line in said if line and note
+        ]
 
     def _ways(self, nodes: Sequence[ast.stmt]) -> list[_Candidate]:
         """All the different blocks that the first statements are, with no more Python than needed.
@@ -306,11 +323,13 @@ class StatementReader:
         """Give a block its text and comment; ``reach`` is a line of what it has above a loop."""
         if is_made(nodes[0]):
             return
-        first, said = _first(reach, self._source.first_line(nodes[0], begin)), nodes[0]
+        first, said = self._source.first_line(nodes[0], begin), nodes[0]
         if _functions_above(nodes):
-            said = nodes[-1]
+            said, right_above = nodes[-1], self._source.right_above(nodes[0])
             above = [end_of([one]) for one in nodes[:-1] if one.lineno < said.lineno]
             begin = max(begin, *above, 0)
+            first = min(right_above + 1, self._source.first_line(said, begin))
+        first = _first(reach, first)
         said_there = self._source.comment_of(said, begin)
         made.comment = "\n".join(filter(None, [made.comment, said_there]))
         made.text = self._source.text(first, self._source.end_inside(nodes[-1]))
