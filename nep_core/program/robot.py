@@ -8,7 +8,7 @@ import threading
 import time
 from collections.abc import Callable, Collection, Sequence
 from difflib import get_close_matches
-from typing import Any
+from typing import Any, cast
 
 from faults import Text
 from nep_core.errors import RobotError
@@ -167,8 +167,8 @@ class Robot:
         self._network = network
         self._has_language = False
         """Whether the program has set the language in which it speaks."""
-        if len(self.robots) == 1:
-            _ROBOTS[self.robots[0]] = self
+        if isinstance(robots, str):
+            _ROBOTS[robots] = self
         robot_listener(network)  # what robots tell from now on is known when it is asked for
 
     def with_others(self, others: Sequence[Robot]) -> Robot:
@@ -177,11 +177,14 @@ class Robot:
         return Robot(list(names), network=self._network)
 
     def one_by_one(self) -> list[Robot]:
-        """Each of these robots, by itself."""
-        return [
-            _ROBOTS.get(name) or Robot(name, network=self._network)
-            for name in dict.fromkeys(self.robots)
-        ]
+        """Each of these robots, by itself: the one that the program has, where it has it."""
+
+        def of(name: str) -> Robot:
+            known = _ROBOTS.get(name)
+            is_here = known is not None and known._network is self._network
+            return known if known and is_here else Robot(name, network=self._network)
+
+        return [self] if len(self.robots) == 1 else list(map(of, dict.fromkeys(self.robots)))
 
     def __str__(self) -> str:
         """Its name; the names of several."""
@@ -691,8 +694,8 @@ def for_each_robot(robots: Robot, function: Callable[[], object]) -> None:
 
 def this_robot() -> Robot:
     """The robot for which this is done; raises RobotError outside of ``for_each_robot``."""
-    robot = own_value()
-    if not isinstance(robot, Robot):
+    robot = cast("Robot | None", own_value())
+    if robot is None:
         raise RobotError(
             "“This robot” is known only inside of “do for each of … at once”.",
             checklist=(

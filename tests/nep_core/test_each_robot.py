@@ -117,12 +117,12 @@ def test_parts_and_inner_ones_know_their_robot() -> None:
 
 
 def test_it_is_the_same_robot_as_elsewhere_in_the_program() -> None:
-    nao = Robot("NAO")
+    nao, lisa = Robot("NAO"), Robot("Lisa")
     found: list[Robot] = []
 
-    for_each_robot(Robot(["NAO"]), lambda: found.append(this_robot()))
+    for_each_robot(Robot(["NAO", "Lisa"]), lambda: found.append(this_robot()))
 
-    assert found[0] is nao
+    assert {id(one) for one in found} == {id(nao), id(lisa)}
 
 
 def test_outside_nobody_is_this_robot() -> None:

@@ -510,6 +510,7 @@ class FactReader:
             return self._after_if(block, ends, known)
         if generator == "code_lines" and always_ends(str(definition.value(block, "code"))):
             return None
+        known = known.without(self._set_for_each(block))
         if definition.shape == "cap" or generator == "forever":
             return None if not self._is_left(block) else known
         return known
