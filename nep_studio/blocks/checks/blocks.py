@@ -134,7 +134,9 @@ def check_inside(project: Project, language: Language, chain: list[str]) -> Foun
             yield _wrong_here(project, language, block, wrong)
         if block.inputs or block.bodies:
             inner = _inner(definition, place)
-            waiting += [(child, inner) for child in block.children()]
+            plugged = inner._replace(has_robot=place.has_robot)  # worked out before, and once
+            waiting += [(child, plugged) for child in block.inputs.values()]
+            waiting += [(child, inner) for chain in block.bodies.values() for child in chain]
 
 
 def _inner(definition: Definition, place: _Place) -> _Place:
