@@ -57,6 +57,53 @@ RESULTS = {
 }
 """What a reporter gives; ``any`` is known only while the program runs (a variable)."""
 
+COLOURS = (
+    ("red", "#ff0000"),
+    ("orange", "#ff8800"),
+    ("yellow", "#ffdd00"),
+    ("lime", "#88dd00"),
+    ("green", "#00aa00"),
+    ("mint", "#00ddaa"),
+    ("cyan", "#00dddd"),
+    ("sky blue", "#00aaff"),
+    ("blue", "#0044ff"),
+    ("violet", "#7700ff"),
+    ("magenta", "#ff00ff"),
+    ("pink", "#ff66aa"),
+    ("dark red", "#880000"),
+    ("brown", "#884400"),
+    ("olive", "#666600"),
+    ("dark green", "#005500"),
+    ("teal", "#006677"),
+    ("navy", "#000088"),
+    ("white", "#ffffff"),
+    ("light grey", "#cccccc"),
+    ("grey", "#888888"),
+    ("dark grey", "#444444"),
+    ("black", "#000000"),
+    ("cream", "#ffeecc"),
+)
+"""The colours that have a name; the window has it in its own words."""
+
+NAMES_OF_COLOURS = {code: name for name, code in COLOURS}
+
+
+def nearest_colour(code: str) -> str:
+    """The name of the colour that looks most like one such as "#3060ff"; what is none stays."""
+    if _why_not_colour(code) is not None:
+        return code
+    wanted = bytes.fromhex(code[1:])
+
+    def distance(other: str) -> float:
+        # how far colours look apart: "redmean", Thiadmer Riemersma, 2008
+        red, *_ = pairs = list(zip(wanted, bytes.fromhex(other[1:]), strict=True))
+        mean = sum(red) / 2 / 256
+        weights = (2 + mean, 4, 3 - mean)
+        return sum(w * (a - b) ** 2 for w, (a, b) in zip(weights, pairs, strict=True))
+
+    return min(COLOURS, key=lambda one: distance(one[1]))[0]
+
+
 TEXT_RESULTS = frozenset({"text", "colour"})
 """What is a text already where one is needed."""
 
