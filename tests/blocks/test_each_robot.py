@@ -111,6 +111,17 @@ def test_loops_and_parts_and_inner_ones_stay_in_it(language):
     assert text.count("for_each_robot(nao, part_") == 3 and "        stop_rule()" in text
 
 
+def test_in_a_loop_it_is_a_function_above_the_loop(language):
+    crew = B("list.create", inputs={"item.1": B("robot.named")}, groups={"item": 1})
+    told = B("variable.set", {"variable": "v2"}, {"value": crew})
+    loop = B("control.repeat", bodies={"do": [told, each(ask(), say(get()), robot=get("v2"))]})
+
+    text = code(language, loop)
+
+    assert text.index("    def part_1():") < text.index("    for _ in range(3):")
+    assert "        for_each_robot(as_robot(crew), part_1)" in text and "program" not in text
+
+
 def test_this_robot_elsewhere_is_told(language):
     outside = [B("event.started"), say(B(THIS))]
     inside = [B("event.started"), each(B("control.if", bodies={"do": [say(B(THIS))]}))]
