@@ -479,6 +479,8 @@ def test_each_of_the_three_ways_does_what_the_page_says(theatre: BlockTheatre, n
     project = examples()[name].project(LANGUAGE, "en", name)
 
     with theatre.plays(project):
+        if name.endswith("states"):
+            time.sleep(PAUSE_S)
         WAYS[name](theatre)
         if GOES_ON.get(name):
             theatre.says(PICTURE)
