@@ -48,6 +48,7 @@ SHIPPED_STATES = (
     "touched_foot",
     "seen_face",
     "heard_word",
+    "not_understood",
     "sonar_close",
 )
 """Human states that a robot tells of whatever the program is."""
