@@ -48,6 +48,8 @@ if TYPE_CHECKING:
         as_table,
         change_at,
         has_key,
+        name_with_largest,
+        name_with_smallest,
         names_in,
         remove_key,
         set_at,
@@ -160,7 +162,8 @@ _HOMES = {
         "program.messages": "tell told_value",
         "program.plans": "reach the_plan",
         "program.robot": "Robot as_robot colour_from mix_colours",
-        "program.tables": "as_table change_at has_key names_in remove_key set_at table_of value_at",
+        "program.tables": "as_table change_at has_key name_with_largest "
+        "name_with_smallest names_in remove_key set_at table_of value_at",
         "program.tasks": "at_once end_actions set_priority stop_program stop_rule together wait "
         "wait_until",
         "program.timing": "date_today start_timer time_now time_part timer_seconds weekday_today",
@@ -191,7 +194,8 @@ __all__ += ["end_actions", "fact", "fail_goal", "fail_step", "goal_value", "has_
 __all__ += ["has_part", "heard_word", "human_state", "in_turn", "insert_item", "is_at_least"]
 __all__ += ["is_at_most", "is_less", "is_more", "is_remembered", "is_same", "is_true", "item_of"]
 __all__ += ["items_between", "join_items", "largest_of", "length_of", "letter_of", "list_with"]
-__all__ += ["makes_true", "makes_untrue", "mean_of", "median_of", "mix_colours", "names_in"]
+__all__ += ["makes_true", "makes_untrue", "mean_of", "median_of", "mix_colours"]
+__all__ += ["name_with_largest", "name_with_smallest", "names_in"]
 __all__ += ["needs", "no_longer_true", "now_true", "number_in", "one_of", "parts_of"]
 __all__ += ["place_in_text", "place_of", "random_whole", "reach", "remember", "remove_item"]
 __all__ += ["remove_key", "replace_part", "set_at", "set_item", "set_priority", "set_tree_value"]

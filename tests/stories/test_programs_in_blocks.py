@@ -231,11 +231,14 @@ def traffic_light(theatre: BlockTheatre) -> None:
 
 
 def vote_counter(theatre: BlockTheatre) -> None:
-    for number, name in enumerate(("Anna", "Ben", "Anna")):
+    theatre.rests(0)
+    theatre.tell("result")
+    theatre.says("Nobody has voted yet.")
+    for number, name in enumerate(("Ben", "Anna", "Anna"), 1):
         theatre.rests(number)
         theatre.tell("vote")
         theatre.answer(name)
-    theatre.rests(3)
+    theatre.rests(4)
     theatre.tell("result")
     theatre.says("anna has won with 2")
 
