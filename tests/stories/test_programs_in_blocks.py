@@ -135,8 +135,8 @@ def plays_for(theatre: BlockTheatre, number: int, points: str, sentence: str) ->
 
 def gesture_and_posture(theatre: BlockTheatre) -> None:
     theatre.person_is("gesture_karate")
-    time.sleep(2.2)  # the gesture is too old when the person comes close
-    theatre.person_is("person_close")
+    time.sleep(2.2)  # the gesture is too old when the arm is raised
+    theatre.person_is("arm_raised")
     time.sleep(0.3)
     assert not theatre.begun("play")
     theatre.person_is("gesture_karate")
