@@ -14,7 +14,7 @@ import re
 import unicodedata
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
-from functools import partial
+from functools import cache, partial
 from typing import Literal
 
 from faults import Text, text_of
@@ -58,6 +58,64 @@ RESULTS = {
     "any": "any value",
 }
 """What a reporter gives; ``any`` is known only while the program runs (a variable)."""
+
+COLOURS = (
+    ("red", "#ff0000"),
+    ("orange", "#ff8800"),
+    ("yellow", "#ffdd00"),
+    ("lime", "#88dd00"),
+    ("green", "#00aa00"),
+    ("mint", "#00ddaa"),
+    ("cyan", "#00dddd"),
+    ("sky blue", "#00aaff"),
+    ("blue", "#0044ff"),
+    ("violet", "#7700ff"),
+    ("magenta", "#ff00ff"),
+    ("pink", "#ff66aa"),
+    ("dark red", "#880000"),
+    ("brown", "#884400"),
+    ("olive", "#666600"),
+    ("dark green", "#005500"),
+    ("teal", "#006677"),
+    ("navy", "#000088"),
+    ("white", "#ffffff"),
+    ("light grey", "#cccccc"),
+    ("grey", "#888888"),
+    ("dark grey", "#444444"),
+    ("black", "#000000"),
+    ("cream", "#ffeecc"),
+)
+"""The colours that have a name; the window has it in its own words."""
+
+NAMES_OF_COLOURS = {code: name for name, code in COLOURS}
+
+
+def nearest_colour(code: str) -> str:
+    """The name of the colour that looks most like one such as "#3060ff"; what is none stays."""
+    if _why_not_colour(code) is not None:
+        return code
+    wanted = _as_seen(code)
+    return min(COLOURS, key=lambda one: math.dist(wanted, _as_seen(one[1])))[0]
+
+
+@cache
+def _as_seen(code: str) -> tuple[float, float, float]:
+    """A colour of the screen in Oklab, where what looks alike is near: Björn Ottosson, 2020."""
+    red, green, blue = (
+        part / 12.92 if part <= 0.04045 else ((part + 0.055) / 1.055) ** 2.4
+        for part in (number / 255 for number in bytes.fromhex(code[1:]))
+    )
+    long, medium, short = (
+        (0.4122214708 * red + 0.5363325363 * green + 0.0514459929 * blue) ** (1 / 3),
+        (0.2119034982 * red + 0.6806995451 * green + 0.1073969566 * blue) ** (1 / 3),
+        (0.0883024619 * red + 0.2817188376 * green + 0.6299787005 * blue) ** (1 / 3),
+    )
+    return (
+        0.2104542553 * long + 0.7936177850 * medium - 0.0040720468 * short,
+        1.9779984951 * long - 2.4285922050 * medium + 0.4505937099 * short,
+        0.0259040371 * long + 0.7827717662 * medium - 0.8086757660 * short,
+    )
+
 
 TEXT_RESULTS = frozenset({"text", "colour"})
 """What is a text already where one is needed."""

@@ -8,7 +8,7 @@ from .code_text import plainly
 from .definitions import Definition, Group, Part, Slot
 from .language import Language
 from .program import ALL_ROBOTS, Block, Project
-from .slots import FieldValue
+from .slots import FieldValue, nearest_colour
 
 LONGEST = 120
 _DEEPEST = 4
@@ -86,4 +86,6 @@ def field_text(
         return language.word("all robots")
     if value is None or value == "":
         return _EMPTY
+    if slot.kind.name == "colour":
+        return language.word(nearest_colour(str(value)))
     return language.label_of(slot, value, block, key)

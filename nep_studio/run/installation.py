@@ -31,6 +31,7 @@ from nep_studio.blocks.language import Language, together, translated
 from nep_studio.blocks.own_gestures import trained_gestures
 from nep_studio.blocks.program import Project
 from nep_studio.blocks.slices import Steps, at_once
+from nep_studio.blocks.slots import COLOURS
 
 from .plan import check_for_pages
 
@@ -249,6 +250,9 @@ def table_of(code: str) -> dict[str, Any]:
         for name, labels in brought.items():
             told = choices.get(name, {})
             choices[name] = {**labels, **(told if isinstance(told, dict) else {})}
+    window = table.get("window", {})
+    colours = {name: window[name] for name, _ in COLOURS if name in window}
+    table["words"] = {**colours, **table.get("words", {})}
     return table
 
 

@@ -161,3 +161,25 @@ def test_a_block_may_bring_its_translation_and_a_table_goes_before_it(english: L
     assert translated(brought, {}, "fr").definitions[own.id].parts == off.parts
     assert list(faults(brought, {}, "es")) == []
     assert [fault.place for fault in faults(brought, {}, "it")] == [own.id]
+
+
+@pytest.mark.parametrize(
+    ("code", "colour", "name"),
+    [
+        ("en", "#ff0000", "red"),
+        ("en", "#3060ff", "blue"),
+        ("de", "#00AAFF", "Himmelblau"),
+        ("ja", "#fefefe", "白"),
+    ],
+)
+def test_a_colour_is_told_by_the_name_of_one_that_looks_like_it(
+    code: str, colour: str, name: str
+) -> None:
+    language = studio_language(code)
+    lights = B("robot_lights.fade", {"colour": colour})
+    project = build(language, [B("event.started"), lights]).project
+    block = next(one.id for one in project.blocks.values() if one.type == lights.type)
+
+    told = sentence(project, language, block)
+
+    assert name in told and colour not in told

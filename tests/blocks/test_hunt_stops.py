@@ -8,6 +8,7 @@ import pytest
 
 from nep_studio import paths
 from nep_studio.blocks import files
+from nep_studio.blocks.edits.content import SetComment
 from nep_studio.blocks.generate.program import generate_program
 from nep_studio.blocks.language import Language
 from nep_studio.blocks.program import Project
@@ -64,3 +65,25 @@ def test_a_rule_without_steps_does_not_pause_the_next_one(language: Language) ->
     build(language, [B("robots.robot")], page="robots", editor=editor)
 
     assert beside(editor.project, language) == []
+
+
+@pytest.mark.parametrize("kind", ["control.together", "goal.in_turn", "goal.one_of"])
+def test_parts_in_a_loop_are_paused_at_in_the_loop(language: Language, kind: str) -> None:
+    around = B("control.repeat", bodies={"do": [SAY, B(kind)]})
+    editor = build(language, [B("event.started"), around])
+    build(language, [B("robots.robot")], page="robots", editor=editor)
+    code = generate_program(editor.project, language)
+    stops = {b.type: code.stop_at(id_) for id_, b in editor.project.blocks.items()}
+
+    assert beside(editor.project, language) == []
+    assert stops[kind] > stops["robot.say"] > stops["control.repeat"]
+
+
+def test_a_block_with_a_comment_is_paused_at_where_it_does_something(language: Language) -> None:
+    editor = build(language, [B("event.started"), B("robot.say", {"text": "a"})])
+    build(language, [B("robots.robot")], page="robots", editor=editor)
+    block = next(id_ for id_, b in editor.project.blocks.items() if b.type == "robot.say")
+    editor.apply(SetComment(block, "why"))
+    code = generate_program(editor.project, language)
+
+    assert code.text.splitlines()[code.stop_at(block) - 1].strip() == 'nao.say("a")'

@@ -327,6 +327,13 @@ def test_append_tells_what_was_there_and_change_needs_a_number(language):
             run(language, put(OUT, wrong), B("variable.change", {"variable": OUT}))
 
 
+def test_append_tells_a_list_without_what_its_own_value_takes_off_it(language):
+    taken = with_slots("list.take", {"end": "end"}, number=1, list=get(OUT))
+    append = B("text.append", {"variable": OUT}, {"text": taken})
+
+    assert run(language, put(OUT, listed("a", "b", "c")), append)["out"] == "a and bc"
+
+
 @pytest.mark.parametrize(
     ("given_to", "first"),
     [("hi", '""'), (B("logic.truth"), "False"), (5, "0"), (listed(1), "0"), (get(NUMBER), "0")],

@@ -44,7 +44,7 @@ SHOWN = {
 """Functions whose words are shown besides ``OF_THE_WINDOW``: which arguments."""
 
 NAMED = {
-    "ui/canvas/fields/colour.py": "COLOURS",
+    "blocks/slots.py": "COLOURS",
     "ui/canvas/fields/editors.py": "_BUTTON_TIPS",
     "blocks/operations/wrapping.py": "LABELS",
     "run/timeline.py": "EVENT_WORDS",

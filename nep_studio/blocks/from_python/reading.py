@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+import itertools
 from collections import Counter
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
@@ -51,6 +52,11 @@ class StatementReader:
         self._language = language
         self._source = source
         self._learned = learned(language)
+        self._above: dict[str, tuple[ast.FunctionDef, int]] = {}
+        """Functions above a loop that something in it is given, by their names; the lines after
+        which comments are theirs."""
+        self._reach = 0
+        """The first line of such functions that a statement was given; 0 for none."""
 
     def body(self, nodes: Sequence[ast.stmt]) -> list[Made]:
         """The blocks of statements that are moved in, with the comments above and below them."""
@@ -74,7 +80,9 @@ class StatementReader:
                 code += left[:count]
                 del left[:count]
                 continue
+            earlier, self._reach = self._reach, 0
             found = self._statement(left, begin)
+            reach, self._reach = self._reach, _first(earlier, self._reach)
             is_end = found is None or not _without_end(left[found[1] :])
             if found is None or (self._language.definitions[found[0].type].is_last and not is_end):
                 code.append(left.pop(0))
@@ -84,15 +92,12 @@ class StatementReader:
             del left[: found[1]]
             if self._language.definitions[found[0].type].is_last:
                 left.clear()
-            self._describe(found[0], used, begin)
+            self._describe(found[0], used, begin, reach)
+            made += self._notes_above(used, begin)
             made.append(found[0])
             begin = end_of(used)
         begin = self._keep_code(made, code, begin)
-        said = self._source.comments_between(begin + 1, until, margin)
-        note = self.values.type_of("note")
-        made += [
-            Made(note, {"text": line}, text=comment_line(line)) for line in said if line and note
-        ]
+        made += self._notes(self._source.comments_between(begin + 1, until, margin))
         return made
 
     def _are_blocks(self, nodes: Sequence[ast.stmt], begin: int) -> bool:
@@ -175,6 +180,10 @@ class StatementReader:
             inner = self._statement([plain], begin)
             if inner is not None:
                 return inner
+        if above := _functions_above(nodes):
+            return self._below_functions(nodes[: above + 1], begin)
+        if functions := self._given(nodes[0]):
+            return self._with_functions(functions, nodes, begin)
         first = nodes[0]
         if first.lineno in self._kept:
             return None
@@ -194,6 +203,60 @@ class StatementReader:
         except _NotSaid:
             return None
         return made, count
+
+    def _below_functions(self, nodes: Sequence[ast.stmt], begin: int) -> tuple[Made, int] | None:
+        """The block of a statement that uses all functions above it, and how many these are."""
+        *functions, last = nodes
+        before = dict(self._above)
+        for one in functions:
+            is_above = one.lineno < last.lineno
+            if isinstance(one, ast.FunctionDef):
+                self._above[one.name] = one, self._source.right_above(one) if is_above else 0
+        found = self._statement([last], begin)
+        if found is None or self._above != before:
+            self._above = before
+            return None
+        return found[0], len(nodes)
+
+    def _given(self, node: ast.stmt) -> list[str]:
+        """The functions above a loop that a statement in it gives to a block."""
+        match node:
+            case ast.Expr(ast.Call(args=[_, *_] as given)):
+                names = [one.id if isinstance(one, ast.Name) else "" for one in given]
+                if self._above.keys() >= set(names):
+                    return names
+        return []
+
+    def _with_functions(
+        self, names: Sequence[str], nodes: Sequence[ast.stmt], begin: int
+    ) -> tuple[Made, int] | None:
+        """The block of a statement as if the functions of these names stood directly above it."""
+        taken = {name: self._above.pop(name) for name in dict.fromkeys(names)}
+        functions = [function for function, _ in taken.values()]
+        found = self._statement([*functions, *nodes], begin)
+        if found is None or found[1] <= len(names):
+            self._above |= taken
+            return None
+        self._reach = _first(self._reach, *(self._source.first_line(one, 0) for one in functions))
+        said = [self._source.comment_of(*one) for one in taken.values()]
+        found[0].comment = "\n".join(filter(None, said))
+        return found[0], found[1] - len(functions)
+
+    def _notes_above(self, nodes: Sequence[ast.stmt], begin: int) -> list[Made]:
+        """The comments that stand alone above the functions that are above a statement."""
+        said: list[str] = []
+        for one in nodes[: _functions_above(nodes)]:
+            if one.lineno < nodes[-1].lineno:
+                last = self._source.right_above(one)
+                said += self._source.comments_between(begin + 1, last, one.col_offset)
+                begin = end_of([one])
+        return self._notes(said)
+
+    def _notes(self, said: Sequence[str]) -> list[Made]:
+        note = self.values.type_of("note")
+        return [
+            Made(note, {"text": line}, text=comment_line(line)) for line in said if line and note
+        ]
 
     def _ways(self, nodes: Sequence[ast.stmt]) -> list[_Candidate]:
         """All the different blocks that the first statements are, with no more Python than needed.
@@ -256,11 +319,19 @@ class StatementReader:
         code.clear()
         return end
 
-    def _describe(self, made: Made, nodes: Sequence[ast.stmt], begin: int) -> None:
+    def _describe(self, made: Made, nodes: Sequence[ast.stmt], begin: int, reach: int) -> None:
+        """Give a block its text and comment; ``reach`` is a line of what it has above a loop."""
         if is_made(nodes[0]):
             return
-        made.comment = self._source.comment_of(nodes[0], begin)
-        first = self._source.first_line(nodes[0], begin)
+        first, said = self._source.first_line(nodes[0], begin), nodes[0]
+        if _functions_above(nodes):
+            said, right_above = nodes[-1], self._source.right_above(nodes[0])
+            above = [end_of([one]) for one in nodes[:-1] if one.lineno < said.lineno]
+            begin = max(begin, *above, 0)
+            first = min(right_above + 1, self._source.first_line(said, begin))
+        first = _first(reach, first)
+        said_there = self._source.comment_of(said, begin)
+        made.comment = "\n".join(filter(None, [made.comment, said_there]))
         made.text = self._source.text(first, self._source.end_inside(nodes[-1]))
 
 
@@ -282,6 +353,29 @@ def as_block(node: ast.stmt) -> ast.stmt:
         case ast.Expr(value=ast.Call(ast.Name("stop_rule"), [], [])):
             return ast.copy_location(ast.Return(None), node)
     return node
+
+
+def _functions_above(nodes: Sequence[ast.stmt]) -> int:
+    """How many functions stand above a statement in which blocks are given each of them once."""
+    functions = [getattr(one, "name", "") for one in itertools.takewhile(_is_part, nodes)]
+    below = nodes[len(functions) : len(functions) + 1]
+    if not functions or not below or isinstance(below[0], ast.Expr):
+        return 0
+    given: Counter[str] = Counter()
+    for inner in ast.walk(below[0]):
+        match inner:
+            case ast.Expr(ast.Call(args=names)):
+                given.update(one.id for one in names if isinstance(one, ast.Name))
+    return len(functions) if all(given[name] == 1 for name in functions) else 0
+
+
+def _is_part(node: ast.stmt) -> bool:
+    return isinstance(node, ast.FunctionDef) and not node.decorator_list
+
+
+def _first(*lines: int) -> int:
+    """The first of those lines that are some."""
+    return min(filter(None, lines), default=0)
 
 
 def _without_pass(body: Sequence[ast.stmt]) -> list[ast.stmt]:

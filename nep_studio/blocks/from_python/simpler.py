@@ -9,7 +9,8 @@ from __future__ import annotations
 
 import ast
 import copy
-from collections.abc import Callable, Iterator, Sequence
+from collections import Counter
+from collections.abc import Callable, Iterator, Mapping, Sequence
 
 from .robot_calls import CALLS, as_blocks_write
 from .told_names import Names, may_be_asked_twice
@@ -30,6 +31,10 @@ def simplify(tree: ast.Module) -> ast.Module:
             lines = getattr(node, field, None)
             if isinstance(lines, list):
                 lines[:] = [made for line in lines for made in _statements(line, names)]
+    for top in tree.body:
+        if isinstance(top, _FUNCTION):
+            said = (getattr(one, "id", getattr(one, "name", "")) for one in ast.walk(top))
+            _make_above_loops(top.body, Counter(said))
     values = _Values(names)
     for node in reversed(list(ast.walk(tree))):  # what is inside first, without recursion
         values.put_into(node)
@@ -213,6 +218,57 @@ def _with_item(node: ast.stmt, names: Names) -> ast.stmt | None:
 
 def _item(held: str, index: ast.expr) -> ast.Subscript:
     return ast.Subscript(ast.Name(held, ast.Load()), index, ast.Load())
+
+
+# Functions that a block in a loop is given are made above the loop, once.
+
+
+def _make_above_loops(
+    lines: list[ast.stmt], named: Mapping[str, int], above: list[ast.stmt] | None = None
+) -> None:
+    """Take functions that only the call below them is given out of loops, to what is ``above``.
+
+    ``named`` tells how often each name stands in the outermost function.
+    """
+    kept: list[ast.stmt] = []
+    for line in lines:
+        is_outermost = above is None and isinstance(line, ast.For | ast.While)
+        around = [] if is_outermost else above
+        for body in _bodies(line):
+            _make_above_loops(body, named, None if isinstance(line, _SCOPE) else around)
+        kept += around if is_outermost and around else []
+        if above is not None and (count := _functions_given(kept, line, named)):
+            above += kept[-count:]
+            del kept[-count:]
+        kept.append(line)
+    lines[:] = kept
+
+
+_SCOPE = ast.FunctionDef | ast.AsyncFunctionDef | ast.ClassDef
+
+
+def _functions_given(above: Sequence[ast.stmt], call: ast.stmt, named: Mapping[str, int]) -> int:
+    """How many functions right above a call are all that it is given, and given to it alone."""
+    match call:
+        case ast.Expr(ast.Call(args=[_, *_] as given)):
+            names = [one.id if isinstance(one, ast.Name) else "" for one in given]
+        case _:
+            return 0
+    there = [
+        one.name
+        for one in above[-len(names) :]
+        if isinstance(one, ast.FunctionDef) and not one.decorator_list
+    ]
+    return len(names) if there == names and all(named[one] == 2 for one in there) else 0
+
+
+def _bodies(node: ast.stmt) -> Iterator[list[ast.stmt]]:
+    """The lists of statements in a statement."""
+    parts: list[ast.AST] = [node, *getattr(node, "handlers", []), *getattr(node, "cases", [])]
+    for part in parts:
+        for field in ("body", "orelse", "finalbody"):
+            if lines := getattr(part, field, None):
+                yield lines
 
 
 # Functions that become own blocks.

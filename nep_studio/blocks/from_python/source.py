@@ -46,6 +46,13 @@ class Source:
             first = line if line in self.alone else first
         return first
 
+    def right_above(self, node: ast.stmt) -> int:
+        """The line above a statement and the comments that touch it."""
+        line = begin_of(node) - 1
+        while line in self.alone:
+            line -= 1
+        return line
+
     def line_before(self, body: Sequence[ast.stmt]) -> int:
         """The line after which comments belong to statements that are moved in."""
         line, margin = begin_of(body[0]) - 1, body[0].col_offset

@@ -64,7 +64,8 @@ def known_whole(node: ast.expr) -> int | None:
     return None
 
 
-_DRAWS = frozenset({"random", "randint", "choice", "pop", "random_whole", "take_item"})
+_TAKES = frozenset({"pop", "take_item"})
+_DRAWS = _TAKES | {"random", "randint", "choice", "random_whole"}
 _HARMLESS = frozenset(
     {
         *("len", "str", "abs", "min", "max", "round", "sorted", "list", "reversed", "bool"),
@@ -99,6 +100,12 @@ def may_swap(first: ast.expr, second: ast.expr) -> bool:
     if max(effects) == 1:  # the name of a list stands for it, whatever is taken out of it
         return isinstance(first, ast.Name) or isinstance(second, ast.Name)
     return max(effects) == 0
+
+
+def takes_items(node: ast.expr) -> bool:
+    """Whether working out a value takes an item off a list, which is told otherwise afterwards."""
+    calls = (inner.func for inner in ast.walk(node) if isinstance(inner, ast.Call))
+    return any(getattr(one, "id", getattr(one, "attr", "")) in _TAKES for one in calls)
 
 
 def as_truth(node: ast.expr) -> ast.expr:

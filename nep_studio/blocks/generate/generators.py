@@ -41,9 +41,11 @@ from .expressions import (
     method_call,
     refusing,
     show,
+    takes_items,
 )
 from .kinds import (
     NUMBER,
+    ROBOT,
     TABLE,
     TEXT,
     TRUTH,
@@ -533,7 +535,9 @@ def _less(amount: ast.expr) -> ast.expr | None:
 def _append(code: Expressions, block: Block) -> Sequence[Piece]:
     name, text = code.variable(block), code.slot(block, "text")
     held = note(ast.Name(name), code.kinds_of_variable(block))
-    if not code.may_swap(text, held):  # the text first, then what the variable holds by then
+    is_no_list = are(kinds_of(held), NUMBER | TEXT | TRUTH | ROBOT)
+    if not code.may_swap(text, held) or (takes_items(text) and not is_no_list):
+        # The text first, then what the variable holds by then: with or without what was taken
         value: ast.expr = code.api_call("append_text", text, held)
     elif are(kinds_of(held), TEXT):
         return [Assignment(name, f"{name} += {show(code.clear(block, 'text', text))}")]

@@ -280,6 +280,15 @@ class _Scope:
 
 
 @dataclass(slots=True)
+class _Above:
+    """Where the outermost loop of a function begins: what is called in it is made above it."""
+
+    line: int
+    indent: int
+    has_functions: bool = False
+
+
+@dataclass(slots=True)
 class _Frame:
     """What is left to write of a chain (blocks) or of a block (pieces), and how deep it is.
 
@@ -294,6 +303,12 @@ class _Frame:
     opens: bool = False
     guards: int = 0
     """How many blocks that try something are around it in its function."""
+    begins: int = 0
+    """The first line of a block, with its comment."""
+    above: _Above | None = None
+    """Of what is in a loop."""
+    moves: tuple[int, _Above] | None = None
+    """The first line of a function that is written in a loop, and where it is moved then."""
 
 
 Line = tuple[str, str]
@@ -334,6 +349,8 @@ class RuleWriter:
                 if frame.opens and shared:  # at the end of a function
                     line = f"{_MARGINS[scope.indent]}global {', '.join(sorted(shared))}"
                     self.lines.insert(scope.line, (line, scope.block))
+                if frame.moves is not None:
+                    self._move_above(*frame.moves)
                 if not frames and self._code.gives_nothing:
                     if self.lines[-1][0] == f"{_MARGINS[1]}pass":
                         self.lines.pop()
@@ -368,6 +385,7 @@ class RuleWriter:
     def _block(self, chain: _Frame, block: Block) -> _Frame:
         definition = self._code.definition(block)
         self._keep_apart(definition)
+        begins = len(self.lines)
         self._comment(block, _MARGINS[chain.indent])
         if definition.page != "behaviour":
             raise CodeRefused(
@@ -381,8 +399,16 @@ class RuleWriter:
         else:
             pieces = STATEMENTS[definition.generator](self._code, block)
         pieces = self._whole(block, pieces)
-        around = (chain.indent, chain.loops, chain.scope)
-        return _Frame(iter(pieces), block.id, *around, guards=chain.guards)
+        return _Frame(
+            iter(pieces),
+            block.id,
+            chain.indent,
+            chain.loops,
+            chain.scope,
+            guards=chain.guards,
+            begins=begins,
+            above=chain.above,
+        )
 
     def _whole(self, block: Block, pieces: Sequence[Piece]) -> Sequence[Piece]:
         """The same, so that no other rule sets a variable between its being read and set here."""
@@ -417,17 +443,42 @@ class RuleWriter:
             return None
         chain = self._code.project.blocks[frame.block].bodies.get(piece.slot, [])
         if isinstance(piece, Function):
-            if piece.decorator:
-                self._line(margin + piece.decorator, frame.block)
-            elif not self.lines[-1][0].endswith(":"):
-                self._line("", "")
-            self._line(f"{margin}def {piece.name}():", frame.block)
-            return self._function(chain, frame.block, frame.indent + 1)
+            return self._inner_function(frame, piece, chain)
         indent, loops = frame.indent + 1, frame.loops + (piece.loop or piece.is_with)
         guards = frame.guards + piece.guard
         nested = loops + LOOPS_OF_GUARD * guards
         blocks = self._enabled(chain, frame.block, indent, nested, piece.first)
-        return _Frame(blocks, frame.block, indent, loops, frame.scope, guards=guards)
+        above = frame.above
+        if piece.loop and above is None:
+            above = _Above(frame.begins, frame.indent)
+        return _Frame(blocks, frame.block, indent, loops, frame.scope, guards=guards, above=above)
+
+    def _inner_function(self, frame: _Frame, piece: Function, chain: Sequence[str]) -> _Frame:
+        """Begin a function inside another one: it is made where it is used, but in no loop."""
+        indent, moves = frame.indent, None
+        if piece.decorator:
+            self._line(_MARGINS[indent] + piece.decorator, frame.block)
+        elif frame.above is not None:
+            indent, moves = frame.above.indent, (len(self.lines), frame.above)
+        elif not self.lines[-1][0].endswith(":"):
+            self._line("", "")
+        self._line(f"{_MARGINS[indent]}def {piece.name}():", frame.block)
+        function = self._function(chain, frame.block, indent + 1)
+        function.moves = moves
+        return function
+
+    def _move_above(self, begin: int, loop: _Above) -> None:
+        """Let a function that is called in a loop be made once, above the loop."""
+        moved = self.lines[begin:]
+        del self.lines[begin:]
+        is_first = self.lines[loop.line - 1][0].endswith(":")
+        if loop.has_functions or not is_first:
+            moved.insert(0, ("", ""))
+        after = [] if loop.has_functions else [("", "")]
+        self.lines[loop.line : loop.line] = moved + after
+        loop.line += len(moved)
+        loop.has_functions = True
+        self._is_after_function = False
 
     def _simple(
         self,
@@ -437,7 +488,8 @@ class RuleWriter:
     ) -> None:
         """Write a piece that has no blocks in it."""
         if isinstance(piece, Gap):
-            self._line("", "")
+            if frame.above is None:  # else the functions are not here
+                self._line("", "")
             return
         if isinstance(piece, Written):
             self._has_code_blocks = True

@@ -38,13 +38,19 @@ class Code:
         """The line before which a program pauses that is to pause at a block; 0 where none is.
 
         At a rule that is the first line inside: its own line is run once, when it is made known.
-        Functions inside a rule, as for parts that go on together, are made when it gets there.
+        Functions inside a rule, as for parts that go on together, are made above the loop in which
+        they are used, if there is one: it is the line that uses them.
         """
-        lines, text = self.lines_of(block), self.text.splitlines()
+        every, text = self.lines_of(block), self.text.splitlines()
+        said = [text[line - 1].lstrip() for line in every]
+        lines = [n for n, one in zip(every, said, strict=True) if not one.startswith("#")] or every
         if not lines:
             return 0
-        if not text[lines[0] - 1].startswith(("@", "def ")):
+        first = text[lines[0] - 1]
+        if not first.lstrip().startswith(("@", "def ")):
             return lines[0]
+        if first.startswith(" ") and not first.lstrip().startswith("@"):
+            return lines[-1]
         if text[lines[-1] - 1].strip() == "pass":
             return lines[-1]
         inside = range(lines[-1] + 1, len(self.blocks) + 1)

@@ -30,12 +30,14 @@ BEGINNING = (40.0, 40.0)
 class PagesBar(QWidget):
     """Shows one page of an editor, or one room, as chosen.
 
-    ``page_chosen`` asks to see another page. ``attempt`` makes a change and tells the person why
-    not when it is refused. The pages that set robots and nodes up have a tab once somebody wants
-    to see them, until it is closed.
+    ``page_chosen`` asks to see another page; ``tree_begun`` says that it is one with a behaviour
+    tree, to which blocks of trees are to be added. ``attempt`` makes a change and tells the person
+    why not when it is refused. The pages that set robots and nodes up have a tab once somebody
+    wants to see them, until it is closed.
     """
 
     page_chosen = Signal(str)
+    tree_begun = Signal()
 
     def __init__(
         self,
@@ -112,6 +114,7 @@ class PagesBar(QWidget):
 
         if self._attempt(add):
             self.page_chosen.emit(edit.page)
+            self.tree_begun.emit()
 
     def _new_page(self, title: Callable[[int], str], number: int) -> AddPage:
         """A page behind the last one for behaviour; its title, from a number on, is no other's."""

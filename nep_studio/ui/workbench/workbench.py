@@ -141,6 +141,7 @@ class Workbench(QWidget):
     def _connect(self) -> None:
         canvas = self.canvas
         self.pages_bar.page_chosen.connect(canvas.show_page)
+        self.pages_bar.tree_begun.connect(lambda: self.helpers.palette.offer("tree"))
         canvas.news.page_asked.connect(self.rooms.show_canvas)
         canvas.news.page_changed.connect(self.pages_bar.show_page)
         canvas.news.page_changed.connect(self.code.show_page)

@@ -138,6 +138,8 @@ def test_plus_adds_a_page_on_which_a_behaviour_tree_is_begun(
     assert karate.workbench.canvas.page == page
     stack = project.pages[page][0]
     assert [project.blocks[block].type for block in stack.body] == ["tree.tree", "tree.sequence"]
+    categories = karate.workbench.helpers.palette.categories
+    qtbot.waitUntil(lambda: categories.buttons["tree"].isChecked())  # what goes in is at hand
 
     karate.actions_by_name["undo"].trigger()
 

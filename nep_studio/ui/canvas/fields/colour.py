@@ -18,6 +18,7 @@ from PySide6.QtGui import (
 )
 from PySide6.QtWidgets import QLabel, QLineEdit, QToolTip, QWidget
 
+from nep_studio.blocks.slots import COLOURS, NAMES_OF_COLOURS
 from nep_studio.ui.theme.colours import Theme
 from nep_studio.ui.widgets.layouts import in_row
 from nep_studio.ui.words import tr
@@ -29,38 +30,11 @@ if TYPE_CHECKING:
     from .editors import FieldEditors
 
 COLUMNS = 6
-COLOURS = (
-    ("red", "#ff0000"),
-    ("orange", "#ff8800"),
-    ("yellow", "#ffdd00"),
-    ("lime", "#88dd00"),
-    ("green", "#00aa00"),
-    ("mint", "#00ddaa"),
-    ("cyan", "#00dddd"),
-    ("sky blue", "#00aaff"),
-    ("blue", "#0044ff"),
-    ("violet", "#7700ff"),
-    ("magenta", "#ff00ff"),
-    ("pink", "#ff66aa"),
-    ("dark red", "#880000"),
-    ("brown", "#884400"),
-    ("olive", "#666600"),
-    ("dark green", "#005500"),
-    ("teal", "#006677"),
-    ("navy", "#000088"),
-    ("white", "#ffffff"),
-    ("light grey", "#cccccc"),
-    ("grey", "#888888"),
-    ("dark grey", "#444444"),
-    ("black", "#000000"),
-    ("cream", "#ffeecc"),
-)
-_NAMES = {code: name for name, code in COLOURS}
 
 
 def name_of_colour(code: str) -> str:
     """What a colour is called, or its number when it has no name."""
-    name = _NAMES.get(code.lower())
+    name = NAMES_OF_COLOURS.get(code.lower())
     return tr(name) if name is not None else code
 
 
@@ -205,4 +179,4 @@ class ColourPopup(FieldPopup):
     def _show(self) -> None:
         now = str(self.edit.value or "")
         self.palette_grid.show_colour(now)
-        self.name.setText((_NAMES.get(now) and name_of_colour(now)) or "")
+        self.name.setText((NAMES_OF_COLOURS.get(now) and name_of_colour(now)) or "")

@@ -18,7 +18,7 @@ from nep_studio.ui.labels import explained, follow_words, labelled
 from nep_studio.ui.theme.icons import icon
 from nep_studio.ui.widgets.drawing_board import ZOOM_STEP
 from nep_studio.ui.widgets.forms import plain_label
-from nep_studio.ui.widgets.layouts import Flow, in_column, in_row
+from nep_studio.ui.widgets.layouts import Flow, FlowLayout, in_column, in_row
 from nep_studio.ui.widgets.questions import Asking, ask_for_path, tell_not_saved
 from nep_studio.ui.words import tr
 
@@ -61,11 +61,12 @@ class DiagramPage(QWidget):
     def _lay_out(self) -> None:
         fitting = QComboBox.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon
         self.choice.setSizeAdjustPolicy(fitting)
-        changing = in_row(self.state_button, self.arrow_button, 1)
+        changing = (self.state_button, self.arrow_button)
         seeing = (self.smaller_button, self.larger_button, self.fit_button, self.picture_button)
         self.bar = QWidget()
         gap = self.fontMetrics().height() // 4
-        tools = in_row((changing, 1), *seeing)
+        tools = QWidget()
+        tools.setLayout(FlowLayout(tools, gap, (*changing, *seeing)))
         in_column(self.choice, tools, of=self.bar, margins=gap, spacing=gap)
         self.views = QStackedWidget()
         self.views.addWidget(self.empty)

@@ -381,6 +381,12 @@ class Palette(QWidget):
         self.shelf.show_drawer(drawer)
         self.categories.mark(drawer)
 
+    def offer(self, drawer: str) -> None:
+        """Show a category, with all blocks where it has none among fewer."""
+        if all(one.id != drawer for one in self._drawers):
+            self.set_level("all")
+        self.open_drawer(drawer)
+
     def set_level(self, level: Level) -> None:
         """Show the first blocks, more of them, or all; that is how it is at the next start, too."""
         if level == self.level:
