@@ -34,7 +34,7 @@ STILL_M_S2 = 2.0
 
 A held arm with its tremor feels some tenths, one that swings or works several m/s². With 2.0 an arm
 that hangs is told of in most walks; with 3.0 half as many arms again seem raised in everyday life
-(WISDM, UCI 507, CC BY 4.0: 3.6 an hour with 2.0, 5 an hour with 3.0).
+(WISDM, UCI 507, CC BY 4.0: 3.6 an hour with 2.0, 5.1 with 3.0).
 """
 NEAR_GRAVITY_M_S2 = 1.5
 """So far from 9.81 m/s² may the size of what is taken for gravity be."""

@@ -56,22 +56,26 @@ def run(node: Node, *, worn: Worn) -> None:
         ears.tell()
 
 
+_Sensor = tuple[str, bool, str]
+"""Its source, whether its acceleration has gravity, its wrist."""
+
+
 class _Ears:
     """An arm for each watch that is heard; what a sensor lacks is told once."""
 
     def __init__(self, node: Node, worn: Worn) -> None:
         self._node, self._worn = node, worn
-        self._arms: dict[str, _Arm] = {}
+        self._arms: dict[_Sensor, _Arm] = {}
         self._is_full = False
 
     def hear(self, batch: Imu) -> list[ArmPosture]:
         """The postures that begin in a batch of samples."""
-        arm = self._arms.get(batch.source)
-        if arm is None or not arm.is_of(batch):
-            if arm is None and not self._has_room(batch):
+        sensor = (batch.source, batch.gravity_included, batch.wrist)
+        if sensor not in self._arms:
+            if not self._has_room(batch):
                 return []
-            arm = self._arms[batch.source] = _Arm(self._node, batch, self._worn)
-        return arm.hear(batch)
+            self._arms[sensor] = _Arm(self._node, batch, self._worn)
+        return self._arms[sensor].hear(batch)
 
     def tell(self) -> None:
         """Tell how the forearm slants, as often as a node may."""
@@ -84,7 +88,7 @@ class _Ears:
         """Whether another watch can be listened to; one that fell silent gives way."""
         if len(self._arms) < MOST_SENSORS:
             return True
-        oldest = min(self._arms, key=lambda source: self._arms[source].heard_s)
+        oldest = min(self._arms, key=lambda sensor: self._arms[sensor].heard_s)
         if time.monotonic() - self._arms[oldest].heard_s >= FORGOTTEN_S:
             del self._arms[oldest]
             self._is_full = False
@@ -105,7 +109,6 @@ class _Arm:
 
     def __init__(self, node: Node, first: Imu, worn: Worn) -> None:
         self._node, self._source = node, first.sender
-        self._kind = _kind(first)
         self.heard_s = time.monotonic()
         self._troubles = Troubles(first.sender, node.warn)
         self._postures: ArmPostures | None = None
@@ -137,10 +140,6 @@ class _Arm:
         """How the forearm slants, in degrees; NaN: not known."""
         return math.nan if self._postures is None else self._postures.elevation_deg
 
-    def is_of(self, batch: Imu) -> bool:
-        """Whether a batch is of the same sensor, worn at the same place."""
-        return self._kind == _kind(batch)
-
     def hear(self, batch: Imu) -> list[ArmPosture]:
         """The postures that begin in a batch of samples."""
         self.heard_s = time.monotonic()
@@ -170,7 +169,3 @@ class _Arm:
             source=self._source,
         )
         self._hand = hand
-
-
-def _kind(batch: Imu) -> tuple[bool, str]:
-    return batch.gravity_included, batch.wrist

@@ -123,8 +123,10 @@ def test_a_watch_worn_the_other_way_than_it_says_is_told_of(program):
 def test_without_gravity_it_says_what_to_do_once_and_hears_others(program):
     program.start()
 
-    for _ in range(3):
+    for _ in range(3):  # an app that changes its mind, and a watch beside it
         program.hold(UP, 0.2, source="phone", gravity_included=False)
+        program.hold(LEVEL, 0.2, source="phone")
+        program.hold(UP, 0.2)
     program.hold(UP)
 
     assert "Choose the acceleration with gravity" in program.state("warning").description
