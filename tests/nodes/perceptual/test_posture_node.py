@@ -19,7 +19,7 @@ from tests.node_running import WAIT_S, NodeRunner, until
 
 pytestmark = pytest.mark.long
 
-UP, LEVEL, DOWN = 80.0, 0.0, -80.0
+UP, BETWEEN, LEVEL, DOWN = 80.0, 38.0, 0.0, -80.0
 
 
 class Program(NodeRunner):
@@ -125,7 +125,7 @@ def test_without_gravity_it_says_what_to_do_once_and_hears_others(program):
 
     for _ in range(3):  # an app that changes its mind, and a watch beside it
         program.hold(UP, 0.2, source="phone", gravity_included=False)
-        program.hold(LEVEL, 0.2, source="phone")
+        program.hold(BETWEEN, 0.2, source="phone")
         program.hold(UP, 0.2)
     program.hold(UP)
 
