@@ -56,6 +56,8 @@ if TYPE_CHECKING:
         as_table,
         change_at,
         has_key,
+        name_with_largest,
+        name_with_smallest,
         names_in,
         remove_key,
         set_at,
@@ -168,7 +170,8 @@ _HOMES = {
         "program.messages": "tell told_value",
         "program.plans": "reach the_plan",
         "program.robot": "Robot as_robot colour_from for_each_robot mix_colours this_robot",
-        "program.tables": "as_table change_at has_key names_in remove_key set_at table_of value_at",
+        "program.tables": "as_table change_at has_key name_with_largest "
+        "name_with_smallest names_in remove_key set_at table_of value_at",
         "program.tasks": "at_once end_actions set_priority stop_program stop_rule together wait "
         "wait_until",
         "program.timing": "date_today start_timer time_now time_part timer_seconds weekday_today",
@@ -200,15 +203,15 @@ __all__ += ["has_item", "has_key", "has_part", "heard_answer", "heard_word", "hu
 __all__ += ["in_turn", "insert_item", "is_at_least", "is_at_most", "is_less", "is_more"]
 __all__ += ["is_remembered", "is_same", "is_true", "item_of", "items_between", "join_items"]
 __all__ += ["largest_of", "length_of", "letter_of", "list_with", "makes_true", "makes_untrue"]
-__all__ += ["mean_of", "median_of", "mix_colours", "names_in", "needs", "no_longer_true"]
-__all__ += ["now_true", "number_in", "one_of", "parts_of", "place_in_text", "place_of"]
-__all__ += ["random_whole", "reach", "remember", "remove_item", "remove_key", "replace_part"]
-__all__ += ["set_at", "set_item", "set_priority", "set_tree_value", "smallest_of", "sorted_items"]
-__all__ += ["start_timer", "stop_program", "stop_rule", "sum_of", "table_of", "take_item", "tell"]
-__all__ += ["the_plan", "this_robot", "time_now", "time_part", "timer_seconds", "times_seen"]
-__all__ += ["title_case", "to_nearest", "to_power", "together", "told_value", "tree_value"]
-__all__ += ["true_while", "until_state", "value_at", "wait", "wait_until", "was_seen"]
-__all__ += ["weekday_today", "what_went_wrong"]
+__all__ += ["mean_of", "median_of", "mix_colours", "name_with_largest", "name_with_smallest"]
+__all__ += ["names_in", "needs", "no_longer_true", "now_true", "number_in", "one_of", "parts_of"]
+__all__ += ["place_in_text", "place_of", "random_whole", "reach", "remember", "remove_item"]
+__all__ += ["remove_key", "replace_part", "set_at", "set_item", "set_priority", "set_tree_value"]
+__all__ += ["smallest_of", "sorted_items", "start_timer", "stop_program", "stop_rule", "sum_of"]
+__all__ += ["table_of", "take_item", "tell", "the_plan", "this_robot", "time_now", "time_part"]
+__all__ += ["timer_seconds", "times_seen", "title_case", "to_nearest", "to_power", "together"]
+__all__ += ["told_value", "tree_value", "true_while", "until_state", "value_at", "wait"]
+__all__ += ["wait_until", "was_seen", "weekday_today", "what_went_wrong"]
 
 
 def __getattr__(name: str) -> Any:

@@ -436,7 +436,7 @@ class Maker:
         if giving and self._chance(0.5):
             return self._call(self.dice.choice(giving))
         if "table" in self.kinds.values() and self._chance(0.4):
-            return self._at()
+            return self._at() if self._chance(0.7) else self._name_with()
         if self._chance(0.5):
             return self._item()
         inputs = {"a": self._leaf(), "b": self._leaf(), "condition": self._boolean()}
@@ -497,6 +497,18 @@ class Maker:
         if self._chance(0.15):
             return B("table.get", inputs=inputs)
         return B("table.get_or", inputs={**inputs, "otherwise": self._leaf()})
+
+    def _name_with(self) -> B:
+        """The name of the largest or smallest value, mostly in a table that can say so."""
+        fields = {"extreme": self.dice.choice(["max", "min"])}
+        if self._chance(0.4):
+            return B("table.name_with", fields, {"table": self._table()})
+        value = self.dice.choice([self._typed_number, self._typed_text])
+        count = self.dice.randint(0, 3)
+        inputs = {f"value.{number}": value() for number in range(1, count + 1)}
+        inputs |= {f"key.{number}": self._typed_key() for number in range(1, count + 1)}
+        table = B("table.create", inputs=inputs, groups={"entry": count})
+        return B("table.name_with", fields, {"table": table})
 
     def _typed_number(self) -> B:
         return B("math.number", {"number": self.dice.choice(NUMBERS)})

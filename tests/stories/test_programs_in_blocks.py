@@ -137,8 +137,8 @@ def plays_for(theatre: BlockTheatre, number: int, points: str, sentence: str) ->
 
 def gesture_and_posture(theatre: BlockTheatre) -> None:
     theatre.person_is("gesture_karate")
-    time.sleep(2.2)  # the gesture is too old when the person comes close
-    theatre.person_is("person_close")
+    time.sleep(2.2)  # the gesture is too old when the arm is raised
+    theatre.person_is("arm_raised")
     time.sleep(0.3)
     assert not theatre.begun("play")
     theatre.person_is("gesture_karate")
@@ -241,11 +241,14 @@ def traffic_light(theatre: BlockTheatre) -> None:
 
 
 def vote_counter(theatre: BlockTheatre) -> None:
-    for number, name in enumerate(("Anna", "Ben", "Anna")):
+    theatre.rests(0)
+    theatre.tell("result")
+    theatre.says("Nobody has voted yet.")
+    for number, name in enumerate(("Ben", "Anna", "Anna"), 1):
         theatre.rests(number)
         theatre.tell("vote")
         theatre.answer(name)
-    theatre.rests(3)
+    theatre.rests(4)
     theatre.tell("result")
     theatre.says("anna has won with 2")
 

@@ -433,6 +433,8 @@ class FactReader:
             kept = Given(same=frozenset({KEPT}))
             is_sure = generator == "table_get"
             return kept if is_sure else kept.or_else(self._slot(block, "otherwise", depth))
+        if generator == "table_name_with":
+            return Given(same=frozenset({KEYS}))
         if generator == "choose":
             return self._slot(block, "a", depth).or_else(self._slot(block, "b", depth))
         if generator == "own_call":
