@@ -41,7 +41,7 @@ TAKES, MORE = 3, 1
 REST_S = 0.6
 RATE_HZ = 50.0
 SIMULATED = 4
-"""From this take on each of these performances is one movement: a karate is often two, up and down."""
+"""From this take on each performance is one movement: a karate, say, is often two, up and down."""
 LEFT = Qt.MouseButton.LeftButton
 REAL = Path(dev.__file__).parents[1] / "shared" / "data" / "uhh_gestures"
 TITLES = ("push", "turn")

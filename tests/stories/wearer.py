@@ -1,8 +1,8 @@
 """Somebody with a phone that runs Sensor Logger, in a process of their own.
 
-``python -m tests.stories.wearer URL REST`` rests, as in the recording REST, until a line on standard
-input names a recording; that movement is made then, and the process says "made" when it is over. It
-ends with its input.
+``python -m tests.stories.wearer URL REST`` rests, as in the recording REST, until a line on
+standard input names a recording; that movement is made then, and the process says "made" when it is
+over. It ends with its input.
 """
 
 from __future__ import annotations
