@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from block_building import B, build
+import pytest
+from block_building import B, build, read_program
 
 from nep_studio.blocks.generate.program import generate_program
 from nep_studio.blocks.operations.copying import copy, paste
@@ -22,7 +23,59 @@ def test_asking_does_not_overwrite_a_variable_called_answer(language):
     text = code_of(editor)
 
     assert "    answer = nao.ask(" in text
-    assert "        program.answer_ += 1" in text and "Variables(answer_=0)" in text
+    assert "        program.answer += 1" in text and "Variables(answer=0)" in text
+
+
+def test_asking_does_not_overwrite_what_a_rule_has_by_itself(language):
+    kept = B("variable.set", {"variable": "v1", "value": "kept"})
+    ask = B("robot_speech.ask", bodies={"do.1": [B("control.wait")]}, groups={"answer": 1})
+    told = B("robot.say", inputs={"text": B("variable.get", {"variable": "v1"})})
+    editor = build(language, [B("event.started"), kept, ask, told], variables=("answer",))
+    text = code_of(editor)
+
+    again = read_program(text, language, editor.project)
+
+    assert '    answer = "kept"\n' in text and "    nao.say(answer)\n" in text
+    assert "    answer_2 = nao.ask(" in text and '    if answer_2 == "yes":' in text
+    assert again.blocks == editor.project.blocks
+
+
+EACH = [("yes", "a"), ("no", "b")]
+"""The answers, and what is said to each."""
+
+
+def asked(name, words, branches, end=""):
+    """The lines of a question, and of what is done after each answer."""
+    lines = [f'{name} = nao.ask("Well?", {words})']
+    for word, said in branches:
+        lines += [f'{"if" if len(lines) == 1 else "elif"} {name} == "{word}":']
+        lines += [f'    nao.say("{said}")']
+    return "\n    ".join([*lines, *filter(None, [end])]) + "\n"
+
+
+@pytest.mark.parametrize(
+    ("rule", "is_block"),
+    [
+        (asked("answer", ["yes", "no"], EACH), True),
+        (asked("answer", ["yes", "no"], EACH[1:]), False),
+        (asked("answer", ["yes"], EACH[:1], "nao.say(answer)"), False),
+        (asked("reply", ["yes"], EACH[:1]), False),
+    ],
+)
+def test_an_answer_is_a_variable_where_more_is_done_with_it_than_the_block_does(
+    language, rule, is_block
+):
+    editor = build(language, [B("event.started"), B("robot.say", {"text": "hi"})])
+    build(language, [B("robots.robot")], page="robots", editor=editor)
+    text = code_of(editor).replace('nao.say("hi")\n', rule)
+
+    again = read_program(text, language, editor.project)
+
+    types = [block.type for block in again.blocks.values()]
+    assert ("robot_speech.ask" in types) is is_block
+    assert ("robot_speech.ask_for" in types) is not is_block
+    assert not any(one.startswith("code.") for one in types)
+    assert len(again.variables) == (0 if is_block else 1)
 
 
 def test_own_blocks_may_have_parameters_of_the_same_name(language):

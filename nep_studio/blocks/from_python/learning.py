@@ -239,6 +239,10 @@ class Learner(Expressions):
         self._functions += 1
         return mark(PART, str(self._functions))
 
+    def inner_name(self, name: str) -> str:
+        """A marker for a name that a block has beside variables."""
+        return mark(PART, name)
+
     def _slot(self, block: Block, key: str) -> Slot:
         return self.definition(block).slots[split_slot(key)[0]]
 

@@ -19,6 +19,7 @@ from nep_studio.blocks.shared_objects import SHARED_OBJECTS
 from ..deployment import can_be_stopped, names_used, robot_entries
 from ..editor import Editor
 from ..errors import CodeRefused
+from ..generate.expressions import ANSWER, WORDS, compare
 from ..generate.kinds import ANY, LIST, RESULT_KINDS, TABLE, TEXT, TRUTH, Seen, kinds_of, note
 from ..generate.names import RESERVED, python_name
 from ..generate.program import generate_program
@@ -145,7 +146,7 @@ def names_in(
         position = list(editor.project.procedures).index(names.procedures[node.name].id) + 1
     shared = {name.rpartition(".")[2] for name in _shared(tree, loose=False)}
     kept = [name for node in functions if node.name not in as_code for name in _kept(node)]
-    taken = {*names.procedures, *others, *shared}
+    taken = {*names.procedures, *others, *shared, *_only_asked(tree)}
     assigned += [name for name in kept if name not in taken]
     found = dict.fromkeys([*assigned, *_begun(tree), *_shared(tree, loose=loose)])
     _add_variables(
@@ -153,6 +154,60 @@ def names_in(
     )
     _require_variables(names, tree)
     return names
+
+
+def _only_asked(tree: ast.Module) -> set[str]:
+    """The names that only the block has that asks a robot something: they are no variables."""
+    used = Counter(node.id for node in ast.walk(tree) if isinstance(node, ast.Name))
+    asked: Counter[str] = Counter()
+    for node in ast.walk(tree):
+        for part in ("body", "orelse", "finalbody"):
+            lines = getattr(node, part, None)
+            if isinstance(lines, list):
+                for first, second in itertools.pairwise(lines):
+                    asked.update(_of_question(first, second))
+    return {name for name, times in asked.items() if used[name] == times}
+
+
+def _of_question(first: ast.stmt, second: ast.stmt) -> Iterator[str]:
+    """The names of a question and what is done after each answer, as often as they are there.
+
+    Of what may be answered, too, where that is worked out in the line before.
+    """
+    match first, second:
+        case ast.Assign([ast.Name(listed)], ast.List()), _ if _root(listed) == WORDS:
+            yield listed
+            return
+        case ast.Assign([ast.Name(answer)], ast.Call(ast.Attribute(attr="ask"), given)), ast.If():
+            pass
+        case _:
+            return
+    tests = list(_tests(second))
+    match given:
+        case [_, ast.List(words)]:
+            listed = ""
+        case [_, ast.Name(listed)] if _root(listed) == WORDS:
+            made = range(len(tests))
+            words = [ast.Subscript(ast.Name(listed), ast.Constant(number)) for number in made]
+        case _:
+            return
+    wanted = [ast.unparse(compare(ast.Name(answer), ast.Eq(), word)) for word in words]
+    told = [ast.unparse(test) for test in tests]
+    if _root(answer) == ANSWER and told == (wanted or [f"not {answer}"]):
+        yield from [name for name in (answer, listed) if name for _ in (first, *told)]
+
+
+def _tests(node: ast.If) -> Iterator[ast.expr]:
+    """What an “if” and each “elif” of it ask."""
+    yield node.test
+    match node.orelse:
+        case [ast.If(test=ast.Compare(ops=[ast.Eq()])) as inner]:
+            yield from _tests(inner)
+
+
+def _root(name: str) -> str:
+    """A name without the number that makes it differ from another one."""
+    return name.rstrip("0123456789").removesuffix("_")
 
 
 # Rules are named by their functions; the block with which one begins is made after it is read.

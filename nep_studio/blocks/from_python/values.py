@@ -368,6 +368,8 @@ class ValueReader:
             return None
         if not _may_be_table(pattern, found) or not _may_be_place(pattern, found):
             return None
+        if not self.names.variables.keys().isdisjoint(found.parts.values()):
+            return None  # the block has this name for itself
         is_join = pattern.definition.generator == "join"
         clear = frozenset() if is_join else pattern.clear
         for key, node in found.slots.items():

@@ -119,6 +119,9 @@ def compare(left: ast.expr, sign: ast.cmpop, right: ast.expr) -> ast.Compare:
     return ast.Compare(left, [sign], [right])
 
 
+ANSWER, WORDS = INNER_NAMES = "answer", "expected_words"
+"""What a robot was answered, and what may be answered, in the function that asks."""
+
 VARIABLE_BLOCK, JOIN_BLOCK = "variable.get", "text.join"
 
 DEEPEST_VALUE = 60
@@ -421,8 +424,12 @@ class Expressions:
         """A name for a function inside the rule, after a text: else part_1, part_2, and so on."""
         self._parts += not text
         if self._part_names is None:
-            self._part_names = NameTable(self.names.taken())
+            self._part_names = NameTable({*self.names.taken(), *INNER_NAMES})
         return self._part_names.give(text or f"part_{self._parts}", "part")
+
+    def inner_name(self, name: str) -> str:
+        """One of INNER_NAMES as it is called here: always the same one, which nothing else has."""
+        return NameTable(self.names.bare()).give(name, name)
 
 
 def value_cost(block: Block) -> int:

@@ -19,6 +19,8 @@ from nep_studio.blocks.slots import constant
 
 from .behaviour import BEHAVIOUR_STATEMENTS, BEHAVIOUR_VALUES
 from .expressions import (
+    ANSWER,
+    WORDS,
     Assignment,
     Body,
     EndRule,
@@ -378,6 +380,14 @@ def _arithmetic(code: Expressions, block: Block) -> ast.expr:
     return made
 
 
+def _ask_for(code: Expressions, block: Block) -> ast.expr:
+    arguments = [code.slot(block, "question")]
+    if block.groups.get("choice"):
+        arguments.append(code.slot(block, "words.1"))
+    seconds = {"seconds": code.slot(block, "seconds")}
+    return method_call(code.slot(block, "robot"), "ask", arguments, seconds)
+
+
 REPORTERS: dict[str, ValueGenerator] = {
     **{name: python_of(text) for name, text in _LINES.items()},
     **{name: by_choice(slot, texts) for name, (slot, texts) in _CHOSEN.items()},
@@ -395,6 +405,7 @@ REPORTERS: dict[str, ValueGenerator] = {
     "text_replace": _text_replace,
     "letter": _letter,
     "emotion": _emotion,
+    "ask_for": _ask_for,
     **LIST_VALUES,
     **TABLE_VALUES,
     **BEHAVIOUR_VALUES,
@@ -406,11 +417,6 @@ REPORTERS: dict[str, ValueGenerator] = {
 
 
 # Statements.
-
-ANSWER = "answer"
-"""The name of what a robot was answered, in the function that asks."""
-WORDS = "expected_words"
-"""The name of what may be answered, where it has to be worked out."""
 
 
 def _loop(word: str, text: str) -> StatementGenerator:
@@ -599,22 +605,23 @@ ERROR = "Exception"
 
 
 def _ask(code: Expressions, block: Block) -> list[Piece]:
-    words = code.slots(block, "word", "answer")
+    words, answer = code.slots(block, "word", "answer"), code.inner_name(ANSWER)
     possible: ast.expr = ast.List(words)
     pieces: list[Piece] = []
     if not all(map(code.stays, words)):  # they are worked out once
-        pieces = [f"{WORDS} = {show(possible)}"]
-        possible = ast.Name(WORDS)
+        listed = code.inner_name(WORDS)
+        pieces = [f"{listed} = {show(possible)}"]
+        possible = ast.Name(listed)
         words = [ast.Subscript(possible, ast.Constant(number)) for number in range(len(words))]
     arguments = [code.slot(block, "question"), possible]
     seconds = {"seconds": code.slot(block, "seconds")}
     asked = show(method_call(code.slot(block, "robot"), "ask", arguments, seconds))
-    pieces.append(f"{ANSWER} = {asked}")
+    pieces.append(f"{answer} = {asked}")
     for number, word in enumerate(words, start=1):
-        test = show(compare(ast.Name(ANSWER), ast.Eq(), word))
+        test = show(compare(ast.Name(answer), ast.Eq(), word))
         pieces += [f"{'if' if number == 1 else 'elif'} {test}:", Body(f"do.{number}")]
     if block.groups.get("otherwise"):
-        pieces += ["else:" if words else f"if not {ANSWER}:", Body("otherwise_do.1")]
+        pieces += ["else:" if words else f"if not {answer}:", Body("otherwise_do.1")]
     return pieces
 
 

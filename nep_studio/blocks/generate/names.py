@@ -127,7 +127,7 @@ RESERVED = frozenset(
         *(name for name in dir(builtins) if not name.startswith("_")),
         *("exit", "quit", "copyright", "credits", "license", "help"),
         *API,
-        *("behavior", "launcher", "answer", "expected_words"),
+        *("behavior", "launcher"),
         *SHARED_OBJECTS,
         *MODULES,
     }
@@ -192,6 +192,11 @@ class ProgramNames:
     parameters: dict[str, str] = field(default_factory=dict)
     outside: frozenset[str] = frozenset()
     locals: frozenset[str] = frozenset()
+
+    def bare(self) -> set[str]:
+        """Those that stand alone: not those behind ``program.``, but for own Python's."""
+        named = (self.robots, self.procedures, self.parameters)
+        return {n for names in named for n in names.values()} | self.locals | self.outside
 
     def taken(self) -> set[str]:
         """All these names."""

@@ -385,7 +385,7 @@ def test_an_update_inside_another_step_is_taken_back_alone(language):
     assert to_bytes(editor.project) == before
 
 
-@pytest.mark.parametrize("name", ["answer", "wait", "nao"])
+@pytest.mark.parametrize("name", ["launcher", "wait", "nao"])
 def test_a_name_of_the_program_cannot_become_a_variable(language, name):
     editor = build(language, [B("event.started"), B("robot.say")])
     text = generate_program(editor.project, language).text
