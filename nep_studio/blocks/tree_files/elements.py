@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 from dataclasses import dataclass, field
+from pathlib import Path
 from xml.parsers import expat
 
 from ..errors import BlocksError
@@ -12,6 +13,8 @@ from ..errors import BlocksError
 LARGEST = 2_000_000
 DEEPEST = 100
 MOST_ELEMENTS = 10_000
+LARGEST_INCLUDED = 50
+"""So many files may be included."""
 
 _COMMENT = re.compile(rb"<!--.*?-->", re.DOTALL)
 _LOOSE_AND = re.compile(rb"&(?!#?\w+;)")
@@ -76,6 +79,45 @@ def read_elements(content: bytes) -> Element:
             reason=str(error),
         ) from error
     return builder.outermost
+
+
+def read_file(path: Path) -> Element:
+    """The outermost element of a file, with what stands in the files that it includes.
+
+    Those lie beside it or in folders there; an “include” stays where one cannot be read. Raises
+    TreeFileError or OSError for the file itself.
+    """
+    root = _read(path)
+    seen, left = {path.resolve()}, LARGEST_INCLUDED
+    waiting = [(path, include) for include in root.named("include")]
+    root.children = [child for child in root.children if child.tag != "include"]
+    while waiting:
+        beside, include = waiting.pop(0)
+        inside = _included(beside, include)
+        if inside is None or left == 0:
+            root.children.append(include)
+        elif inside.resolve() not in seen:
+            seen.add(inside.resolve())
+            left -= 1
+            added = _read(inside)
+            waiting += [(inside, one) for one in added.named("include")]
+            root.children += [one for one in added.children if one.tag != "include"]
+    return root
+
+
+def _read(path: Path) -> Element:
+    with path.open("rb") as file:
+        return read_elements(file.read(LARGEST + 1))
+
+
+def _included(beside: Path, include: Element) -> Path | None:
+    """The file that another one includes, if it is there."""
+    said = include.attributes.get("path", "").replace("\\", "/")
+    if not said or "ros_pkg" in include.attributes or Path(said).is_absolute():
+        return None
+    inside = beside.parent / said
+    is_near = inside.resolve().is_relative_to(beside.parent.resolve().parent)
+    return inside if is_near and inside.is_file() else None
 
 
 def _blank(comment: re.Match[bytes]) -> bytes:

@@ -264,8 +264,8 @@ class Plain:
         inside = self.all(part.children, skipped)
         if len(inside) != cases + 1:
             self.tell(
-                "“{name}” has {count} parts in it and not {expected}: the last is done where no "
-                "case holds only if there is one more than cases.",
+                "“{name}” has {count} parts in it, not {expected}: one for each case, and one for "
+                "all others.",
                 name=_name_of(part),
                 count=len(inside),
                 expected=cases + 1,

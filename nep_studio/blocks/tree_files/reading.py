@@ -57,7 +57,7 @@ _TIMED = {
 }
 _TRUTHS = {"AlwaysSuccess": "true", "AlwaysFailure": "false"}
 _REACTIVE = ("ReactiveSequence", "ReactiveFallback")
-_ASKED = ("Condition", "ScriptCondition", "AlwaysSuccess", "AlwaysFailure")
+_AT_ONCE = ("AlwaysSuccess", "AlwaysFailure", "Script", "SetBlackboard")
 _ROOM = 90
 """So many letters of a script are the name of an own block."""
 
@@ -76,6 +76,10 @@ class Model:
     inputs: dict[str, str | None] = field(default_factory=dict)
     outputs: dict[str, str | None] = field(default_factory=dict)
     """By name; with what goes in where a tree does not say it."""
+
+    def results(self) -> list[str]:
+        """What only comes out."""
+        return [port for port in self.outputs if port and port not in self.inputs]
 
 
 @dataclass(frozen=True, slots=True)
@@ -123,7 +127,7 @@ class _Reader:
         entries = names_in(root)
         is_3 = root.attributes.get("BTCPP_format", "").strip() != "4"
         plain = Plain(told_models.__contains__, self._tell, set(entries), is_3)
-        self._parts = [plain.all(tree.children) for tree in trees]
+        self._parts = [plain.all(_top(tree)) for tree in trees]
         self._entries = entries | plain.taken
         for part in itertools.chain.from_iterable(self._parts):
             self._entries |= names_in(part)
@@ -143,8 +147,8 @@ class _Reader:
             runs = "at_start" if name == main else "when_asked"
             hat = Made("tree.tree", {"name": self._names[name], "runs": runs})
             hat.comment = _line(tree.attributes.get("_description", ""))
-            chain = [hat, *self._from_outside(name), *self._all(parts)]
-            made.append(self._put(chain))
+            chain = self._with_first(self._from_outside(name), self._all(parts))
+            made.append(self._put([hat, *chain]))
         return Imported(tuple(made), tuple(self._told.values()))
 
     def _main(self) -> str:
@@ -152,9 +156,14 @@ class _Reader:
         said = self._root.attributes.get("main_tree_to_execute")
         if said is not None:
             return said
-        named = {e.attributes.get("ID") for e in self._root.inner() if e.tag.startswith("SubTree")}
-        names = [_id(tree) for tree in self._trees]
-        free = [name for name in names if name not in named]
+        named = {
+            element.attributes.get("ID", element.tag)
+            for part in itertools.chain.from_iterable(self._parts)
+            for element in part.inner()
+        }
+        free = [name for tree in self._trees if (name := _id(tree)) not in named]
+        if len(free) > 1 and MAIN_TREE in free:
+            return MAIN_TREE
         return free[0] if len(free) == 1 else ""
 
     def _tell(self, sentence: str, **values: object) -> None:
@@ -194,6 +203,16 @@ class _Reader:
         )
         first = self._editor.language.word("set what comes from outside")
         return [_step(first, [set_value(key, (0, None)) for key in missing])]
+
+    def _with_first(self, first: list[Made], chain: list[Made]) -> list[Made]:
+        """A chain with something done before it."""
+        if not first:
+            return chain
+        top = chain[0] if len(chain) == 1 else None
+        if top is not None and top.type == "tree.sequence" and top.fields["order"] == "memory":
+            top.bodies["do"][:0] = first
+            return chain
+        return [Made("tree.sequence", {"order": "memory"}, bodies={"do": [*first, *chain]})]
 
     def _all(self, elements: Iterable[Element], again: int = _ONCE) -> list[Made]:
         return [self._one(element, again) for element in elements]
@@ -242,17 +261,28 @@ class _Reader:
     def _inside(self, element: Element, again: int) -> list[Made]:
         """What is in a part, with how often it is asked."""
         children, made = element.children, []
-        is_reactive = element.tag in _REACTIVE
         is_guarded = False
         for at, child in enumerate(children):
-            asked = again
-            if is_reactive and any(map(_may_run, children[at + 1 :])):
+            asked = min(again, _INSIDE) if is_guarded else again
+            if element.tag in _REACTIVE and any(map(self._may_run, children[at + 1 :])):
                 asked = _AGAIN
-            if is_guarded:
-                asked = min(asked, _INSIDE)
             made.append(self._one(child, asked))
-            is_guarded |= element.tag.endswith("Fallback") or _may_ask(child)
+            is_guarded |= element.tag.endswith("Fallback") or any(map(self._asks, child.inner()))
         return made
+
+    def _asks(self, part: Element) -> bool:
+        """Whether a part is a condition."""
+        if part.tag == "ScriptCondition":
+            return True
+        model = self._models.get(_model_key(part))
+        return not part.children and model is not None and model.kind == "Condition"
+
+    def _may_run(self, part: Element) -> bool:
+        """Whether a part may take longer than one look."""
+        return any(
+            not one.children and one.tag not in _AT_ONCE and not self._asks(one)
+            for one in part.inner()
+        )
 
     def _inverted(self, element: Element) -> Made | None:
         """A condition that is turned around is one condition."""
@@ -360,25 +390,14 @@ class _Reader:
         for port, parameter in zip(inputs, parameters(procedure), strict=True):
             text = element.attributes.get(port, model.inputs[port])
             fill(call, parameter.id, *_literal(text or ""))
-        results = [
-            (port, ours)
-            for port in model.outputs
-            if port not in model.inputs and (ours := output_name(element.attributes.get(port, "")))
-        ]
         if is_asked:
-            self._tell_results(element, [ours for port, ours in results if ours != port])
             return _check(call)
-        body = [set_value(ours, (None, _value_of(port))) for port, ours in results]
+        body = [
+            set_value(ours, (None, _value_of(port)))
+            for port in model.results()
+            if (ours := output_name(element.attributes.get(port, "")))
+        ]
         return _step(_line(element.attributes.get("name", "")) or name, [call, *body])
-
-    def _tell_results(self, element: Element, names: list[str]) -> None:
-        """Tell what comes out of a condition under another name than its own."""
-        for name in names:
-            self._tell(
-                "“{value}” comes out of the condition “{name}”: set it in that.",
-                value=name,
-                name=_model_key(element),
-            )
 
     def _own_block(self, name: str, model: Model, is_asked: bool) -> Procedure:
         """The own block of a name, which is made when there is none with such values."""
@@ -392,7 +411,7 @@ class _Reader:
                     reason=reason,
                 )
             known = self._known(title_of_it, model, is_asked)
-            made = known or self._new_block(title_of_it, model, is_asked)
+            made = known or self._new_block(name, model, is_asked)
             self._own[name, is_asked] = made
         return self._own[name, is_asked]
 
@@ -405,10 +424,10 @@ class _Reader:
                 return procedure if header_of(project, procedure.id) else None
         return None
 
-    def _new_block(self, name: str, model: Model, is_asked: bool) -> Procedure:
+    def _new_block(self, key: str, model: Model, is_asked: bool) -> Procedure:
         inputs = [_line(port) for port in model.inputs if _is_port_name(port)]
         given = [self._editor.new_parameter(port, "any") for port in inputs]
-        made = self._editor.add_procedure([name, *given], gives_value=is_asked)
+        made = self._editor.add_procedure([_short(key), *given], gives_value=is_asked)
         procedure = self._editor.project.procedures[made]
         chain = [Made(DEFINE + procedure.id)]
         word = self._editor.language.word
@@ -416,13 +435,25 @@ class _Reader:
         if is_asked:
             note = word("find out here whether this is so")
         chain.append(Made("control.note", {"text": note}))
-        outputs = [port for port in model.outputs if port not in model.inputs]
-        chain += [set_value(port, (0, None)) for port in outputs]
+        chain += [set_value(one, (0, None)) for one in self._results(key, model, is_asked)]
         if is_asked:
             truth = Made("logic.truth", {"truth": "true"})
             chain.append(Made(RETURN, inputs={"value": truth}))
         self._put(chain)
         return procedure
+
+    def _results(self, key: str, model: Model, is_asked: bool) -> list[str]:
+        """The values that an own block sets: a condition those outside, by their names there."""
+        if not is_asked:
+            return model.results()
+        texts = (
+            one.attributes.get(port, "")
+            for port in model.results()
+            for part in itertools.chain.from_iterable(self._parts)
+            for one in part.inner()
+            if _model_key(one) == key
+        )
+        return list(dict.fromkeys(filter(None, map(output_name, texts))))
 
     def _put(self, chain: list[Made]) -> str:
         """Make a stack below all that are on the page; gives its first block."""
@@ -458,6 +489,12 @@ def _id(tree: Element) -> str:
     return tree.attributes.get("ID", MAIN_TREE)
 
 
+def _top(tree: Element) -> list[Element]:
+    """What stands in a tree; Groot once put it into a “Root”."""
+    roots = list(tree.named("Root"))
+    return roots[0].children if len(roots) == len(tree.children) == 1 else tree.children
+
+
 def _told_models(root: Element) -> dict[str, Model]:
     """What a file says of its own parts, and which it writes as what they are."""
     models: dict[str, Model] = {}
@@ -489,19 +526,6 @@ def _models(told: dict[str, Model], parts: list[list[Element]]) -> dict[str, Mod
             if attribute not in model.outputs:
                 model.inputs.setdefault(attribute)
     return models
-
-
-def _may_run(part: Element) -> bool:
-    """Whether a part may take longer than one look."""
-    return any(
-        not one.children and one.tag not in (*_ASKED, "Script", "SetBlackboard")
-        for one in part.inner()
-    )
-
-
-def _may_ask(part: Element) -> bool:
-    """Whether a part asks something, so that what follows it is not done at each look."""
-    return any(one.tag in ("Condition", "ScriptCondition") or asks(one.tag) for one in part.inner())
 
 
 # Where stacks are put: how high they are drawn is not known yet, so that it is reckoned roughly.

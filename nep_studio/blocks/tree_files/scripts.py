@@ -6,6 +6,7 @@ makes a script of blocks. Language: https://www.behaviortree.dev/docs/guides/scr
 
 from __future__ import annotations
 
+import itertools
 import re
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
@@ -83,25 +84,25 @@ class Reader:
 
 def assigned(code: str) -> Iterator[str]:
     """The names that a script sets."""
-    try:
-        tokens = list(_tokens(code))
-    except _Unread:
-        return
-    for token, after in zip(tokens, [*tokens[1:], ""], strict=True):
+    for token, after in _pairs(code):
         if after in (":=", "=", "+=", "-=", "*=", "/=") and NAME.fullmatch(token):
             yield token
 
 
 def used(code: str) -> Iterator[str]:
     """The names in a script whose values it needs."""
-    try:
-        tokens = list(_tokens(code))
-    except _Unread:
-        return
-    for token, after in zip(tokens, [*tokens[1:], ""], strict=True):
+    for token, after in _pairs(code):
         is_name = NAME.fullmatch(token) and token not in ("true", "false")
         if is_name and after not in (":=", "="):
             yield token
+
+
+def _pairs(code: str) -> Iterator[tuple[str, str]]:
+    """The words of a script, each with the one behind it; none of what cannot be read."""
+    try:
+        yield from itertools.pairwise([*_tokens(code), ""])
+    except _Unread:
+        return
 
 
 def _tokens(code: str) -> Iterator[str]:

@@ -2,29 +2,34 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 
 from .elements import Element
-from .plain import marked
+from .plain import CONDITIONS, SCRIPTS, marked
 from .scripts import NAME, assigned, used
 
 NOT_PORTS = frozenset({"ID", "name"})
+_CODE = frozenset(("code", *CONDITIONS, *SCRIPTS, "_onHalted"))
 _SHARED = ("_autoremap", "__autoremap", "__shared_blackboard")
 
 
 @dataclass(slots=True)
 class Values:
-    """The values of one tree by name: what it needs, what it sets, what it is given."""
+    """The values of one tree by name: what it needs first, what it sets, what it is given.
 
+    ``events`` are what happens with them, in the order of the file: “needs” and “sets” with a
+    name, or a tree in it.
+    """
+
+    events: list[tuple[str, str] | Element] = field(default_factory=list)
     needed: dict[str, None] = field(default_factory=dict)
     sets: dict[str, None] = field(default_factory=dict)
     given: set[str] = field(default_factory=set)
-    calls: list[Element] = field(default_factory=list)
 
     def missing(self) -> list[str]:
         """What it needs and nothing gives it."""
-        return [key for key in self.needed if key not in self.sets and key not in self.given]
+        return [key for key in self.needed if key not in self.given]
 
 
 def ports_of(element: Element) -> dict[str, str]:
@@ -48,7 +53,7 @@ def names_in(root: Element) -> set[str]:
         for key, text in element.attributes.items():
             if name := marked(text):
                 found.add(name)
-            elif key == "code" or (key.startswith("_") and key != "_description"):
+            elif key in _CODE:
                 found.update(assigned(text))
         if element.tag == "SetBlackboard" or element.attributes.get("ID") == "SetBlackboard":
             found.add(key_of(element))
@@ -71,50 +76,64 @@ def values_of(
     is_entry: Callable[[str], bool],
 ) -> dict[str, Values]:
     """The values of the trees of a file, by their names; ports that it shares are written out."""
-    found = {name: _own_values(parts, is_output, is_entry) for name, parts in trees.items()}
-    for _ in found:  # what a tree shares may come from one in it
+    found = {name: Values() for name in trees}
+    for name, parts in trees.items():
+        for element in (one for part in parts for one in part.inner()):
+            found[name].events += _events(element, is_output, is_entry)
+    for _ in range(len(found) + 1):  # what a tree needs may come from one in it
         for values in found.values():
-            for call in values.calls:
-                if (inside := found.get(call.attributes.get("ID", ""))) is not None:
-                    _share(call, values, inside)
+            _follow(values, found)
     for values in found.values():
-        for call in values.calls:
+        for call in (one for one in values.events if isinstance(one, Element)):
             for key in _SHARED:
                 call.attributes.pop(key, None)
-            inside = found.get(call.attributes.get("ID", ""))
-            for key, text in _given(call).items():
-                name = marked(text)
-                if inside is not None:
-                    inside.given.add(key)
-                if name and (inside is None or key in inside.sets):
-                    values.sets.setdefault(name)
+            if (inside := found.get(call.attributes.get("ID", ""))) is not None:
+                inside.given |= _given(call).keys()
     return found
 
 
-def _own_values(
-    parts: Iterable[Element],
+def _events(
+    element: Element,
     is_output: Callable[[Element, str], bool],
     is_entry: Callable[[str], bool],
-) -> Values:
-    values = Values()
-    for element in (one for part in parts for one in part.inner()):
-        if element.tag == "SubTree":
-            values.calls.append(element)
-            continue
-        if element.tag == "SetBlackboard":
-            values.sets.setdefault(key_of(element))
-        if element.tag in ("Script", "ScriptCondition"):
-            code = element.attributes.get("code", "")
-            values.needed.update(dict.fromkeys(filter(is_entry, used(code))))
-            values.sets.update(dict.fromkeys(assigned(code)))
-            continue
-        for key, text in ports_of(element).items():
-            if is_output(element, key):
-                if name := output_name(text):
-                    values.sets.setdefault(name)
-            elif (name := marked(text)) and key not in ("output_key", "key"):
-                values.needed.setdefault(name)
-    return values
+) -> Iterator[tuple[str, str] | Element]:
+    if element.tag == "SubTree":
+        yield element
+        return
+    code = element.attributes.get("code", "")
+    if element.tag in ("Script", "ScriptCondition"):
+        yield from (("needs", name) for name in used(code) if is_entry(name))
+        yield from (("sets", name) for name in assigned(code))
+        return
+    after = []
+    for key, text in ports_of(element).items():
+        if is_output(element, key):
+            after.append(output_name(text))
+        elif (name := marked(text)) and key not in ("output_key", "key"):
+            yield "needs", name
+    if element.tag == "SetBlackboard":
+        after.append(key_of(element))
+    yield from (("sets", name) for name in after if name)
+
+
+def _follow(values: Values, found: dict[str, Values]) -> None:
+    """Reckon what a tree needs before it is set, with what is known of those in it by now."""
+    needed, sets = dict[str, None](), dict[str, None]()
+    for event in values.events:
+        if isinstance(event, Element):
+            inside = found.get(event.attributes.get("ID", ""))
+            if inside is not None:
+                _share(event, inside)
+            for key, text in _given(event).items():
+                if (name := marked(text)) and inside is not None and key in inside.needed:
+                    needed.update({} if name in sets else {name: None})
+                if name and (inside is None or key in inside.sets):
+                    sets.setdefault(name)
+        elif event[0] == "sets":
+            sets.setdefault(event[1])
+        elif event[1] not in sets:
+            needed.setdefault(event[1])
+    values.needed, values.sets = needed, sets
 
 
 def _given(call: Element) -> dict[str, str]:
@@ -125,7 +144,7 @@ def _given(call: Element) -> dict[str, str]:
     return given
 
 
-def _share(call: Element, around: Values, inside: Values) -> None:
+def _share(call: Element, inside: Values) -> None:
     """Write out what a tree shares with the one around it: all, or what is of the whole file."""
     is_all = any(_is_true(call.attributes.get(key, "")) for key in _SHARED)
     known = _given(call)
@@ -133,10 +152,6 @@ def _share(call: Element, around: Values, inside: Values) -> None:
         is_shared = key.startswith("@") or (is_all and not key.startswith("_"))
         if is_shared and key not in known:
             call.attributes[key] = f"{{{key}}}"
-            if key in inside.needed and key not in inside.sets:
-                around.needed.setdefault(key)
-            if key in inside.sets:
-                around.sets.setdefault(key)
 
 
 def _is_true(text: str) -> bool:

@@ -6,6 +6,7 @@ own block. They stand there as actions and conditions with the words of the bloc
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from xml.sax.saxutils import quoteattr
@@ -229,10 +230,22 @@ class _Writer:
             element.attributes["name"] = name
         model = self._models.setdefault(own, Model(kind))
         for parameter in parameters(procedure):
-            model.inputs[parameter.name] = None
+            model.inputs[_port(parameter.name)] = None
             if text := self._text(block, parameter.id):
-                element.attributes[parameter.name] = text
+                element.attributes[_port(parameter.name)] = text
+        if kind == "Condition":
+            for key in self._set_inside(procedure.id):
+                model.outputs[_port(key)] = None
+                element.attributes[_port(key)] = f"{{{key}}}"
         return element
+
+    def _set_inside(self, procedure_id: str) -> list[str]:
+        """The values of the tree that an own block sets."""
+        header = header_of(self._project, procedure_id)
+        chain = self._project.stack_of(header).body[1:] if header else ()
+        blocks = [self._project.blocks[one] for one in chain]
+        keys = [self._scripts.key(one) for one in blocks if one.type == "tree.set"]
+        return list(filter(None, keys))
 
     def _step(self, block: Block) -> Element:
         name = str(self._value(block, "name"))
@@ -242,8 +255,8 @@ class _Writer:
         if body and body[0].type.startswith(CALL) and None not in results:
             element = self._call("Action", body[0], name)
             for port, ours in filter(None, results):
-                self._models[element.attributes["ID"]].outputs[port] = None
-                element.attributes[port] = f"{{{ours}}}"
+                self._models[element.attributes["ID"]].outputs[_port(port)] = None
+                element.attributes[_port(port)] = f"{{{ours}}}"
             return element
         if (code := self._code(body)) is not None:
             named = {} if name in ("", code) else {"name": name}
@@ -270,11 +283,20 @@ class _Writer:
         element = Element("SubTree", {"ID": str(self._value(block, "name"))})
         for one in (self._project.blocks[b] for b in block.bodies.get("ports.1", [])):
             key = str(self._value(one, "key")) if not one.disabled else ""
+            if key.startswith("@"):  # BehaviorTree.CPP shares it with all trees
+                continue
+            key = _port(key)
             if key and one.type == "tree.input":
                 element.attributes[key] = self._text(one, "value")
             elif key and one.type == "tree.output":
                 element.attributes[key] = f"{{{self._value(one, 'ours')}}}"
         return element
+
+
+def _port(name: str) -> str:
+    """A name as an attribute may have it."""
+    port = re.sub(r"[^\w.-]", "_", name)
+    return f"_{port}" if port and not (port[0].isalpha() or port[0] == "_") else port
 
 
 def _script(code: str) -> Element:
