@@ -9,6 +9,7 @@ https://docs.nav2.org/behavior_trees/overview/nav2_specific_nodes.html
 
 from __future__ import annotations
 
+import itertools
 import re
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field
@@ -16,6 +17,7 @@ from typing import Literal
 
 from ..arithmetic import is_number_text
 from .elements import Element
+from .scripts import assigned, used
 
 Skipped = Literal["success", "failure"]
 """How a part ends, for the part around it, when it is skipped."""
@@ -67,6 +69,8 @@ KNOWN = frozenset(
         "Precondition",
         "RecoveryNode",
         "RoundRobin",
+        "RunOnce",
+        "ParallelAll",
         "SubTree",
         *_RENAMED,
     )
@@ -191,6 +195,10 @@ class Plain:
         if tag == "RoundRobin":
             self.tell("“{name}” begins with its first part each time.", name=_name_of(part))
             return _row("Fallback", part, *self.all(children, "failure"))
+        if tag == "RunOnce" and children:
+            return self._once(part, skipped)
+        if tag in ("Parallel", "ParallelAll") and (counted := self._counted(part)) is not None:
+            return counted
         if tag == "Sleep" and not children:
             wait = Element("Delay", {"delay_msec": part.attributes.get("msec", "")}, part.line)
             wait.children = [Element("AlwaysSuccess", {}, part.line)]
@@ -254,6 +262,8 @@ class Plain:
         first = _row("ReactiveSequence", part, self.part(asked, "failure"), then)
         if not other:
             return first
+        codes = [one.attributes.get("code", "") for one in asked.inner()]
+        self._tell_changed(part, set(itertools.chain(*map(used, codes))), [then, *other])
         # Asked a second time in the same look, so that a failure of the first is one of the whole
         again = _row("ReactiveSequence", part, _not(self.part(asked, "failure")), *other)
         return _row("ReactiveFallback", part, first, again)
@@ -270,6 +280,7 @@ class Plain:
                 count=len(inside),
                 expected=cases + 1,
             )
+        self._tell_changed(part, {marked(variable)}, inside)
         rows, others, seen = [], [], set[str]()
         for number, child in enumerate(inside[:cases], 1):
             case = part.attributes.get(f"case_{number}", "")
@@ -318,6 +329,64 @@ class Plain:
         begun = _script(f"{tries} := {marked(retries) or retries}; {worked} := false")
         return _row("Sequence", part, begun, again, _asked(worked))
 
+    def _once(self, part: Element, skipped: Skipped) -> Element:
+        """Does what is in it a single time; it is skipped after that, or ends as it did then."""
+        done, worked = self._name("done_once"), self._name("worked")
+        is_skipped = part.attributes.get("then_skip", "true").strip().lower() in ("true", "1")
+        inside = _one_of(self.all(part.children, skipped), part)
+        well = _row("Sequence", part, inside, _script(f"{done} := true; {worked} := true"))
+        badly = _row("ForceFailure", part, _script(f"{done} := true; {worked} := false"))
+        first = _row("Fallback", part, well, badly)
+        if is_skipped and skipped == "success":
+            return _row("Fallback", part, _asked(done), first)
+        first = _row("Sequence", part, _not(_asked(done)), first)
+        if is_skipped:
+            return first
+        return _row("Fallback", part, _row("Sequence", part, _asked(done), _asked(worked)), first)
+
+    def _counted(self, part: Element) -> Element | None:
+        """Parts side by side of which some may fail; None where the first failure ends all."""
+        is_all, children = part.tag == "ParallelAll", part.children
+        enough = _count(part, len(children), "success_count", "success_threshold", default=-1)
+        most = _count(part, len(children), "failure_count", "failure_threshold", default=1)
+        if is_all:
+            enough = len(children)
+            most = _count(part, len(children), "max_failures", default=1)
+        if enough is None or most is None or not children:
+            return None
+        ends = len(children) + 1 if is_all else min(most, len(children) - enough + 1)
+        if not is_all and ends <= 1:
+            if most != 1:  # the first failure makes it impossible that enough succeed
+                for key in ("failure_count", "failure_threshold"):
+                    part.attributes.pop(key, None)
+            return None
+        failed = self._name("failed")
+        waits = Element("KeepRunningUntilFailure", {}, part.line, [Element("AlwaysSuccess", {})])
+        rows = []
+        for child in self.all(children):
+            counts = [_script(f"{failed} := {failed} + 1")]
+            if not is_all:
+                counts += [_asked(f"{failed} < {ends}"), waits]
+            rows.append(_row("Fallback", part, child, _one_of(counts, part)))
+        beside = Element("Parallel", {"success_count": str(enough)}, part.line, rows)
+        asked = [_asked(f"{failed} < {most}")] if is_all else []
+        return _row("Sequence", part, _script(f"{failed} := 0"), beside, *asked)
+
+    def _tell_changed(self, part: Element, names: set[str], inside: list[Element]) -> None:
+        """Tell where what is asked for at each look is changed by what is done meanwhile."""
+        for name in sorted(names):
+            if any(
+                name in assigned(one.attributes.get("code", ""))
+                for row in inside
+                for one in row.inner()
+            ):
+                self.tell(
+                    "“{name}” asks for “{value}”, which changes in it: if it fails then, another "
+                    "part of it may follow.",
+                    name=_name_of(part),
+                    value=name,
+                )
+
     def _as_asked(self, part: Element) -> Element:
         """What stands where a condition does is one, if the file does not tell what it is."""
         if part.tag == "Inverter" and len(part.children) == 1:
@@ -352,6 +421,15 @@ def _bare(element: Element) -> Element:
     if tag == "Parallel" and "threshold" in attributes:
         attributes["success_count"] = attributes.pop("threshold")
     return Element(tag, attributes, element.line, list(element.children))
+
+
+def _count(part: Element, parts: int, *keys: str, default: int) -> int | None:
+    """How many of the parts an attribute means: one below zero counts from all of them."""
+    text = next((part.attributes[key] for key in keys if key in part.attributes), str(default))
+    if not is_number_text(text.strip()) or not text.strip().lstrip("-").isdigit():
+        return None
+    number = int(text)
+    return number if number >= 0 else max(0, parts + number + 1)
 
 
 def _row(tag: str, part: Element, *children: Element) -> Element:

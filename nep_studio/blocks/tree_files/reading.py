@@ -21,7 +21,7 @@ from ..program import Procedure
 from ..slots import LONGEST_NAME, FieldValue, why_not_name
 from .elements import Element, TreeFileError
 from .plain import KNOWN, Plain, asks, marked
-from .scripts import Reader, Value, fill, set_value
+from .scripts import Reader, Value, fill, numbered, set_value
 from .values import given_to, key_of, names_in, output_name, ports_of, values_of
 
 MAIN_TREE = "MainTree"
@@ -117,7 +117,8 @@ class _Reader:
         self._trees = trees
         self._page = page
         self._told: dict[str, Text] = {}
-        self._names = dict(_new_names(editor, trees))
+        self._there = _tree_names(editor)
+        self._names = dict(_new_names(self._there, trees))
         for include in root.named("include"):
             self._tell(
                 "The file names another one, “{path}”: import that too.",
@@ -135,7 +136,9 @@ class _Reader:
         self._add_defaults()
         named = dict(zip(map(_id, trees), self._parts, strict=True))
         self._values = values_of(named, self._is_output, self._is_entry)
-        self._scripts = Reader(self._is_entry, self._tell_word)
+        self._made = plain.taken - entries
+        numbers = _numbers(itertools.chain.from_iterable(self._parts))
+        self._scripts = Reader(self._is_entry, numbers.__contains__, self._tell_word)
         self._own: dict[tuple[str, bool], Procedure] = {}
         self._free_y = _below(editor, page)
 
@@ -174,7 +177,7 @@ class _Reader:
         self._tell("“{word}” is a name of C++: here it is a text.", word=word)
 
     def _is_entry(self, name: str) -> bool:
-        return name in self._entries
+        return name in self._entries or not name.isupper()
 
     def _is_output(self, element: Element, port: str) -> bool:
         model = self._models.get(_model_key(element))
@@ -196,11 +199,12 @@ class _Reader:
         missing = self._values[name].missing()
         if not missing:
             return []
-        self._tell(
-            "Nothing in the file sets “{values}”: the first step of “{tree}” does it.",
-            values=", ".join(missing),
-            tree=self._names[name],
-        )
+        if told := [key for key in missing if key not in self._made]:
+            self._tell(
+                "Nothing in the file sets “{values}”: the first step of “{tree}” does it.",
+                values=", ".join(told),
+                tree=self._names[name],
+            )
         first = self._editor.language.word("set what comes from outside")
         return [_step(first, [set_value(key, (0, None)) for key in missing])]
 
@@ -266,6 +270,8 @@ class _Reader:
             asked = min(again, _INSIDE) if is_guarded else again
             if element.tag in _REACTIVE and any(map(self._may_run, children[at + 1 :])):
                 asked = _AGAIN
+            elif element.tag in _REACTIVE and child.tag in ("Script", "SetBlackboard"):
+                asked = max(asked, _INSIDE)  # what stands before it is not asked again meanwhile
             made.append(self._one(child, asked))
             is_guarded |= element.tag.endswith("Fallback") or any(map(self._asks, child.inner()))
         return made
@@ -342,6 +348,10 @@ class _Reader:
 
     def _sub_tree(self, element: Element) -> Made:
         name = element.attributes.get("ID", element.tag)
+        if name not in self._names and name not in self._there:
+            self._tell(
+                "The tree “{name}” is not in the file: import it too, or make it.", name=name
+            )
         made = Made("tree.sub_tree", {"name": self._names.get(name, _line(name))})
         if chain := [one for key, text in given_to(element) for one in _port(key, text)]:
             made.groups["ports"], made.bodies["ports.1"] = 1, chain
@@ -465,14 +475,19 @@ class _Reader:
 # What a file says before its trees are read.
 
 
-def _new_names(editor: Editor, trees: list[Element]) -> Iterator[tuple[str, str]]:
-    """The names of the trees of a file, each with one that no tree of the project has."""
+def _tree_names(editor: Editor) -> set[str]:
+    """The names of the trees of the project."""
     project = editor.project
-    taken = {
+    return {
         str(editor.language.definitions[block.type].value(block, "name"))
         for block in project.blocks.values()
         if block.type == "tree.tree"
     }
+
+
+def _new_names(there: set[str], trees: list[Element]) -> Iterator[tuple[str, str]]:
+    """The names of the trees of a file, each with one that no tree of the project has."""
+    taken = set(there)
     for tree in trees:
         name = _id(tree)
         numbered = (f"{name} {number}" for number in itertools.count(2))
@@ -487,6 +502,16 @@ def _model_key(element: Element) -> str:
 
 def _id(tree: Element) -> str:
     return tree.attributes.get("ID", MAIN_TREE)
+
+
+def _numbers(parts: Iterable[Element]) -> set[str]:
+    """The names of values that are numbers, as far as a file tells."""
+    found: set[str] = set()
+    for element in (one for part in parts for one in part.inner()):
+        found.update(numbered(element.attributes.get("code", "")))
+        if element.tag == "SetBlackboard" and is_number_text(element.attributes.get("value", "")):
+            found.add(key_of(element))
+    return found
 
 
 def _top(tree: Element) -> list[Element]:

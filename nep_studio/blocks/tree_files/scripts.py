@@ -25,6 +25,7 @@ _TOKEN = re.compile(
     r"\s*(?:(?P<number>(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)|(?P<text>'[^']*'|\"[^\"]*\")"
     r"|(?P<name>[A-Za-z_@][\w.@]*)|(?P<sign>&&|\|\||[:+\-*/=!<>]=|\.\.|[-+*/=!<>?:;()&|^~%]))"
 )
+_STATEMENT = re.compile(r"""(?:'[^']*'|"[^"]*"|[^;])+""")
 _COMPARED = {
     "==": "equal",
     "!=": "not_equal",
@@ -57,10 +58,12 @@ class Reader:
     """Makes blocks of scripts.
 
     ``is_entry`` is whether a name is one of the values of a tree; another one in capitals, as C++
-    gives to its enumerations, is a text, and ``tell_word`` is told of it.
+    gives to its enumerations, is a text, and ``tell_word`` is told of it. ``is_number`` is whether
+    a value is a number, of which 0 is no.
     """
 
     is_entry: Callable[[str], bool]
+    is_number: Callable[[str], bool]
     tell_word: Callable[[str], None]
 
     def statements(self, code: str) -> list[Made] | None:
@@ -73,7 +76,7 @@ class Reader:
 
     def _read(self, code: str, read: Callable[[_Words], _Read]) -> _Read | None:
         try:
-            words = _Words(list(_tokens(code)), self.is_entry)
+            words = _Words(list(_tokens(code)), self)
             made = read(words)
         except _Unread:
             return None
@@ -87,6 +90,22 @@ def assigned(code: str) -> Iterator[str]:
     for token, after in _pairs(code):
         if after in (":=", "=", "+=", "-=", "*=", "/=") and NAME.fullmatch(token):
             yield token
+
+
+def numbered(code: str) -> Iterator[str]:
+    """The names that a script sets to a number, or changes by one."""
+    tokens = [token for token, _ in _pairs(code)]
+    for name, sign, value in zip(tokens, tokens[1:], tokens[2:], strict=False):
+        is_set = sign in (":=", "=") and (value[:1].isdigit() or value == "-")
+        if is_set or sign in ("-=", "*=", "/="):
+            yield name
+
+
+def happens(code: str) -> Iterator[tuple[str, str]]:
+    """What a script “needs” and “sets”, by name, in its order."""
+    for statement in _STATEMENT.findall(code):
+        yield from (("needs", name) for name in used(statement))
+        yield from (("sets", name) for name in assigned(statement))
 
 
 def used(code: str) -> Iterator[str]:
@@ -118,9 +137,9 @@ def _tokens(code: str) -> Iterator[str]:
 class _Words:
     """The words of one script, read from the left."""
 
-    def __init__(self, tokens: list[str], is_entry: Callable[[str], bool]) -> None:
+    def __init__(self, tokens: list[str], known: Reader) -> None:
         self._tokens = tokens
-        self._is_entry = is_entry
+        self._known = known
         self._at = 0
         self._depth = 0
         self.enumerated: list[str] = []
@@ -243,7 +262,7 @@ class _Words:
         return value
 
     def _name(self, name: str) -> Value:
-        if self._is_entry(name) or not name.isupper():
+        if self._known.is_entry(name) or not name.isupper():
             return _entry(name)
         self.enumerated.append(name)
         return name, None
@@ -258,9 +277,10 @@ class _Words:
             return made
         if made.type != "tree.value":
             raise _Unread
-        # A value that is yes, or a number other than zero
-        truth = Made("logic.truth", {"truth": "false"})
-        return Made("logic.compare", {"comparison": "not_equal"}, {"a": made, "b": truth})
+        if self._known.is_number(str(made.fields["key"])):
+            return Made("logic.compare", {"comparison": "not_equal", "b": 0}, {"a": made})
+        truth = Made("logic.truth", {"truth": "true"})
+        return Made("logic.compare", {"comparison": "equal"}, {"a": made, "b": truth})
 
 
 def _entry(key: str) -> Value:

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 
 from .elements import Element
 from .plain import CONDITIONS, SCRIPTS, marked
-from .scripts import NAME, assigned, used
+from .scripts import NAME, assigned, happens
 
 NOT_PORTS = frozenset({"ID", "name"})
 _CODE = frozenset(("code", *CONDITIONS, *SCRIPTS, "_onHalted"))
@@ -102,8 +102,7 @@ def _events(
         return
     code = element.attributes.get("code", "")
     if element.tag in ("Script", "ScriptCondition"):
-        yield from (("needs", name) for name in used(code) if is_entry(name))
-        yield from (("sets", name) for name in assigned(code))
+        yield from (event for event in happens(code) if is_entry(event[1]))
         return
     after = []
     for key, text in ports_of(element).items():
