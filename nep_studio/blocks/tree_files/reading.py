@@ -21,7 +21,7 @@ from ..program import Procedure
 from ..slots import LONGEST_NAME, FieldValue, why_not_name
 from .elements import Element, TreeFileError
 from .plain import KNOWN, Plain, asks, marked
-from .scripts import Reader, Value, fill, numbered, set_value
+from .scripts import Reader, Value, fill, numbered, set_value, turned
 from .values import given_to, key_of, names_in, output_name, ports_of, values_of
 
 MAIN_TREE = "MainTree"
@@ -296,7 +296,7 @@ class _Reader:
         if inside is None or inside.tag != "ScriptCondition":
             return None
         condition = self._scripts.condition(inside.attributes.get("code", ""))
-        return None if condition is None else _check(Made("logic.not", inputs={"a": condition}))
+        return None if condition is None else _check(turned(condition))
 
     def _script_condition(self, element: Element) -> Made:
         code = _line(element.attributes.get("code", ""))
@@ -387,7 +387,8 @@ class _Reader:
     def _custom(self, element: Element, again: int) -> Made:
         """A part that only the file knows: an own block of its name."""
         name = _model_key(element)
-        model = self._models.get(name, Model())
+        kind = element.tag if element.tag == "Condition" else "Action"
+        model = self._models.setdefault(name, Model(kind))
         is_asked = model.kind == "Condition" or again == _AGAIN
         if is_asked and model.kind != "Condition":
             self._tell(

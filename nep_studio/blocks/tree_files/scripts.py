@@ -34,6 +34,7 @@ _COMPARED = {
     ">": "greater",
     ">=": "greater_or_equal",
 }
+_TURNED = {"equal": "not_equal", "not_equal": "equal"}
 _RECKONED = {"+": "add", "-": "subtract", "*": "multiply", "/": "divide"}
 _JOINED = {"&&": "and", "||": "or"}
 _LEVELS: tuple[tuple[str, ...], ...] = (
@@ -236,7 +237,7 @@ class _Words:
                 raise _Unread
             return value
         if token == "!":
-            return None, Made("logic.not", inputs={"a": self._as_condition(self._deeper())})
+            return None, turned(self._as_condition(self._deeper()))
         if token == "-":
             typed, plugged = self._deeper()
             if isinstance(typed, int | float):
@@ -294,6 +295,15 @@ def _two(kind: str, choice: str, chosen: str, a: Value, b: Value) -> Value:
     return None, made
 
 
+def turned(condition: Made) -> Made:
+    """The condition that is yes when another one is no."""
+    sign = condition.fields.get("comparison") if condition.type == "logic.compare" else None
+    if sign in _TURNED:
+        condition.fields["comparison"] = _TURNED[str(sign)]
+        return condition
+    return Made("logic.not", inputs={"a": condition})
+
+
 def fill(made: Made, key: str, value: FieldValue | None, plugged: Made | None) -> None:
     """Put what is typed, or a block, into a slot; the slot keeps its own otherwise."""
     if plugged is not None:
@@ -328,7 +338,7 @@ class Writer:
             return str(self.value(block, "truth"))
         if kind == "logic.not":
             asked = self.slot(block, "a")
-            return None if asked is None else f"!({asked})"
+            return None if asked is None else f"!({plain(asked)})"
         if kind == "logic.compare":
             return self._two(block, _sign(_COMPARED, self.value(block, "comparison")))
         if kind == "math.arithmetic":

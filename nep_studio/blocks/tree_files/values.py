@@ -147,7 +147,8 @@ def _share(call: Element, inside: Values) -> None:
     """Write out what a tree shares with the one around it: all, or what is of the whole file."""
     is_all = any(_is_true(call.attributes.get(key, "")) for key in _SHARED)
     known = _given(call)
-    for key in [*inside.needed, *inside.sets]:
+    # Those of the whole file are last, as they are not written out again
+    for key in sorted([*inside.needed, *inside.sets], key=lambda key: key.startswith("@")):
         is_shared = key.startswith("@") or (is_all and not key.startswith("_"))
         if is_shared and key not in known:
             call.attributes[key] = f"{{{key}}}"
