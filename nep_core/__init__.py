@@ -32,6 +32,7 @@ if TYPE_CHECKING:
     )
     from .program.goals import fail_goal, goal_value
     from .program.human import (
+        heard_answer,
         heard_word,
         human_state,
         is_remembered,
@@ -43,11 +44,20 @@ if TYPE_CHECKING:
     from .program.kept import Kept
     from .program.messages import tell, told_value
     from .program.plans import reach, the_plan
-    from .program.robot import Robot, as_robot, colour_from, mix_colours
+    from .program.robot import (
+        Robot,
+        as_robot,
+        colour_from,
+        for_each_robot,
+        mix_colours,
+        this_robot,
+    )
     from .program.tables import (
         as_table,
         change_at,
         has_key,
+        name_with_largest,
+        name_with_smallest,
         names_in,
         remove_key,
         set_at,
@@ -154,13 +164,14 @@ _HOMES = {
         "program.facts": "fact is_true makes_true makes_untrue needs no_longer_true now_true "
         "true_while",
         "program.goals": "fail_goal goal_value",
-        "program.human": "heard_word human_state is_remembered remember times_seen until_state "
-        "was_seen",
+        "program.human": "heard_answer heard_word human_state is_remembered remember times_seen "
+        "until_state was_seen",
         "program.kept": "Kept",
         "program.messages": "tell told_value",
         "program.plans": "reach the_plan",
-        "program.robot": "Robot as_robot colour_from mix_colours",
-        "program.tables": "as_table change_at has_key names_in remove_key set_at table_of value_at",
+        "program.robot": "Robot as_robot colour_from for_each_robot mix_colours this_robot",
+        "program.tables": "as_table change_at has_key name_with_largest "
+        "name_with_smallest names_in remove_key set_at table_of value_at",
         "program.tasks": "at_once end_actions set_priority stop_program stop_rule together wait "
         "wait_until",
         "program.timing": "date_today start_timer time_now time_part timer_seconds weekday_today",
@@ -187,19 +198,20 @@ __all__ += ["Repeat", "Retry", "Robot", "Sequence", "Step", "SubTree", "Subscrib
 __all__ += ["Variables", "WhileTrue", "add_item", "append_text", "as_list", "as_number", "as_robot"]
 __all__ += ["as_table", "as_text", "at_once", "change_at", "colour_from", "count_down"]
 __all__ += ["count_from", "count_up", "date_today", "deviation_of", "do_tree", "emotion_state"]
-__all__ += ["end_actions", "fact", "fail_goal", "fail_step", "goal_value", "has_item", "has_key"]
-__all__ += ["has_part", "heard_word", "human_state", "in_turn", "insert_item", "is_at_least"]
-__all__ += ["is_at_most", "is_less", "is_more", "is_remembered", "is_same", "is_true", "item_of"]
-__all__ += ["items_between", "join_items", "largest_of", "length_of", "letter_of", "list_with"]
-__all__ += ["makes_true", "makes_untrue", "mean_of", "median_of", "mix_colours", "names_in"]
-__all__ += ["needs", "no_longer_true", "now_true", "number_in", "one_of", "parts_of"]
+__all__ += ["end_actions", "fact", "fail_goal", "fail_step", "for_each_robot", "goal_value"]
+__all__ += ["has_item", "has_key", "has_part", "heard_answer", "heard_word", "human_state"]
+__all__ += ["in_turn", "insert_item", "is_at_least", "is_at_most", "is_less", "is_more"]
+__all__ += ["is_remembered", "is_same", "is_true", "item_of", "items_between", "join_items"]
+__all__ += ["largest_of", "length_of", "letter_of", "list_with", "makes_true", "makes_untrue"]
+__all__ += ["mean_of", "median_of", "mix_colours", "name_with_largest", "name_with_smallest"]
+__all__ += ["names_in", "needs", "no_longer_true", "now_true", "number_in", "one_of", "parts_of"]
 __all__ += ["place_in_text", "place_of", "random_whole", "reach", "remember", "remove_item"]
 __all__ += ["remove_key", "replace_part", "set_at", "set_item", "set_priority", "set_tree_value"]
 __all__ += ["smallest_of", "sorted_items", "start_timer", "stop_program", "stop_rule", "sum_of"]
-__all__ += ["table_of", "take_item", "tell", "the_plan", "time_now", "time_part", "timer_seconds"]
-__all__ += ["times_seen", "title_case", "to_nearest", "to_power", "together", "told_value"]
-__all__ += ["tree_value", "true_while", "until_state", "value_at", "wait", "wait_until", "was_seen"]
-__all__ += ["weekday_today", "what_went_wrong"]
+__all__ += ["table_of", "take_item", "tell", "the_plan", "this_robot", "time_now", "time_part"]
+__all__ += ["timer_seconds", "times_seen", "title_case", "to_nearest", "to_power", "together"]
+__all__ += ["told_value", "tree_value", "true_while", "until_state", "value_at", "wait"]
+__all__ += ["wait_until", "was_seen", "weekday_today", "what_went_wrong"]
 
 
 def __getattr__(name: str) -> Any:

@@ -395,6 +395,7 @@ class Behavior:
         expected = dict.fromkeys(filter(None, map(word_of_state, states)))
         words.send(ExpectedWords(words=list(expected)))
         listener = human_listener(network)
+        listener.of_rules = frozenset(states)
         self._busy_s = CLOCK.now_s()
         tell_by(self._tell_plan)
         listener.listen(self._on_behavior)
@@ -412,6 +413,7 @@ class Behavior:
                 self._supervise()
         finally:
             listener.unlisten(self._on_behavior)
+            listener.of_rules = frozenset()
             for part in self._parts:
                 part.task.cancel()
             for part in self._parts:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextvars
 import math
 import threading
 import time
@@ -14,31 +15,25 @@ from nep_core.networks.network import Network
 from nep_core.networks.transports import default_network
 from nep_core.wire.messages import HUMAN_BEHAVIOR, HumanBehavior
 from nep_core.wire.pubsub import Subscriber
-from nep_core.wire.states import HEARD, word_of_state
+from nep_core.wire.states import HEARD, NOISE, word_of_state
 
 from .tasks import CLOCK, POLL_S, Countdown, Stamp, current_task
 
 LONGEST_WAIT_S = 3600.0
 
 
-def next_word(
-    heard: list[str],
-    wanted: dict[str, str],
-    seconds: float,
-    resume: Callable[[], object] = lambda: None,
+def next_state(
+    heard: list[str], seconds: float, resume: Callable[[], object] = lambda: None
 ) -> str:
-    """Wait for the first state of ``heard`` that is a wanted word, or any word; "" when too late.
+    """Wait for the first state of ``heard``, which grows meanwhile; "" when none is in time.
 
-    ``heard`` grows while this waits; ``wanted`` is the word of each state. What is heard while
-    this part is held was said to somebody else; then ``resume`` is called, and it waits on.
+    What is heard while this part is held was said to somebody else; then ``resume`` is called, and
+    it waits on.
     """
-    task, countdown, looked_at = current_task(), Countdown(seconds), 0
+    task, countdown = current_task(), Countdown(seconds)
     while True:
-        while looked_at < len(heard):
-            state = heard[looked_at]
-            looked_at += 1
-            if state in wanted or (not wanted and word_of_state(state)):
-                return wanted.get(state) or word_of_state(state)
+        if heard:
+            return heard[0]
         if (left_s := countdown.left_s()) <= 0:
             return ""
         task.sleep(min(POLL_S, left_s))
@@ -47,7 +42,6 @@ def next_word(
             resume()
             countdown.skip()
             heard.clear()
-            looked_at = 0
 
 
 REMEMBER_S = 3.0
@@ -82,6 +76,8 @@ class HumanListener:
         self._seen: dict[str, Seen] = {}
         self.told: dict[str, Stamp] = {}
         """When each robot or node told of the person last."""
+        self.of_rules: frozenset[str] = frozenset()
+        """The states that rules of the program wait for."""
         self.remembered_until_s: dict[str, float] = {}
         """Until when, by the program's clock, states are remembered."""
         self._lock = threading.RLock()
@@ -107,19 +103,20 @@ class HumanListener:
         """When a state was last seen, and how often; times 0 when never."""
         return self._seen.get(state, Seen())
 
-    def last_of(self, beginning: str) -> str:
-        """The state seen last of those that begin so, "" when there was none."""
+    def last_of(self, beginning: str, *others: str) -> str:
+        """The state seen last of those that begin so, but for others; "" when there was none."""
         with self._lock:
-            fitting = [state for state in self._seen if state.startswith(beginning)]
+            fitting = [s for s in self._seen if s.startswith(beginning) and s not in others]
             return max(fitting, key=lambda state: self._seen[state].last_s, default="")
 
     @contextmanager
-    def following(self) -> Iterator[list[str]]:
-        """Give a list that grows by every state that comes from now on."""
+    def following(self, counts: Callable[[HumanBehavior], bool]) -> Iterator[list[str]]:
+        """Give a list that grows by every state from now on that counts."""
         states: list[str] = []
 
         def note(behavior: HumanBehavior) -> None:
-            states.append(behavior.human_state)
+            if counts(behavior):
+                states.append(behavior.human_state)
 
         with self._lock:
             self._listeners.append(note)  # not by listen(): what was before is not meant
@@ -192,4 +189,20 @@ def until_state(state: str, most: float = float("inf")) -> Iterator[int]:
 
 def heard_word() -> str:
     """The word that was heard last, "" when there was none."""
-    return word_of_state(human_listener().last_of(HEARD))
+    return word_of_state(human_listener().last_of(HEARD, NOISE))
+
+
+_answer: contextvars.ContextVar[str] = contextvars.ContextVar("nep_answer", default="")
+
+
+def heard_answer() -> str:
+    """What was answered to the question asked last in this part of a rule; "" when nothing was.
+
+    It is a word that was wanted, or another one as it was heard; "" for one not understood.
+    """
+    return _answer.get()
+
+
+def note_answer(answer: str) -> None:
+    """Let this be what was answered last in this part of a rule; "" where a rule begins."""
+    _answer.set(answer)

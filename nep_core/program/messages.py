@@ -10,7 +10,8 @@ from typing import Protocol
 
 from nep_core.errors import NepError
 
-from .tasks import current_task, forget_handled
+from .human import note_answer
+from .tasks import current_task, forget_origin
 from .values import as_text
 
 
@@ -44,7 +45,8 @@ class Run:
         """Let this be the run of the thread, and of the parts that it begins."""
         self.after = None  # else a rule that is always late would keep all its runs
         _own.set(self)
-        forget_handled()
+        forget_origin()
+        note_answer("")
 
     def end(self) -> None:
         """Tell everybody who waits for it that it is over, however it has ended."""

@@ -6,22 +6,29 @@ import math
 import re
 import threading
 import time
-from collections.abc import Collection
+from collections.abc import Callable, Collection, Sequence
 from difflib import get_close_matches
-from typing import Any
+from typing import Any, cast
 
 from faults import Text
 from nep_core.errors import RobotError
 from nep_core.networks.network import Network
 from nep_core.networks.transports import default_network
-from nep_core.wire.messages import ROBOT_STATE, RobotState
+from nep_core.wire.messages import ROBOT_STATE, HumanBehavior, RobotState
 from nep_core.wire.pubsub import Subscriber
-from nep_core.wire.states import TOUCHES, plain, state_of_word
+from nep_core.wire.states import (
+    NOISE,
+    NOT_UNDERSTOOD,
+    TOUCHES,
+    plain,
+    state_of_word,
+    word_of_state,
+)
 
 from .actions import ActionClient, action_client, not_answering
 from .choices import chosen
-from .human import LONGEST_WAIT_S, human_listener, next_word
-from .tasks import POLL_S, Stamp, current_task
+from .human import LONGEST_WAIT_S, human_listener, next_state, note_answer
+from .tasks import POLL_S, Stamp, current_task, for_each, own_value
 from .values import LOOK, PUT_ROBOT, as_text, noun_of, refuse, shown, spoken_language
 
 # Where the robots of a program are, and what their sensors measure, as last heard.
@@ -56,6 +63,11 @@ class RobotListener:
                     break
                 current_task().check()
                 self._news.wait(POLL_S)
+            return self._states[robot][0] if robot in self._states else None
+
+    def heard_of(self, robot: str) -> RobotState | None:
+        """The state that a robot told last; None of what has told none, as of who is no robot."""
+        with self._news:
             return self._states[robot][0] if robot in self._states else None
 
     def model(self, robot: str) -> str:
@@ -155,9 +167,24 @@ class Robot:
         self._network = network
         self._has_language = False
         """Whether the program has set the language in which it speaks."""
-        if len(self.robots) == 1:
-            _ROBOTS[self.robots[0]] = self
+        if isinstance(robots, str):
+            _ROBOTS[robots] = self
         robot_listener(network)  # what robots tell from now on is known when it is asked for
+
+    def with_others(self, others: Sequence[Robot]) -> Robot:
+        """This robot and others, which act at once; each is one of them once."""
+        names = dict.fromkeys(name for robot in (self, *others) for name in robot.robots)
+        return Robot(list(names), network=self._network)
+
+    def one_by_one(self) -> list[Robot]:
+        """Each of these robots, by itself: the one that the program has, where it has it."""
+
+        def of(name: str) -> Robot:
+            known = _ROBOTS.get(name)
+            is_here = known is not None and known._network is self._network
+            return known if known and is_here else Robot(name, network=self._network)
+
+        return [self] if len(self.robots) == 1 else list(map(of, dict.fromkeys(self.robots)))
 
     def __str__(self) -> str:
         """Its name; the names of several."""
@@ -206,12 +233,44 @@ class Robot:
     def ask(self, question: object, words: list[str] | None = None, seconds: float = 10.0) -> str:
         """Ask something, and give the word that is heard; "" when none is in time.
 
-        With ``words``, only those count as an answer.
+        With ``words`` any other answer ends the wait too: it is given as it was heard, "" when it
+        was not understood. What a rule waits for is said to that rule, and no other answer.
         """
-        with human_listener(self._network).following() as heard:
+        note_answer("")
+        wanted = {state_of_word(word): word for word in words or []}
+        listener = human_listener(self._network)
+
+        def counts(behavior: HumanBehavior) -> bool:
+            state = behavior.human_state
+            if state in wanted or (not wanted and _is_word(state)):
+                return self._is_told(behavior.source)
+            is_other = _is_word(state) and state not in listener.of_rules
+            is_answer = bool(wanted) and (is_other or state == NOT_UNDERSTOOD)
+            return is_answer and self._is_heard_by(behavior.source)
+
+        with listener.following(counts) as heard:
             self.say(question)
             heard.clear()  # what was said before the question ended answers nothing
-            return self._listen(words or [], seconds, heard, str(question))
+            state = self._listen(words or [], seconds, heard, str(question))
+        answer = wanted.get(state) or word_of_state(state)
+        note_answer(answer)
+        return answer
+
+    def _is_told(self, source: str) -> bool:
+        """Whether what somebody has heard may be said to this robot: not to another that asks."""
+        other = robot_listener(self._network).heard_of(source)
+        return source in self.robots or other is None or not other.listening
+
+    def _is_heard_by(self, source: str) -> bool:
+        """Whether it was this robot that has heard something, or no robot, and none of its words.
+
+        A robot that talks may hear itself.
+        """
+        robots = robot_listener(self._network)
+        if source not in self.robots and robots.heard_of(source) is not None:
+            return False
+        own = map(robots.heard_of, self.robots)
+        return not any(state is not None and state.saying for state in own)
 
     def ask_number(self, question: object, seconds: float = 10.0) -> float:
         """Ask for a number, and give it; an answer that is none is asked again, three times in all.
@@ -237,8 +296,15 @@ class Robot:
 
     def wait_for_word(self, *words: str, seconds: float = LONGEST_WAIT_S) -> str:
         """Wait until one of the words is heard, and give it; "" when none is in time."""
-        with human_listener(self._network).following() as heard:
-            return self._listen(list(words), seconds, heard)
+        wanted = {state_of_word(word): word for word in words}
+
+        def counts(behavior: HumanBehavior) -> bool:
+            state = behavior.human_state
+            return state in wanted or (not wanted and _is_word(state))
+
+        with human_listener(self._network).following(counts) as heard:
+            state = self._listen(list(words), seconds, heard)
+            return wanted.get(state) or word_of_state(state)
 
     def set_volume(self, percent: float) -> None:
         """Set how loud it speaks, 0 to 100."""
@@ -260,8 +326,7 @@ class Robot:
     def _listen(
         self, words: list[str], seconds: float, heard: list[str], question: str = ""
     ) -> str:
-        """Listen for an answer; after an interruption a question is asked once more."""
-        wanted = {state_of_word(word): word for word in words}
+        """Listen for an answer, and give its state; an interrupted question is asked once more."""
         listening = {"words": words, "seconds": min(seconds, LONGEST_WAIT_S)}
 
         def ask_again() -> None:
@@ -272,7 +337,7 @@ class Robot:
 
         self._client.begin(self.robots, "listen", listening)
         try:
-            return next_word(heard, wanted, seconds, ask_again)
+            return next_state(heard, seconds, ask_again)
         finally:
             self._client.end(self.robots, "listen")
 
@@ -583,9 +648,15 @@ _ROBOTS: dict[str, Robot] = {}
 
 
 def as_robot(value: Any) -> Robot:
-    """The same robot, or that of a name; raises ValueRefused for what is none of the program's."""
+    """The same robot, or that of a name; of a list of them those that act at once.
+
+    Raises ValueRefused for what is none of the program's.
+    """
     if isinstance(value, Robot):
         return value
+    if isinstance(value, list) and value and not any(isinstance(one, list) for one in value):
+        every = [as_robot(one) for one in value]
+        return every[0].with_others(every[1:])
     if not isinstance(value, str):
         refuse(
             "A robot belongs here, and {value} is {noun}.",
@@ -607,6 +678,37 @@ def as_robot(value: Any) -> Robot:
         known=", ".join(_ROBOTS),
         near="".join(near),
     )
+
+
+# What is done for each of several robots at once.
+
+
+def for_each_robot(robots: Robot, function: Callable[[], object]) -> None:
+    """Call the function once for each of the robots, side by side, and wait for all.
+
+    In it ``this_robot()`` is the robot for which it is called. As ``together`` it ends all when
+    one ends by an error, which is raised.
+    """
+    for_each(robots.one_by_one(), function)
+
+
+def this_robot() -> Robot:
+    """The robot for which this is done; raises RobotError outside of ``for_each_robot``."""
+    robot = cast("Robot | None", own_value())
+    if robot is None:
+        raise RobotError(
+            "“This robot” is known only inside of “do for each of … at once”.",
+            checklist=(
+                "Put it into a block “do for each of … at once”.",
+                "Or choose a robot in its place.",
+            ),
+        )
+    return robot
+
+
+def _is_word(state: str) -> bool:
+    """Whether a human state tells of a word: a noise is none."""
+    return bool(word_of_state(state)) and state != NOISE
 
 
 def _is_on(on: object) -> bool:

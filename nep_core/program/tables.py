@@ -17,12 +17,14 @@ from .values import (
     LOOK,
     TRUE_KEY,
     TruthKey,
+    as_comparable,
     as_number,
     noun_of,
     refuse,
     shown,
 )
 
+ASK_EMPTY = "Ask first whether the table is empty."
 ASK_FIRST = "Ask first whether the table has it."
 TAKE_OTHERWISE = "Or take the block that says what to give if it is not there."
 PUT_TABLE = "Put a table into this place."
@@ -87,6 +89,31 @@ def has_key(table: Any, key: Any) -> bool:
 def names_in(table: Any) -> list[Any]:
     """The keys of a table in the order in which they were set first."""
     return [key.value if isinstance(key, TruthKey) else key for key in list(as_table(table))]
+
+
+def name_with_largest(table: Any) -> Any:
+    """The first name at which a table keeps its largest value: numbers only, or texts only.
+
+    Raises ValueRefused where the table is empty, or what it keeps cannot be compared.
+    """
+    names, values = _comparable_values(table)
+    return names[values.index(max(values))]
+
+
+def name_with_smallest(table: Any) -> Any:
+    """The first name at which a table keeps its smallest value; as ``name_with_largest``."""
+    names, values = _comparable_values(table)
+    return names[values.index(min(values))]
+
+
+def _comparable_values(table: Any) -> tuple[list[Any], list[Any]]:
+    """The names of a table and their values, of which each can be compared with the others."""
+    kept = list(as_table(table).items())  # at once: another rule may put something in meanwhile
+    if not kept:
+        refuse("The table is empty: no value in it is the largest or the smallest.", ASK_EMPTY)
+    names = [key.value if isinstance(key, TruthKey) else key for key, _ in kept]
+    values = [value for _, value in kept]
+    return names, as_comparable(values)
 
 
 def _key(value: Any) -> Hashable:

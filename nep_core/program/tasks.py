@@ -15,8 +15,9 @@ import os
 import sys
 import threading
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
+from functools import partial
 from types import FrameType
 from typing import Any, Literal, NamedTuple
 
@@ -326,9 +327,19 @@ def handled_error() -> BaseException | None:
     return sys.exception() or _handled.get()
 
 
-def forget_handled() -> None:
-    """Let nothing have gone wrong yet here: a rule begins that another has told to."""
+_own_value: contextvars.ContextVar[object] = contextvars.ContextVar("nep_own_value", default=None)
+"""The value for which this part is done, where it is one of ``for_each``."""
+
+
+def own_value() -> object:
+    """The value for which this is done, in a part of ``for_each`` and its parts; None elsewhere."""
+    return _own_value.get()
+
+
+def forget_origin() -> None:
+    """Let nothing have gone wrong yet here, and be for no value: a rule begins that was told to."""
     _handled.set(None)
+    _own_value.set(None)
 
 
 _names: set[str] = set()
@@ -504,6 +515,16 @@ def together(*functions: Callable[[], object]) -> None:
     for part in parts:
         if part.error is not None:
             raise part.error
+
+
+def for_each(values: Iterable[object], function: Callable[[], object]) -> None:
+    """Call the function once for each value, side by side, as ``together`` does."""
+
+    def do(value: object) -> None:
+        _own_value.set(value)  # of this part, and of those that it begins
+        function()
+
+    together(*(partial(do, value) for value in values))
 
 
 def end_actions() -> None:

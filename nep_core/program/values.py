@@ -618,10 +618,14 @@ def list_with(item: Any, times: Any) -> list[Any]:
 
 def sorted_items(items: Any, reverse: bool = False) -> list[Any]:
     """The numbers, or the texts, of a list in their order."""
-    held = as_list(items)
-    for item in held:
-        _comparable(held[0], item)
-    return sorted(held, reverse=reverse)
+    return sorted(as_comparable(as_list(items)), reverse=reverse)
+
+
+def as_comparable(values: list[Any]) -> list[Any]:
+    """The same values; raises ValueRefused unless they are all numbers, or all texts."""
+    for value in values:
+        _comparable(values[0], value)
+    return values
 
 
 def _index(number: Any, items: Sequence[Any], from_end: bool, more: int = 0) -> int:

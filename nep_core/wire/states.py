@@ -40,6 +40,12 @@ def word_of_state(state: str) -> str:
     return state.removeprefix(HEARD).replace("_", " ") if state.startswith(HEARD) else ""
 
 
+NOISE = state_of_thing("sound")
+"""The human state of a noise: no word, though it begins like one."""
+NOT_UNDERSTOOD = "not_understood"
+"""The human state of somebody who has said what a robot that listens has not made out."""
+
+
 TOUCHES = {
     "head": ("head_front", "head_middle", "head_rear"),
     "hand": ("hand_left", "hand_right"),

@@ -328,6 +328,7 @@ FLAGS = {
     "takes_ports": "its body says what goes into a behaviour tree, and out of it",
     "of_ports": "it says what goes into a behaviour tree, or out of it",
     "in_step": "it belongs inside a step of a behaviour tree",
+    "in_each_robot": "it belongs inside what is done for each robot",
     "last": "nothing after this block is ever reached",
     "stands": "the robot must stand",
     "stands_up": "the robot stands from then on",

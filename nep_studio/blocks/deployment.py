@@ -9,13 +9,15 @@ from typing import NamedTuple, cast
 from .language import Language
 from .procedures import DEFINE
 from .program import ROBOT_BLOCK, Block, Project
-from .slots import GESTURE_STATE, Setting
+from .slots import ARM_STATE, GESTURE_STATE, Setting
 
 NODE_BLOCK = "nodes.launch"
 OUTSIDE_BLOCK = "code.program"
 """The block of Python that stands outside of all functions: no rule, but it becomes code."""
 GESTURE_NODE = "perceptual/gesture"
 """The node that recognises gestures."""
+POSTURE_NODE = "perceptual/posture"
+"""The node that tells how an arm is held."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -65,7 +67,9 @@ def node_entries(project: Project, language: Language) -> tuple[NodeEntry, ...]:
 
 
 class Use(NamedTuple):
-    """A block of a rule names a "robot" ("*" is all of them), a "gesture", a "message" or a "rule".
+    """A block of a rule names a "robot" ("*": all), a "gesture", an "arm", a "message", a "rule".
+
+    An "arm" is the human state that tells how an arm is held.
 
     Of messages, "heard" are those with which a rule begins.
     """
@@ -92,10 +96,18 @@ def find_uses(project: Project, language: Language, chain: list[str]) -> Iterato
                 yield Use("heard", name, block.id)
             elif kind in ("robot", "message", "rule"):
                 yield Use(kind, name, block.id)
+            elif (kind == "state" or kind in _HOLDING) and is_arm_state(name, language):
+                yield Use("arm", name, block.id)
             elif name.startswith(GESTURE_STATE) and kind in _HOLDING:
                 gesture = name.removeprefix(GESTURE_STATE)
                 if gesture in language.choices.get("gestures", ()):
                     yield Use("gesture", gesture, block.id)
+
+
+def is_arm_state(state: str, language: Language) -> bool:
+    """Whether a human state tells how the arm that wears a watch is held."""
+    postures = language.choices.get("arm_postures", ())
+    return state.startswith(ARM_STATE) and state.removeprefix(ARM_STATE) in postures
 
 
 _HOLDING = ("any", "text")

@@ -1,7 +1,8 @@
 """Which variables several parts of a program change at once, and which lists change in place.
 
 Parts that run at once are rules, goals and what begins with the program, and in each of them the
-parts of “do together” and of “do side by side”. An own block runs wherever it is called.
+parts of “do together” and of “do side by side”, and “do for each of … at once” with itself. An own
+block runs wherever it is called.
 """
 
 from __future__ import annotations
@@ -18,6 +19,7 @@ from .procedures import CALL, DEFINE, procedure_of
 from .program import Block, Project
 
 TOGETHER, PARALLEL = "control.together", "tree.parallel"
+EACH_ROBOT = "control.each_robot"
 CODE_LINES, VARIABLE = "code.lines", "variable.get"
 CHANGING_LISTS = frozenset({"list.add", "list.set", "list.insert", "list.remove", "list.take"})
 CHANGING_TABLES = frozenset({"table.set", "table.take", "table.change"})
@@ -27,8 +29,11 @@ LIST_SLOT, TABLE_SLOT = "list", "table"
 Path = tuple[tuple[str, str], ...]
 """The parts that run at once around a block, from the outermost to the innermost.
 
-Of “do together” the block and the slot, of “do side by side” the block and the one in its mouth.
+Of “do together” the block and the slot, of “do side by side” the block and the one in its mouth,
+of “do for each of … at once” the block and ``WITH_ITSELF``.
 """
+WITH_ITSELF = "*"
+"""The part of what runs several times at once."""
 Places = Mapping[str, frozenset[Path]]
 
 
@@ -110,7 +115,9 @@ def look_at(project: Project, language: Language, chain: list[str]) -> Iterator[
             if block.type == PARALLEL:
                 waiting += [(child, (*path, (block.id, child))) for child in body]
                 continue
-            inside = (*path, (block.id, slot)) if block.type == TOGETHER else path
+            inside = path
+            if block.type in (TOGETHER, EACH_ROBOT):
+                inside = (*path, (block.id, slot if block.type == TOGETHER else WITH_ITSELF))
             waiting += [(child, inside) for child in body]
     defines = procedure_of(first.type) if first.type.startswith(DEFINE) else ""
     yield Chain(
@@ -208,11 +215,13 @@ MOST_NESTED = 20
 
 
 def _run_at_once(paths: set[Path]) -> bool:
-    """Whether two of these places are in different parts of the same “do together”."""
+    """Whether two of these places, or one of them with itself, are done at the same time."""
     parts: dict[tuple[Path, str], str] = {}
     for path in paths:
         for depth, step in enumerate(path):
             together, part = step
+            if part == WITH_ITSELF:
+                return True
             if parts.setdefault((path[:depth], together), part) != part:
                 return True
     return False

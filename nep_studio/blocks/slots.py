@@ -44,6 +44,8 @@ LONGEST_NAME = 100
 MOST_SETTINGS = 100
 GESTURE_STATE = "gesture_"
 """What the state begins with that a recogniser tells of a gesture."""
+ARM_STATE = "arm_"
+"""What the state begins with that tells how the arm that wears a watch is held."""
 
 RESULTS = {
     "number": "a number",

@@ -482,9 +482,10 @@ def _complete(editor: Editor) -> None:
         if name not in here:
             _add(editor, "robots", ROBOT_BLOCK, {"name": name, "driver": "virtual"})
     gestures = list(names_used(project, language, "gesture"))
-    if not gestures or node_entries(project, language):
+    movements = [*gestures, *names_used(project, language, "arm")]
+    if not movements or node_entries(project, language):
         return
-    made = ", ".join(f"{FIRST_GESTURE_S * (n + 1)} {each}" for n, each in enumerate(gestures))
+    made = ", ".join(f"{FIRST_GESTURE_S * (n + 1)} {each}" for n, each in enumerate(movements))
     watch: FieldValue = {"gestures": made, "person": 107}
     _add(editor, "nodes", NODE_BLOCK, {"node": WATCH, "name": "watch", "parameters": watch})
     for gesture in gestures:

@@ -14,12 +14,12 @@ from nep_studio.blocks.deployment import chains, rules
 from nep_studio.blocks.errors import EditRefused
 from nep_studio.blocks.language import Language
 from nep_studio.blocks.program import ALL_ROBOTS, Block, Project
-from nep_studio.blocks.slots import GESTURE_STATE, why_not_line
+from nep_studio.blocks.slots import ARM_STATE, GESTURE_STATE, why_not_line
 from nep_studio.blocks.text import field_text
 
 Kind = Literal[
     "word", "face", "distance", "touch", "gesture", "ball", "mark", "sound", "emotion", "state",
-    "sensor", "joint", "posture", "doing", "idle",
+    "sensor", "joint", "posture", "doing", "idle", "arm",
 ]  # fmt: skip
 
 REMEMBER = "sensing.remember"
@@ -130,11 +130,13 @@ def state_of(occurrence: Occurrence) -> str:
             return f"emotion_{value}"
         case "gesture":
             return f"{GESTURE_STATE}{value}"
+        case "arm":
+            return f"{ARM_STATE}{value}"
     return value or "touched_head"
 
 
 _OF_A_CHOICE: frozenset[Kind] = frozenset(
-    ("touch", "distance", "emotion", "sensor", "joint", "posture", "doing")
+    ("touch", "distance", "emotion", "sensor", "joint", "posture", "doing", "arm")
 )
 """What is always one of a table: it makes nothing without one."""
 _THINGS: tuple[Kind, ...] = ("face", "ball", "mark", "sound")
@@ -142,6 +144,7 @@ _STATES: tuple[tuple[str, Kind, str], ...] = (
     ("touched_", "touch", "touch_parts"),
     ("emotion_", "emotion", "emotions"),
     ("person_", "distance", "distances"),
+    (ARM_STATE, "arm", "arm_postures"),
 )
 
 
@@ -268,7 +271,7 @@ PREFIX = "cue_"
 MOST_CUES = 200
 KEYS = "123456789"
 
-CueKind = Literal["state", "word", "gesture", "touch", "sight", "emotion", "person"]
+CueKind = Literal["state", "word", "gesture", "touch", "sight", "emotion", "person", "arm"]
 
 
 class Cue(msgspec.Struct, frozen=True, omit_defaults=True):
@@ -296,8 +299,10 @@ class Cue(msgspec.Struct, frozen=True, omit_defaults=True):
         return self.state, self.source
 
     @property
-    def gesture(self) -> str:
-        """The gesture that it tells of, "" when of none."""
+    def movement(self) -> str:
+        """What a simulated person does so that a watch tells of it, "" when no watch does."""
+        if self.kind == "arm":
+            return self.state
         is_gesture = self.state.startswith(GESTURE_STATE)
         return self.state.removeprefix(GESTURE_STATE) if is_gesture else ""
 
@@ -366,6 +371,7 @@ _CUE_KINDS: dict[Kind, CueKind] = {
     "sound": "sight",
     "emotion": "emotion",
     "distance": "person",
+    "arm": "arm",
 }
 
 

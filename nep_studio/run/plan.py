@@ -10,6 +10,7 @@ from nep_core.errors import NepError, NodeError
 from nep_core.places import node_folders
 from nep_core.processes.manifest import NodeCatalog
 from nep_studio.blocks.deployment import (
+    POSTURE_NODE,
     NodeEntry,
     RobotEntry,
     is_recognised,
@@ -135,7 +136,11 @@ def plan(project: Project, language: Language, choices: Choices, folder: Path) -
     known = {*language.choices.get("gestures", {})} | {*trained_gestures(project)}
     gestures = [gesture for gesture in names_used(project, language, "gesture") if gesture in known]
     nodes += _missing_gestures(project, language, listed, gestures, {node.name for node in nodes})
-    nodes = _with_a_watch(nodes, choices, gestures)
+    arms = list(names_used(project, language, "arm"))
+    if arms and all(entry.node != POSTURE_NODE for entry in listed):
+        name = _free("arm", {node.name for node in nodes})
+        nodes.append(PlannedNode(POSTURE_NODE, name, {}, "a rule waits for how an arm is held"))
+    nodes = _with_a_watch(nodes, choices, [*gestures, *arms])
     nodes = [with_takes(node, project) for node in nodes]
     if choices.speed == 1.0:
         return nodes
@@ -304,8 +309,8 @@ def _with_a_watch(
 ) -> list[PlannedNode]:
     """Give the gesture nodes something to look at: the recording, else a watch.
 
-    A virtual watch that is to move by itself makes ``gestures``, those that the rules wait for;
-    any other waits until somebody asks.
+    A virtual watch that is to move by itself makes ``gestures``, those that the rules wait for,
+    with how an arm is to be held; any other waits until somebody asks.
     """
     if choices.recording is not None:
         settings: dict[str, Setting] = {

@@ -13,6 +13,7 @@ ICONS: dict[CueKind, str] = {
     "sight": "eye",
     "emotion": "user",
     "person": "users",
+    "arm": "person-standing",
 }
 
 
@@ -37,6 +38,8 @@ def _words(cue: Cue) -> str:
             return tr("Looks {emotion}", emotion=about)
         case "person":
             return tr("Somebody is {distance}", distance=about)
+        case "arm":
+            return tr("The arm is {posture}", posture=about)
     return about[:1].upper() + about[1:]
 
 
@@ -55,4 +58,6 @@ def invitation(cue: Cue) -> str:
             return tr("Your face: {emotion}", emotion=cue.words)
         case "person":
             return tr("Your place: {distance}", distance=cue.words)
+        case "arm":
+            return tr("Your arm: {posture}", posture=cue.words)
     return _words(cue)

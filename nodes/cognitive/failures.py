@@ -95,6 +95,8 @@ def _values(node: ast.AST, frame: FrameType) -> dict[str, Words]:
             | ast.Call(func=ast.Attribute(value=items, attr="pop"), args=[index])
         ):
             return _place(items, index, frame)
+        case ast.Call(func=ast.Name(id="max" | "min"), args=[held]):
+            return {"table": _in_words(held)} if isinstance(_value(held, frame), dict) else {}
     return {}
 
 
@@ -429,6 +431,12 @@ SENTENCES = (
         "is not in list|not in tuple|x not in list",
         "The list does not have what was looked for.",
         ("Ask first whether the list has it.", CHECK_LIST),
+    ),
+    Explanation(
+        ValueError,
+        r"empty sequence|is empty",
+        "The table “{table}” is empty: no value in it is the largest or the smallest.",
+        ("Ask first whether the table is empty.", SHOW_VALUES),
     ),
     Explanation(
         ValueError,

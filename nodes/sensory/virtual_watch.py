@@ -16,11 +16,11 @@ import numpy as np
 from faults import fault_of
 from nep_core.errors import ParameterError
 from nep_core.processes.node import Node
-from nep_core.wire.messages import GESTURE_REQUEST, IMU, GestureRequest, Imu
+from nep_core.wire.messages import GESTURE_REQUEST, IMU, GestureRequest, Imu, Wrist
 from nodes.perceptual.recognition.streams import Take, takes_of, usual_wrist, worn_at
 from nodes.recordings import Recording, read_recordings
 
-from .arm.gestures import GESTURES, MAKES_GESTURE, Gesture, gesture_named
+from .arm.gestures import GESTURES, MAKES_GESTURE, POSTURES, Gesture, gesture_named
 from .arm.motion import GRAVITY_M_S2, Floats, minimum_jerk
 from .arm.people import MOST_WAITING, LivePerson, Samples
 from .reading import rows
@@ -73,14 +73,14 @@ class Repertoire:
         return tuple(dict.fromkeys((*self.own, *GESTURES)))
 
     def find(self, name: str) -> Movement:
-        """The gesture of this name; ParameterError names the known ones."""
-        found = self.own.get(name) or GESTURES.get(name)
+        """The gesture, or posture, of this name; ParameterError names the known ones."""
+        found = self.own.get(name) or GESTURES.get(name) or POSTURES.get(name)
         if found is None:
             raise ParameterError(
                 'The simulated person knows no gesture "{name}".',
                 checklist=("Choose one of: {known}.",),
                 name=name,
-                known=", ".join(self.names),
+                known=", ".join((*self.names, *POSTURES)),
             )
         return found
 
@@ -191,6 +191,11 @@ class Wearer:
     def number(self) -> int:
         """Which person it is."""
         return self._person.number
+
+    @property
+    def wrist(self) -> Wrist:
+        """On which wrist the watch is worn."""
+        return self._person.wrist
 
     @property
     def now_s(self) -> float:
@@ -438,6 +443,11 @@ class Schedule:
         return planned.gesture
 
 
+_HOLDS = {
+    "arm_raised": "holds the arm up (simulated person {number})",
+    "arm_level": "holds the arm level (simulated person {number})",
+    "arm_lowered": "lets the arm hang (simulated person {number})",
+}
 _BATCH_S = 0.03
 _MOST_LATE_S = 0.2  # after a longer hold-up (a computer that slept) time is left out, not caught up
 _HANDED_OVER_S = 1.0  # by the watch's clock, without samples, when another person puts the watch on
@@ -546,7 +556,13 @@ class _Watch:
             gyr=rows(samples.gyr),
             simulated=True,
             person=self._wearer.number,
+            wrist=self._wrist,
         )
+
+    @property
+    def _wrist(self) -> Wrist:
+        """Where the person wears it; recorded gestures may be those of another wrist."""
+        return "" if self._repertoire.own else self._wearer.wrist
 
     def _ask(self, gesture: Movement) -> None:
         if not self._wearer.ask(gesture):
@@ -560,7 +576,9 @@ class _Watch:
     def _tell(self, gesture: str) -> None:
         if gesture != self._announced:
             makes = fault_of(
-                "makes the gesture {gesture} (simulated person {number})",
+                "makes the gesture {gesture} (simulated person {number})"
+                if gesture not in POSTURES
+                else _HOLDS[gesture],
                 code=MAKES_GESTURE,
                 gesture=gesture,
                 number=self._wearer.number,

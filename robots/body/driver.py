@@ -140,6 +140,10 @@ def state_of_thing(thing: str) -> str:
     return f"heard_{thing}" if thing == "sound" else f"seen_{thing}"
 
 
+NOT_UNDERSTOOD = "not_understood"
+"""The human state of somebody who has said what a robot that listens has not made out."""
+
+
 def states_of_touch(sensor: str) -> list[str]:
     """The human states of a touch: of the sensor by itself, then of the part that it is on."""
     return [f"touched_{sensor}", f"touched_{sensor.partition('_')[0]}"]

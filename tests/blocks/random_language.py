@@ -37,6 +37,7 @@ TEXTS = [
 ]
 NUMBERS = [0, 1, 2, 3, 5, 10, -1, -2, 0.5, 2.5, -2.5, 1.5, 0.1, 0.2, 1e-7, 123456789.25]
 DEEPEST = 3
+EACH_ROBOT = "control.each_robot"
 
 
 @dataclass
@@ -378,6 +379,12 @@ class Maker:
             bodies["otherwise"].insert(0, self._say(self._no_reason()))
         return B("control.try", bodies=bodies)
 
+    def _for_the_robot(self) -> list[B]:
+        if self.where.procedure is not None:
+            return [self._say()]
+        said = B("robot.say", inputs={"robot": B("control.this_robot"), "text": self._any()})
+        return [said, *self._body(apart=True)]
+
     def _no_reason(self) -> B:
         """Whether nothing went wrong: the words of what did are nobody's to judge."""
         return B("text.is_empty", inputs={"text": B("control.went_wrong")})
@@ -389,7 +396,9 @@ class Maker:
         return B("event.tell", fields, given, groups={"value": len(given), "wait": 1})
 
     def _parts(self) -> B:
-        kind = self.dice.choice(["control.together", "goal.one_of", "goal.in_turn"])
+        kind = self.dice.choice(["control.together", "goal.one_of", "goal.in_turn", EACH_ROBOT])
+        if kind == EACH_ROBOT:  # of several nobody knows who is first
+            return B(kind, bodies={"do": self._for_the_robot()})
         count = self.dice.randint(1, 3) if kind == "goal.in_turn" else 1
         bodies = {f"do.{n}": self._body(apart=True) for n in range(1, count + 1)}
         if self.where.procedure is not None:  # a part gives nothing back for its own block
@@ -427,7 +436,7 @@ class Maker:
         if giving and self._chance(0.5):
             return self._call(self.dice.choice(giving))
         if "table" in self.kinds.values() and self._chance(0.4):
-            return self._at()
+            return self._at() if self._chance(0.7) else self._name_with()
         if self._chance(0.5):
             return self._item()
         inputs = {"a": self._leaf(), "b": self._leaf(), "condition": self._boolean()}
@@ -488,6 +497,18 @@ class Maker:
         if self._chance(0.15):
             return B("table.get", inputs=inputs)
         return B("table.get_or", inputs={**inputs, "otherwise": self._leaf()})
+
+    def _name_with(self) -> B:
+        """The name of the largest or smallest value, mostly in a table that can say so."""
+        fields = {"extreme": self.dice.choice(["max", "min"])}
+        if self._chance(0.4):
+            return B("table.name_with", fields, {"table": self._table()})
+        value = self.dice.choice([self._typed_number, self._typed_text])
+        count = self.dice.randint(0, 3)
+        inputs = {f"value.{number}": value() for number in range(1, count + 1)}
+        inputs |= {f"key.{number}": self._typed_key() for number in range(1, count + 1)}
+        table = B("table.create", inputs=inputs, groups={"entry": count})
+        return B("table.name_with", fields, {"table": table})
 
     def _typed_number(self) -> B:
         return B("math.number", {"number": self.dice.choice(NUMBERS)})

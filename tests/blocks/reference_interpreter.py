@@ -149,11 +149,12 @@ class Interpreter:
             stacks = users.get(variable.id, [])
             if variable.scope in ("program", "kept"):
                 continue
+            self._mouths: list[set[int]] = []
             try:
-                uses = [self._use(variable.id, stack) for stack in stacks]
+                uses = [self._use(variable.id, stack) for stack in stacks] + self._mouths
             except Wrong:  # read before it is set, or used in parts
                 continue
-            if len(stacks) == 1 or uses == [{HERE}] * len(stacks):
+            if len(stacks) == 1 or uses == [{HERE}] * len(uses):
                 for stack in stacks:
                     found[stack[0]].add(variable.id)
         return found
@@ -202,11 +203,19 @@ class Interpreter:
             return HERE
         inside = [b for chain in block.bodies.values() for b in chain]
         within = list(self.project.within(inside, enabled=True))
-        is_inside = any(b.fields.get("variable") == variable for b in within)
-        if is_inside and block.type in _SIDE_BY_SIDE_OR_BY_TURNS:
+        mouths = [b for b in within if b.type == EACH_ROBOT]
+        apart = {b.id for one in mouths for b in self.project.within(one.bodies.get("do", []))}
+        named = {b.id for b in within if b.fields.get("variable") == variable}
+        if named - apart and block.type in _SIDE_BY_SIDE_OR_BY_TURNS:
             raise Wrong("used in parts")
+        if block.type == EACH_ROBOT:
+            return self._sets_for_each(block, variable, UNSET if named else state)
         is_once = block.type in ("control.if", "control.try", "robot_speech.ask")
         inner = state if is_once else min(state, BEFORE)
+        if (
+            named & apart
+        ):  # a robot has its own: what it sets is not known here, nor what is set here
+            inner, state = inner if is_once else UNSET, UNSET
         if is_it and block.type in ("control.count", "control.for_each"):
             inner = HERE
         ends = [self._sets(c, variable, inner) for c in block.bodies.values()]
@@ -218,6 +227,21 @@ class Interpreter:
             return NOWHERE
         is_left = any(b.type == "control.leave_loop" for b in within)
         return NOWHERE if block.type == "control.forever" and not is_left else state
+
+    def _sets_for_each(self, block: Block, variable: str, after: int) -> int:
+        """The blocks that are done for each robot are as a stack by themselves."""
+        around, self._reads = self._reads, set()
+        self._sets(block.bodies.get("do", []), variable, UNSET)
+        if after == UNSET:
+            self._mouths.append(self._reads)
+        self._reads = self._reads | around
+        return after
+
+    def own_of_mouth(self, block: Block) -> dict[str, Value]:
+        """The variables that each robot has for itself, before anything is set."""
+        blocks = self.project.within(block.bodies.get("do", []), enabled=True)
+        used = {str(b.fields.get("variable", "")) for b in blocks}
+        return {variable: self._first(variable) for variable in used & self._own[-1].keys()}
 
     def _place_of_variable(self, variable: str) -> dict[str, Value]:
         if variable in self._own[-1]:
@@ -394,6 +418,7 @@ _AS_KIND: dict[str, Callable[[Value], Value]] = {
     "table": table,
     "any": lambda value: value,
 }
+EACH_ROBOT = "control.each_robot"
 _SIDE_BY_SIDE_OR_BY_TURNS = ("control.together", "goal.one_of", "goal.in_turn", "tree.step")
 _AS_IT_IS = ("text.length", "text.is_empty")
 """Blocks that take any value for what it is, in a place for a text."""
@@ -536,6 +561,15 @@ def _together(run: Interpreter, block: Block) -> None:
         run.body(block, f"do.{n}")
 
 
+def _each_robot(run: Interpreter, block: Block) -> None:
+    """With one robot, which is all that can be judged."""
+    run._own.append(run.own_of_mouth(block))
+    try:
+        run.body(block, "do")
+    finally:
+        run._own.pop()
+
+
 def _one_of(run: Interpreter, block: Block) -> None:
     if block.groups.get("part", 0) > 1:
         raise GivenUp
@@ -595,6 +629,7 @@ STATEMENTS: dict[str, Callable[[Interpreter, Block], None]] = {
     "event.tell": _tell,
     "control.note": lambda run, block: None,
     "control.together": _together,
+    EACH_ROBOT: _each_robot,
     "goal.one_of": _one_of,
     "goal.in_turn": _in_turn,
     "list.add": _add,

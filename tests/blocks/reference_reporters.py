@@ -22,6 +22,7 @@ from reference_values import (
     is_yes,
     items_of,
     kind,
+    less,
     number,
     number_in,
     numbers_of,
@@ -199,6 +200,19 @@ def _has_key(run: Interpreter, block: Block) -> Value:
     return held.place(run.slot(block, "key")) is not None
 
 
+def _name_with(run: Interpreter, block: Block) -> Value:
+    held = table(run.slot(block, "table"))
+    kinds = {kind(value) for value in held.values}
+    if len(kinds) != 1 or not kinds <= {"number", "text"}:
+        raise Wrong("not to be compared")
+    best = 0
+    for at, one in enumerate(held.values):
+        other = held.values[best]
+        if less(other, one) if run._choice(block, "extreme") == "max" else less(one, other):
+            best = at
+    return held.keys[best]
+
+
 # Facts
 
 
@@ -284,6 +298,7 @@ REPORTERS: dict[str, Callable[[Interpreter, Block], Value]] = {
     "table.has": _has_key,
     "table.names": lambda run, block: list(table(run.slot(block, "table")).keys),
     "table.values": lambda run, block: list(table(run.slot(block, "table")).values),
+    "table.name_with": _name_with,
     "table.length": lambda run, block: len(table(run.slot(block, "table"))),
     "table.is_empty": lambda run, block: len(table(run.slot(block, "table"))) == 0,
     "table.copy": lambda run, block: table(run.slot(block, "table")).copy(),

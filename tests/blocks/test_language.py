@@ -47,6 +47,9 @@ class Listener:
     def __init__(self, _name: object) -> None:
         pass
 
+    def one_by_one(self) -> list[Listener]:
+        return [self]
+
     def say(self, text: object, **_options: object) -> None:
         assert type(text) is str, f"a robot says texts, not {text!r}"
         self.said.append(text)

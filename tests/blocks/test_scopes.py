@@ -47,6 +47,10 @@ STEP = B("tree.step", bodies={"do": [put(), say()]})
 EACH = B("control.for_each", {"variable": "v1"}, bodies={"do": [say()]})
 
 
+def each_robot(*chain):
+    return B("control.each_robot", {"robot": "NAO"}, bodies={"do": list(chain)})
+
+
 @pytest.mark.parametrize(
     ("stacks", "is_local"),
     [
@@ -74,6 +78,22 @@ EACH = B("control.for_each", {"variable": "v1"}, bodies={"do": [say()]})
          False),
         ([started(B("control.repeat", bodies={"do": [put(), say()]})), touched(put(), say())],
          True),
+        ([started(each_robot(put(), say()))], True),
+        ([started(put(), each_robot(say()))], False),
+        ([started(each_robot(put()), say())], False),
+        ([started(put(), each_robot(put(2)), say())], False),
+        ([started(put(), each_robot(put(2), say()), say())], False),
+        ([started(put(), say(), each_robot(put(2), say()), put(), say())], True),
+        ([started(put(), B("control.repeat", bodies={"do": [say(), each_robot(put(2))]}))], False),
+        ([started(each_robot(put(), say()), each_robot(put(2), say()))], True),
+        ([started(each_robot(put(), say()), each_robot(say()))], False),
+        ([started(each_robot(put(), say())), touched(put(), say())], True),
+        ([started(each_robot(put())), touched(put(2), say())], False),
+        ([started(each_robot(EACH, put(), say()))], True),
+        ([started(each_robot(put(), B("control.together", bodies={"do.1": [say()]})))], False),
+        ([started(B("control.together", bodies={"do.1": [each_robot(put(), say())]}))], True),
+        ([started(each_robot(each_robot(put(), say())))], True),
+        ([started(each_robot(put(), each_robot(say())))], False),
     ],
 )  # fmt: skip
 def test_a_variable_is_by_itself_where_nobody_else_can_see_it(language, stacks, is_local):

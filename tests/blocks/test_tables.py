@@ -59,6 +59,10 @@ def change(key, amount=1):
     return slots("table.change", table=get(AGES), key=key, amount=amount)
 
 
+def name_with(extreme, inside=None):
+    return B("table.name_with", {"extreme": extreme}, {"table": inside or get(AGES)})
+
+
 TRUE = B("logic.truth", {"truth": "true"})
 ANNA_AND_BEN = put(AGES, table(("Anna", 3), ("Ben", 5)))
 
@@ -105,6 +109,8 @@ def started(text):
         (put(OUT, slots("table.has", table=get(AGES), key="Anna")), 'out = "Anna" in ages'),
         (put(OUT, slots("table.names", table=get(AGES))), "out = list(ages)"),
         (put(OUT, slots("table.values", table=get(AGES))), "out = list(ages.values())"),
+        (put(OUT, name_with("max")), "out = max(ages, key=ages.get)"),
+        (put(OUT, name_with("min")), "out = min(ages, key=ages.get)"),
         (put(OUT, slots("table.length", table=get(AGES))), "out = len(ages)"),
         (put(OUT, slots("table.is_empty", table=get(AGES))), "out = len(ages) == 0"),
         (put(OUT, slots("table.copy", table=get(AGES))), "out = dict(ages)"),
@@ -153,6 +159,91 @@ def test_lists_and_tables_in_each_other_are_plain_places(language):
         "out = who[1][0]",
         "who[1][0] = 9",
     ]
+
+
+def test_of_names_with_the_same_value_the_first_that_was_put_in_is_given(language):
+    equal = put(AGES, table(("Anna", 3), ("Ben", 5), ("Emma", 5.0), ("Clara", 3)))
+    texts = put(AGES, table(("Anna", "tea"), ("Ben", "milk"), (2, "Tee")))
+
+    assert run(language, equal, put(OUT, name_with("max")))["out"] == "Ben"
+    assert run(language, equal, put(OUT, name_with("min")))["out"] == "Anna"
+    assert run(language, texts, put(OUT, listed(name_with("max"), name_with("min"))))["out"] == [
+        "Anna",
+        2,
+    ]
+
+
+def test_the_name_of_a_value_is_asked_of_a_function_where_python_does_something_else(language):
+    truths = put(AGES, table((TRUE, 1), ("Anna", 3), (1, 0)))
+    inner = put(WHO, listed(table(("Anna", 3), ("Ben", 5))))
+    first = slots("list.get", number=1, list=get(WHO))
+
+    assert lines(language, truths, put(OUT, name_with("max")))[1:] == [
+        "out = name_with_largest(ages)"
+    ]
+    after = run(language, truths, put(OUT, listed(name_with("max"), name_with("min"))))["out"]
+    assert after == ["Anna", 1] and after[1] is not True
+    assert run(language, put(AGES, table((TRUE, 1))), put(OUT, name_with("min")))["out"] is True
+    assert lines(language, inner, put(OUT, name_with("min", first)))[1:] == [
+        "out = name_with_smallest(who[0])"
+    ]
+    assert run(language, inner, put(OUT, name_with("min", first)))["out"] == "Anna"
+
+
+@pytest.mark.parametrize(
+    "winner",
+    [
+        "max(votes, key=votes.get)",
+        "max(votes.keys(), key=votes.get)",
+        "max(votes, key=lambda name: votes[name])",
+    ],
+)
+def test_the_winner_as_pupils_write_it_becomes_the_block(language, winner):
+    text = PUPILS.format(winner)
+
+    read = read_program(text, language, Project())
+
+    types = [block.type for block in read.blocks.values()]
+    assert "table.name_with" in types and not [one for one in types if one.startswith("code.")]
+    assert "    winner = max(votes, key=votes.get)\n" in generate_program(read, language).text
+
+
+@pytest.mark.parametrize(
+    "winner",
+    [
+        "max(votes, key=lambda name: -votes[name])",
+        "max(votes, key=lambda name, other=1: votes[name])",
+        "max(votes, key=lambda votes: votes[votes])",
+        "max(votes, key=votes.get, default=0)",
+        "max(votes, key=len)",
+        "max(sorted(votes), key=votes.get)",
+    ],
+)
+def test_what_only_looks_like_the_winner_stays_python(language, winner):
+    text = PUPILS.format(winner)
+
+    read = read_program(text, language, Project())
+
+    assert not [one for one in read.blocks.values() if one.type == "table.name_with"]
+    assert winner in generate_program(read, language).text
+
+
+PUPILS = """
+from nep_core import Behavior, Robot
+
+nao = Robot("NAO")
+behavior = Behavior("Votes")
+
+
+@behavior.when_started
+def vote():
+    votes = {{"Anna": 3, "Ben": 5}}
+    winner = {}
+    nao.say(winner)
+
+
+behavior.run()
+"""
 
 
 def test_one_is_another_key_than_true_and_two_is_the_same_as_a_fraction(language):
@@ -222,6 +313,14 @@ def test_what_two_rules_add_at_the_same_time_is_whole(language):
         ([ANNA_AND_BEN, put(OUT, at("Emma"))], "has nothing at"),
         ([ANNA_AND_BEN, slots("table.take", table=get(AGES), key="Emma")], "has nothing at"),
         ([put(AGES, table()), put(OUT, at(listed(1)))], "Nothing can be kept under"),
+        ([put(AGES, table()), put(OUT, name_with("max"))], "The table “ages” is empty"),
+        ([put(WHO, table((TRUE, 1))), put(AGES, table()), put(OUT, name_with("min"))],
+         "The table is empty"),
+        ([put(AGES, table(("Anna", 3), ("Ben", "x"))), put(OUT, name_with("max"))],
+         "It cannot be told which is larger"),
+        ([put(AGES, table(("Anna", TRUE))), put(OUT, name_with("max"))],
+         "It cannot be told which is larger"),
+        ([put(WHO, 5), put(OUT, name_with("max", get(WHO)))], "A table belongs"),
         ([put(WHO, 5), put(OUT, at("x", get(WHO)))], "no table here"),
         ([put(WHO, listed(1)), put(OUT, slots("table.length", table=get(WHO)))], "A table belongs"),
         ([ANNA_AND_BEN, slots("table.set", table=get(AGES), key="Anna", value="x"), change("Anna")],
@@ -237,7 +336,7 @@ def test_what_goes_wrong_is_a_sentence_with_what_to_do(language, tmp_path, chain
     file.write_text(text, encoding="utf-8")
     exec(compile(text, str(file), "exec"), names)
 
-    with pytest.raises((ValueRefused, LookupError, TypeError)) as error:
+    with pytest.raises((ValueRefused, LookupError, TypeError, ValueError)) as error:
         names["when_started"]()
 
     failure = failure_of(error.value)

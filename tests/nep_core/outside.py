@@ -19,6 +19,7 @@ class Outside:
     """A person and a robot as the program meets them."""
 
     def __init__(self, network: PeerNetwork, own: PeerNetwork) -> None:
+        self.network = network
         human_listener(network)
         self._states = Publisher(HUMAN_BEHAVIOR, network=own)
         self._bodies = Publisher(ROBOT_STATE, network=own)
@@ -29,8 +30,8 @@ class Outside:
         for state in states:
             self._states.send(HumanBehavior(human_state=state, source=source))
 
-    def robot_is(self, **state: object) -> None:
-        self._bodies.send(RobotState(robot="NAO", joints={}, **state))
+    def robot_is(self, name: str = "NAO", **state: object) -> None:
+        self._bodies.send(RobotState(robot=name, joints={}, **state))
 
 
 def seen(state: str, times: int = 1) -> None:

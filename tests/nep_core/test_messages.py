@@ -11,8 +11,16 @@ import pytest
 from nep_core.networks.zmq_networks import PeerNetwork
 from nep_core.program import tasks
 from nep_core.program.behavior import Behavior, what_went_wrong
+from nep_core.program.human import heard_answer, note_answer
 from nep_core.program.messages import MessageRefused, tell, told_value
-from nep_core.program.tasks import Cancelled, end_actions, stop_rule, together, wait
+from nep_core.program.tasks import (
+    Cancelled,
+    end_actions,
+    own_value,
+    stop_rule,
+    together,
+    wait,
+)
 
 WAIT_S = 10.0
 
@@ -392,6 +400,20 @@ def test_what_went_wrong_is_told_where_it_is_handled_and_in_its_parts(play: Play
 
     sentence = "What is to be stopped here is no rule."
     assert play.start().all() == ["", sentence, sentence, "", ""]
+
+
+def test_a_rule_that_is_told_is_for_no_robot_and_has_no_answer(play: Play) -> None:
+    @play.behavior.when_told("look")
+    def look() -> None:
+        play.write(f"{heard_answer()}{own_value()}")
+
+    @begin(play)
+    def start() -> None:
+        note_answer("yes")
+        tasks.for_each(["NAO"], lambda: play.write(f"{heard_answer()} {own_value()}"))
+        tasks.for_each(["NAO"], lambda: tell("look", wait=True))
+
+    assert play.start().all() == ["yes NAO", "None"]
 
 
 def test_what_was_begun_is_ended_where_something_else_is_done(play: Play) -> None:

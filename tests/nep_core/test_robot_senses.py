@@ -6,6 +6,7 @@ import os
 import subprocess
 import sys
 import threading
+import time
 
 import pytest
 
@@ -16,14 +17,18 @@ from nep_core.program import human
 from nep_core.program import robot as robot_states
 from nep_core.program.behavior import in_turn, one_of
 from nep_core.program.human import (
+    heard_answer,
     heard_word,
+    human_listener,
     is_remembered,
     remember,
     times_seen,
     until_state,
     was_seen,
 )
-from nep_core.program.tasks import wait, wait_until
+from nep_core.program.robot import robot_listener
+from nep_core.program.tasks import together, wait, wait_until
+from nep_core.wire.states import NOT_UNDERSTOOD as UNCLEAR
 from tests.conftest import PROJECT
 from tests.nep_core.outside import Outside, seen
 
@@ -92,26 +97,95 @@ def test_a_state_is_read_that_is_newer_than_what_the_robot_told_of_the_person(
     assert outside.robot.place_of("face") == 100.0
 
 
-def test_a_question_is_answered_by_a_word_that_counts(outside: Outside) -> None:
+def once_it_listens(outside: Outside, *states: str, source: str = "") -> None:
+    """Let the person do something as soon as the robot listens for an answer."""
+
     def answer() -> None:
         wait_until(lambda: "listen" in [action for action, _ in outside.nao.asked])
-        outside.does("gesture_karate", "heard_maybe", "heard_of_course")
+        outside.does(*states, source=source)
 
     threading.Thread(target=answer).start()
+
+
+def test_a_question_is_answered_by_a_word_that_counts(outside: Outside) -> None:
+    once_it_listens(outside, "gesture_karate", "heard_of_course")
+
     word = outside.robot.ask("Do you like it?", ["No", "Of course!"], 5)
 
-    assert word == "Of course!"
+    assert word == heard_answer() == "Of course!"
     assert outside.nao.words() == ["Do you like it?"]
+
+
+@pytest.mark.parametrize("source", ["", "NAO", "an ear of somebody's own"])
+@pytest.mark.parametrize(("state", "told"), [("heard_of_course", "of course"), (UNCLEAR, "")])
+def test_another_answer_ends_the_question_at_once(
+    outside: Outside, state: str, told: str, source: str
+) -> None:
+    outside.robot_is()
+    once_it_listens(outside, "gesture_karate", state, source=source)
+    begun_s = time.monotonic()
+
+    word = outside.robot.ask("Do you like it?", ["Yes", "No"], 60)
+
+    assert word == heard_answer() == told
+    assert time.monotonic() - begun_s < 20
+
+
+def test_a_noise_and_what_others_hear_or_are_told_are_no_other_answer(outside: Outside) -> None:
+    outside.robot_is(name="NAO2")
+    wait_until(lambda: robot_listener(outside.network).heard_of("NAO2") is not None)
+    human_listener(outside.network).of_rules = frozenset({"heard_help"})
+    once_it_listens(outside, "heard_sound", "heard_help")
+    once_it_listens(outside, "heard_maybe", UNCLEAR, source="NAO2")
+
+    assert outside.robot.ask("Do you like it?", ["Yes", "No"], 0.5) == heard_answer() == ""
+
+
+def test_a_robot_does_not_answer_itself_while_it_talks(outside: Outside) -> None:
+    outside.robot_is(saying="What a nice day")
+    robots = robot_listener(outside.network)
+    wait_until(lambda: getattr(robots.heard_of("NAO"), "saying", "") != "")
+    once_it_listens(outside, "heard_a_nice_day", UNCLEAR, source="NAO")
+
+    assert outside.robot.ask("Do you like it?", ["Yes", "No"], 0.5) == ""
+
+
+def test_an_answer_to_another_robot_that_asks_is_not_taken_away(outside: Outside) -> None:
+    outside.robot_is(name="NAO2", listening=["Yes"])
+    wait_until(lambda: robot_listener(outside.network).heard_of("NAO2") is not None)
+    once_it_listens(outside, "heard_yes", source="NAO2")
+
+    assert outside.robot.ask("Do you like it?", ["Yes", "No"], 0.5) == ""
+
+
+def test_a_question_for_any_word_waits_for_one_that_is_understood(outside: Outside) -> None:
+    once_it_listens(outside, UNCLEAR, "heard_sound", "heard_anna")
+
+    assert outside.robot.ask("Who are you?", seconds=5) == heard_answer() == "anna"
+
+
+def test_the_answer_is_that_to_the_last_question_of_each_part(outside: Outside) -> None:
+    once_it_listens(outside, "heard_yes")
+    outside.robot.ask("Do you like it?", ["Yes", "No"], 5)
+    found = []
+
+    together(lambda: found.append(heard_answer()), lambda: outside.robot.ask("Hm?", ["Yes"], 0.1))
+    found.append(heard_answer())
+    outside.robot.ask("Really?", ["Yes"], 0.1)
+    found.append(heard_answer())
+
+    assert found == ["Yes", "Yes", ""]
 
 
 def test_a_question_without_words_takes_any_answer(outside: Outside) -> None:
     def answer() -> None:
         wait_until(lambda: "listen" in [action for action, _ in outside.nao.asked])
-        outside.does("heard_good_morning")
+        outside.does("heard_good_morning", "heard_sound")
 
     threading.Thread(target=answer).start()
 
     assert outside.robot.ask("Hello?", seconds=5) == "good morning"
+    seen("heard_sound")
     assert heard_word() == "good morning"
 
 

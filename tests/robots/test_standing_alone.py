@@ -83,6 +83,7 @@ def test_what_a_robot_takes_and_tells_has_the_keys_of_the_network_s_messages(nam
 def test_a_robot_tells_human_states_in_the_network_s_words(words: str) -> None:
     assert messages.plain(words) == states.plain(words)
     assert messages.state_of_word(words) == states.state_of_word(words)
+    assert messages.NOT_UNDERSTOOD == states.NOT_UNDERSTOOD
 
 
 @pytest.mark.parametrize("thing", ["face", "face_anna", "ball", "sound", "mark_64"])

@@ -40,11 +40,11 @@ from tests.stories.programs_in_blocks import LANGUAGE
 SPEED = 20
 """How many times faster than real time the robots live."""
 WAIT_S = 20.0
-ROBOTS = ("NAO", "NAO2")
+ROBOTS = ("NAO", "NAO2", "NAO3")
 
 
 class BlockTheatre(NodeRunner):
-    """Two robots on the screen for one program after the other, and all that was told of them."""
+    """Three robots on the screen for one program after the other, and all that was told of them."""
 
     def __init__(self, network: PeerNetwork, folder: Path) -> None:
         super().__init__(network)

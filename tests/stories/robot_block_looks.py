@@ -245,6 +245,9 @@ LOOKS: dict[str, Look] = {
     "robot_speech.heard_word": Look(
         "the word", value_is("yes"), first=(B("robot_speech.wait_for_word", {"seconds": 20}),)
     ),
+    "robot_speech.answer": Look(
+        "the answer", value_is("yes"), first=(B("robot_speech.ask", {"seconds": 20}),)
+    ),
     "robot_speech.set_volume": Look("its volume", setting("volume", 30.0), {"percent": 30}),
     "robot_speech.volume": Look(
         "the volume", value_near(45), first=(B("robot_speech.set_volume", {"percent": 45}),)
@@ -263,6 +266,7 @@ LOOKS: dict[str, Look] = {
 ANSWERS = {
     "robot_speech.ask_for": "yes",
     "robot_speech.heard_word": "yes",
+    "robot_speech.answer": "yes",
     "robot_speech.ask_number": "seven",
 }
 """What somebody says as soon as the robot listens."""

@@ -75,6 +75,7 @@ def robot_blocks() -> list[Definition]:
         definition
         for definition in LANGUAGE.definitions.values()
         if definition.result != "robot"  # a value, that does nothing by itself
+        and "apart" not in definition.flags  # it does what is in it
         and (
             # those that may name one besides do nothing to it by themselves
             ("robot" in definition.slots and not definition.slots["robot"].group)

@@ -41,6 +41,7 @@ def statements(language: Language) -> list[Definition]:
         definition
         for definition in language.definitions.values()
         if "robot" in definition.slots and definition.shape in ("statement", "c", "cap")
+        if "apart" not in definition.flags  # it does what is in it
     ]
 
 

@@ -39,17 +39,21 @@ __all__ = ["home", "studio", "window"]
 WAIT_MS = 60_000
 TAKES, MORE = 3, 1
 REST_S = 0.6
+RATE_HZ = 50.0
+SIMULATED = 4
+"""From this take on each performance is one movement: a karate, say, is often two, up and down."""
 LEFT = Qt.MouseButton.LeftButton
 REAL = Path(dev.__file__).parents[1] / "shared" / "data" / "uhh_gestures"
 TITLES = ("push", "turn")
 REAL_NAMES = {"push": "forward", "turn": "turn_left"}
-SIMULATED_NAMES = {"push": "karate", "turn": "batting"}
+SIMULATED_NAMES = {"push": "katana", "turn": "batting"}
 
 
 def performances(title: str) -> list[Recording]:
     """Four performances of a gesture, each with a rest before and after it."""
     if not REAL.is_dir():
-        return [perform(SIMULATED_NAMES[title], 140, take) for take in range(TAKES + MORE)]
+        takes = range(SIMULATED, SIMULATED + TAKES + MORE)
+        return [perform(SIMULATED_NAMES[title], 140, take) for take in takes]
     whole = read_recording(REAL / f"j_{REAL_NAMES[title]}.csv")
     return [_cut(whole, one.start_s, one.end_s) for one in takes_of(whole)[: TAKES + MORE]]
 
@@ -69,12 +73,21 @@ def _cut(whole: Recording, start_s: float, end_s: float) -> Recording:
     )
 
 
+def resting(before: Recording) -> Recording:
+    """The hand as it is before a movement: held otherwise, it would move on the way there."""
+    t = np.arange(round(0.2 * RATE_HZ)) / RATE_HZ
+    acc = np.tile(before.acc[:5].mean(axis=0), (len(t), 1))
+    return Recording("rest", t, acc, np.zeros_like(acc), None, gravity_included=True)
+
+
 class Phone:
     """The process that sends, and what it is asked to do."""
 
     def __init__(self, port: int, folder: Path) -> None:
         self._folder, self._count = folder, 0
-        command = [sys.executable, "-m", "tests.stories.wearer", f"http://127.0.0.1:{port}/data"]
+        rest = self._written("rest", resting(performances(TITLES[0])[0]))
+        url = f"http://127.0.0.1:{port}/data"
+        command = [sys.executable, "-m", "tests.stories.wearer", url, str(rest)]
         self._process = subprocess.Popen(
             command,
             cwd=Path(dev.__file__).parent,
@@ -88,11 +101,15 @@ class Phone:
         assert self._process.stdin is not None
         for movement in movements:
             self._count += 1
-            path = self._folder / f"movement_{self._count}.csv"
-            table = np.column_stack([movement.t, movement.acc, movement.gyr])
-            np.savetxt(path, table, "%.5f", ",", header="t,ax,ay,az,gx,gy,gz", comments="")
+            path = self._written(f"movement_{self._count}", movement)
             self._process.stdin.write(f"{path}\n")
             self._process.stdin.flush()
+
+    def _written(self, name: str, recording: Recording) -> Path:
+        path = self._folder / f"{name}.csv"
+        table = np.column_stack([recording.t, recording.acc, recording.gyr])
+        np.savetxt(path, table, "%.5f", ",", header="t,ax,ay,az,gx,gy,gz", comments="")
+        return path
 
     def end(self) -> None:
         """Switch it off."""

@@ -11,6 +11,7 @@ PARTS = {
     "nep_studio/blocks/checks/flow.py": ["A robot cannot walk after the posture “{label}”."],
     "nep_studio/project/triggers.py": ["A letter or a digit is needed."],
     "nep_studio/run/plan.py": [
+        "a rule waits for how an arm is held",
         "a rule waits for this gesture",
         "it was asked for",
         "somebody must make the gestures",
@@ -44,6 +45,11 @@ PARTS = {
         "a robot",
         "a block",
         "something else",
+    ],
+    "nodes/sensory/virtual_watch.py": [
+        "holds the arm up (simulated person {number})",
+        "holds the arm level (simulated person {number})",
+        "lets the arm hang (simulated person {number})",
     ],
     "robots/body/repertoire.py": ["animal"],
     "robots/body/inverse.py": [

@@ -14,6 +14,7 @@ from nep_studio.blocks.language import Language
 from nep_studio.blocks.mouths import Sort, mouth_of, why_not_in
 from nep_studio.blocks.procedures import CALL, DEFINE, PARAMETER, RETURN, procedure_of, title
 from nep_studio.blocks.program import Block, Project
+from nep_studio.blocks.sharing import EACH_ROBOT
 from nep_studio.blocks.slots import FieldValue
 from nep_studio.blocks.text import sentence
 
@@ -110,6 +111,8 @@ class _Place(NamedTuple):
     apart: bool = False
     mouth: Sort = ""
     has_steps: bool = False
+    has_robot: bool = False
+    """Whether “this robot” may be known."""
 
 
 def check_inside(project: Project, language: Language, chain: list[str]) -> Found:
@@ -118,7 +121,7 @@ def check_inside(project: Project, language: Language, chain: list[str]) -> Foun
     own = procedure_of(hat.type) if hat.type.startswith(DEFINE) else ""
     first = language.definitions.get(hat.type)
     mouth: Sort = mouth_of(first) if first is not None else ""
-    start = _Place(own, mouth=mouth, has_steps=bool(own or mouth))
+    start = _Place(own, mouth=mouth, has_steps=bool(own or mouth), has_robot=bool(own))
     waiting = [(block_id, start) for block_id in reversed(chain)]
     while waiting:
         yield None
@@ -131,11 +134,15 @@ def check_inside(project: Project, language: Language, chain: list[str]) -> Foun
             yield _wrong_here(project, language, block, wrong)
         if block.inputs or block.bodies:
             inner = _inner(definition, place)
-            waiting += [(child, inner) for child in block.children()]
+            plugged = inner._replace(has_robot=place.has_robot)  # worked out before, and once
+            waiting += [(child, plugged) for child in block.inputs.values()]
+            waiting += [(child, inner) for chain in block.bodies.values() for child in chain]
 
 
 def _inner(definition: Definition, place: _Place) -> _Place:
     place = place._replace(mouth=mouth_of(definition))
+    if definition.id == EACH_ROBOT:
+        place = place._replace(has_robot=True)
     if "apart" in definition.flags:
         return place._replace(loop=False, apart=True)
     return place._replace(loop=True) if "loop" in definition.flags else place
@@ -148,6 +155,10 @@ def _why_not_there(block: Block, definition: Definition, place: _Place) -> _Misp
     if "in_step" in definition.flags and not place.has_steps:
         reason = Text("it is in no step of a behaviour tree.")
         return ("error", "outside_step", reason, "Put it into a “step” block of a tree.")
+    if "in_each_robot" in definition.flags and not place.has_robot:
+        reason = Text("it is in no “do for each of … at once”.")
+        remedy = "Put it into a block “do for each of … at once”."
+        return ("error", "outside_each_robot", reason, remedy)
     if "in_loop" in definition.flags and not place.loop:
         return ("error", "outside_loop", Text("it is in no loop."), "Put it into a “repeat” block.")
     if block.type == RETURN and (not place.procedure or place.apart):

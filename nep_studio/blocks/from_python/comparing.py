@@ -18,7 +18,7 @@ from nep_studio.blocks.generate.source_map import Code
 from nep_studio.blocks.shared_objects import SHARED_OBJECTS
 
 from ..program import SCOPE_PROGRAM
-from .equal_forms import as_power, as_said, is_gone_through, told_by_robot
+from .equal_forms import as_power, as_said, by_value, is_gone_through, told_by_robot
 from .joined import as_joined, told_in_braces
 from .learning import CodeUnread
 from .naming import functions_of, locals_of, names_made, note_anew, stopped_in
@@ -523,7 +523,7 @@ def _as_compared(node: object) -> object:
     """Other ways to write a block count as the block."""
     if isinstance(node, ast.With) or (isinstance(node, ast.For) and not _names_its_list(node)):
         return as_block(node)
-    return as_said(node) if isinstance(node, ast.Call) else as_joined(node)
+    return by_value(as_said(node)) if isinstance(node, ast.Call) else as_joined(node)
 
 
 def _names_its_list(loop: ast.For) -> bool:

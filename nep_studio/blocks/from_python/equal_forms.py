@@ -38,6 +38,8 @@ def other_values(node: ast.expr) -> Iterator[ast.expr]:
             yield call(name, ast.List(given))
         case ast.Call(ast.Name("len"), [held], []):
             yield call("length_of", held)
+        case ast.Call(ast.Name("max" | "min"), [_], [_]) if (plain := by_value(node)) is not node:
+            yield plain
 
 
 def _in_list_or_text(held: ast.expr, index: ast.expr) -> Iterator[ast.expr]:
@@ -164,6 +166,33 @@ def told_by_robot(ours: ast.Call, theirs: object) -> list[tuple[object, object]]
             ]
             return [(told, shown), (more, []), *words]
     return []
+
+
+def by_value(node: ast.Call) -> ast.Call:
+    """The name with the largest value of a table as blocks write it: ``max(t, key=t.get)``.
+
+    People write ``t.keys()`` for the names too, and ``lambda name: t[name]`` for their values.
+    """
+    match node:
+        case ast.Call(ast.Name("max" | "min"), [names], [ast.keyword("key", value_of)]):
+            held = _without_keys(names)
+        case _:
+            return node
+    match value_of:
+        case ast.Attribute(table, "get"):
+            pass
+        case ast.Lambda(
+            ast.arguments([], [ast.arg(given)], None, [], [], None, []),
+            ast.Subscript(table, ast.Name(asked)),
+        ) if given == asked:
+            pass
+        case _:
+            return node
+    named = {part.id for part in ast.walk(table) if isinstance(part, ast.Name)}
+    if ast.dump(table) != ast.dump(held) or (isinstance(value_of, ast.Lambda) and given in named):
+        return node
+    key = ast.keyword("key", ast.Attribute(table, "get", ast.Load()))
+    return ast.Call(node.func, [held], [key])
 
 
 def as_power(node: ast.BinOp) -> ast.expr:

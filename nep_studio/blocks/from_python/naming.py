@@ -294,6 +294,25 @@ def names_made(body: Sequence[ast.stmt]) -> dict[str, int]:
 
 
 def _kept(function: ast.FunctionDef) -> list[str]:
+    """The names that a function, or what it does for each robot, gives values to for itself."""
+    return list(dict.fromkeys(name for one in _own_parts(function) for name in _kept_in(one)))
+
+
+def _own_parts(function: ast.FunctionDef) -> Iterator[ast.FunctionDef]:
+    """A function, and those in it that are done for each robot: these have variables, too."""
+    yield function
+    done = {
+        node.args[1].id
+        for node in ast.walk(function)
+        if isinstance(node, ast.Call) and getattr(node.func, "id", "") == "for_each_robot"
+        if len(node.args) > 1 and isinstance(node.args[1], ast.Name)
+    }
+    for node in ast.walk(function) if done else ():
+        if isinstance(node, ast.FunctionDef) and node is not function and node.name in done:
+            yield node
+
+
+def _kept_in(function: ast.FunctionDef) -> list[str]:
     """The names that a function gives values to, and has for itself."""
     others = {argument.arg for argument in function.args.args} | {"_"}
     others.update(
@@ -314,7 +333,8 @@ def _kept(function: ast.FunctionDef) -> list[str]:
 def names_made_otherwise(tree: ast.Module) -> set[str]:
     """The names that rules have for themselves, and that they make in a way that no block does."""
     rules = [n for n in tree.body if isinstance(n, ast.FunctionDef) and n.decorator_list]
-    return {name for rule in rules for name in locals_of(rule).keys() - set(_kept(rule))}
+    every = [one for rule in rules for one in _own_parts(rule)]
+    return {name for one in every for name in locals_of(one).keys() - set(_kept_in(one))}
 
 
 def _plain_target(node: ast.AST) -> ast.Name | None:

@@ -221,10 +221,15 @@ class StatementReader:
     def _given(self, node: ast.stmt) -> list[str]:
         """The functions above a loop that a statement in it gives to a block."""
         match node:
-            case ast.Expr(ast.Call(args=[_, *_] as given)):
-                names = [one.id if isinstance(one, ast.Name) else "" for one in given]
-                if self._above.keys() >= set(names):
-                    return names
+            case ast.Expr(ast.Call(func=ast.Name(id="for_each_robot"), args=[_, *given])):
+                pass
+            case ast.Expr(ast.Call(args=given)):
+                pass
+            case _:
+                return []
+        names = [one.id if isinstance(one, ast.Name) else "" for one in given]
+        if names and self._above.keys() >= set(names):
+            return names
         return []
 
     def _with_functions(

@@ -7,7 +7,7 @@ in the whole program.
 from __future__ import annotations
 
 import ast
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence, Set
 from dataclasses import dataclass
 from functools import lru_cache
 from typing import NamedTuple
@@ -17,6 +17,7 @@ from nep_studio.blocks.definitions import Definition
 from nep_studio.blocks.language import Language
 from nep_studio.blocks.procedures import DEFINE, parameter_of, parameters, procedure_of
 from nep_studio.blocks.program import Block, Project, split_slot
+from nep_studio.blocks.sharing import EACH_ROBOT
 from nep_studio.blocks.slots import TEXT_RESULTS
 
 from .kinds import (
@@ -128,8 +129,8 @@ class Facts:
     for a list (LIST) or a table (TABLE), or to which a text is appended (TEXT), ``set_to`` the
     kinds to which blocks set variables, by how these look. ``used`` are the variables that it
     uses: ``early`` those that may be read there before they are set there, ``apart`` those in
-    functions of their own, ``watched`` those that are never read there, or in a loop that began
-    after they were set.
+    functions of their own that share them, ``watched`` those that are never read there, or in a
+    loop that began after they were set.
     ``written`` is what Python in it names; ``begun`` are the names that it does no more with than
     to give them a plain value, each with the kinds of it, and of what is in it if it is a list.
     """
@@ -198,8 +199,13 @@ class _Set(NamedTuple):
     def in_loop(self) -> _Set:
         return _Set(self.ever, NO_NAMES)
 
+    def without(self, variables: Set[str]) -> _Set:
+        return _Set(self.ever - variables, self.here - variables)
+
 
 _NOTHING = _Set(NO_NAMES, NO_NAMES)
+_EACH = "each_robot"
+"""What does a body several times at once: each time is a function with variables of its own."""
 _AGAIN = frozenset({"while", "repeat_until", "wait_until"})
 """What looks at a value again and again."""
 _ASKED_AGAIN = frozenset({"within"})
@@ -234,6 +240,7 @@ class FactReader:
         self._procedure = ""
         self._first: frozenset[str] = NO_NAMES
         """The blocks directly under the hat."""
+        self._has_each = False
 
     def read(self, chain: Sequence[str]) -> Facts:
         """The facts of the stack of a chain of blocks; its first is the hat."""
@@ -247,6 +254,7 @@ class FactReader:
                 self._inputs(block, definition)
             if definition.generator in _LOOKED_AT:
                 self._block(block, definition)
+            self._has_each |= definition.generator == _EACH
         if hat.inputs:  # worked out before anything else is done, and each time again
             self._reads(hat, _NOTHING)
         end = self._walk(chain[1:], _NOTHING, 0)
@@ -425,6 +433,8 @@ class FactReader:
             kept = Given(same=frozenset({KEPT}))
             is_sure = generator == "table_get"
             return kept if is_sure else kept.or_else(self._slot(block, "otherwise", depth))
+        if generator == "table_name_with":
+            return Given(same=frozenset({KEYS}))
         if generator == "choose":
             return self._slot(block, "a", depth).or_else(self._slot(block, "b", depth))
         if generator == "own_call":
@@ -485,22 +495,48 @@ class FactReader:
             self._read_of({variable}, known)
         if generator == "true_while" and "condition" in block.inputs:  # others ask it, later too
             self._apart.update(self._variables_in([block.inputs["condition"]]))
+        if generator == _EACH:
+            return self._each(block, known, depth)
         if "apart" in definition.flags:
             inside = [block_id for chain in block.bodies.values() for block_id in chain]
-            self._apart.update(self._variables_in(inside))
+            self._apart.update(self._variables_in(inside, shared=True))
         may_end = definition.shape == "cap" or generator in ("forever", "code_lines")
         if not block.bodies and not may_end:
             return known
-        inner = known.in_loop() if is_again or generator in _ROUNDS else known
+        inner = known
+        if is_again or generator in _ROUNDS:  # what is done for each robot comes before it, too
+            inner = known.in_loop().without(self._set_for_each(block))
         inner = inner.with_also(variable) if generator in ("count", "for_each") else inner
         ends = [self._walk(chain, inner, depth + 1) for chain in block.bodies.values()]
         if generator == "if":
             return self._after_if(block, ends, known)
         if generator == "code_lines" and always_ends(str(definition.value(block, "code"))):
             return None
+        known = known.without(self._set_for_each(block))
         if definition.shape == "cap" or generator == "forever":
             return None if not self._is_left(block) else known
         return known
+
+    def _each(self, block: Block, known: _Set, depth: int) -> _Set:
+        """What is done for each robot is as a stack by itself: nobody else knows what it sets."""
+        chain = block.bodies.get("do", [])
+        read, watched = self._read, self._watched
+        self._read, self._watched = set(), set()
+        self._walk(chain, _NOTHING, depth + 1)
+        own = set(self._variables_in(chain))
+        self._watched |= watched | (own - self._read)
+        self._read |= read
+        return known.without(own)
+
+    def _set_for_each(self, block: Block) -> set[str]:
+        """The variables of what is done for each robot inside of a block."""
+        inside = [i for chain in block.bodies.values() for i in chain] if self._has_each else []
+        found = set[str]()
+        for one in self._project.within(inside, enabled=True):
+            definition = self._language.definitions.get(one.type)
+            if definition is not None and definition.generator == _EACH:
+                found.update(self._variables_in(one.bodies.get("do", [])))
+        return found
 
     def _after_if(self, block: Block, ends: list[_Set | None], known: _Set) -> _Set | None:
         branches = 1 + block.groups.get("also", 0) + block.groups.get("otherwise", 0)
@@ -530,7 +566,8 @@ class FactReader:
         self._early |= variables - known.ever
         self._watched |= variables - known.here
 
-    def _variables_in(self, roots: Sequence[str]) -> Iterator[str]:
+    def _variables_in(self, roots: Sequence[str], *, shared: bool = False) -> Iterator[str]:
+        """The variables of blocks; ``shared``: not those of what is done for each robot."""
         blocks, waiting = self._project.blocks, list(roots)
         while waiting:
             block = blocks[waiting.pop()]
@@ -538,7 +575,9 @@ class FactReader:
                 continue
             if variable := _variable(block):
                 yield variable
-            if block.inputs or block.bodies:
+            if shared and block.type == EACH_ROBOT:
+                waiting += block.inputs.values()
+            elif block.inputs or block.bodies:
                 waiting += block.children()
 
 

@@ -569,6 +569,14 @@ def _parts(function: str) -> StatementGenerator:
     return generate
 
 
+def _each_robot(code: Expressions, block: Block) -> list[Piece]:
+    """The blocks inside are a function, which nep_core calls for each robot."""
+    function = Function(code.part_name(), "do")
+    robots = code.slot(block, "robot")
+    called = code.api_call("for_each_robot", robots, ast.Name(function.name))
+    return [function, Gap(), show(called)]
+
+
 def _wait_until(code: Expressions, block: Block) -> list[Piece]:
     condition: ast.expr = ast.Lambda(_NO_ARGUMENTS, code.slot(block, "condition"))
     limit = [code.slot(block, "seconds.1")] if block.groups.get("limit") else []
@@ -632,6 +640,7 @@ STATEMENTS: dict[str, StatementGenerator] = {
     "stop_rule": lambda code, block: [EndRule()],
     "if": _if,
     "together": _parts("together"),
+    "each_robot": _each_robot,
     "one_of": _parts("one_of"),
     "in_turn": _parts("in_turn"),
     "wait_until": _wait_until,

@@ -71,12 +71,13 @@ _CALLS = {
     **dict.fromkeys(("bool", "has_item", "has_part", "is_same", "is_less", "is_more"), TRUTH),
     **dict.fromkeys(("is_at_most", "is_at_least", "wait_until", "has_key", "is_true"), TRUTH),
     **dict.fromkeys(("date_today", "time_now", "weekday_today", "what_went_wrong"), TEXT),
+    **dict.fromkeys(("heard_answer", "heard_word"), TEXT),
     **dict.fromkeys(("list", "sorted", "as_list", "items_between", "list_with"), LIST),
     **dict.fromkeys(("parts_of", "sorted_items", "names_in", "fact", "the_plan"), LIST),
     **dict.fromkeys(("dict", "as_table", "table_of"), TABLE),
     **dict.fromkeys(("as_number", "to_power", "number_in", "sum_of", "mean_of"), NUMBER),
     **dict.fromkeys(("median_of", "deviation_of", "smallest_of", "largest_of"), NUMBER),
-    "as_robot": ROBOT,
+    **dict.fromkeys(("as_robot", "this_robot"), ROBOT),
 }
 _METHODS = {
     **dict.fromkeys(("randint", "floor", "ceil", "find"), WHOLE),

@@ -20,7 +20,7 @@ from .expressions import (
     method_call,
     show,
 )
-from .kinds import KEPT, KEYS, LIST, OTHER, TABLE, TEXT, TRUTH, are, kinds_of, note
+from .kinds import KEPT, KEYS, LIST, NUMBER, OTHER, TABLE, TEXT, TRUTH, are, kinds_of, note
 
 
 def _is_plain(key: int) -> bool:
@@ -71,6 +71,21 @@ def _names(code: Expressions, block: Block) -> ast.expr:
     return note(call("list", code.slot(block, "table")), LIST)
 
 
+_EXTREMES = {"max": "name_with_largest", "min": "name_with_smallest"}
+
+
+def _name_with(code: Expressions, block: Block) -> ast.expr:
+    extreme, kept = code.choice(block, "extreme"), code.kinds_at(KEPT)
+    table, keys = code.value_in(block, "table"), code.kinds_at(KEYS)
+    is_plain = (
+        are(kinds_of(table), TABLE) and _is_plain(keys) and (are(kept, NUMBER) or are(kept, TEXT))
+    )
+    if is_plain and isinstance(table, ast.Name):  # which is the same table both times
+        value_of = ast.Attribute(table, "get")
+        return note(call(extreme, table, key=value_of), keys)
+    return note(code.api_call(_EXTREMES[extreme], table), keys)
+
+
 def _set(code: Expressions, block: Block) -> list[Piece]:
     value = code.slot(block, "value")
     table, key = code.values_in(block, "table", "key", then=value)
@@ -112,6 +127,7 @@ TABLE_VALUES: dict[str, ValueGenerator] = {
     "table_get_or": _get_or,
     "table_has": _has,
     "table_names": _names,
+    "table_name_with": _name_with,
 }
 
 TABLE_STATEMENTS: dict[str, StatementGenerator] = {

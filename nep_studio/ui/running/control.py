@@ -273,6 +273,7 @@ class RunControl(QObject):
                 node_entries(project, language),
                 robot_entries(project, language),
                 list(names_used(project, language, "gesture")),
+                list(names_used(project, language, "arm")),
             )
         self._is_settled = True
         if changes.whole or changes.kept or wanted != self._wanted:
@@ -426,14 +427,17 @@ class RunControl(QObject):
 
 
 BY_A_PERSON: frozenset[Kind] = frozenset(
-    ("word", "face", "distance", "touch", "gesture", "ball", "mark", "sound", "emotion", "state")
+    (
+        *("word", "face", "distance", "touch", "gesture", "arm", "ball", "mark", "sound"),
+        *("emotion", "state"),
+    )
 )
 """What somebody does before a robot; the rest is measured, or happens by itself."""
 
 
 def _is_by_hand(what: Occurrence, nodes: Sequence[PlannedNode]) -> bool:
     """Whether the person at this computer does it: no real robot, no watch is there for it."""
-    if what.kind == "gesture":
+    if what.kind in ("gesture", "arm"):
         virtual = (node for node in nodes if node.node == VIRTUAL_WATCH)
         return any(not node.parameters.get("gestures") for node in virtual)
     return what.kind in BY_A_PERSON and not any(is_real(node) for node in nodes)

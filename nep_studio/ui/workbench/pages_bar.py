@@ -31,9 +31,9 @@ class PagesBar(QWidget):
     """Shows one page of an editor, or one room, as chosen.
 
     ``page_chosen`` asks to see another page; ``tree_begun`` says that it is one with a behaviour
-    tree, to which blocks of trees are to be added. ``attempt`` makes a change and tells the person why
-    not when it is refused. The pages that set robots and nodes up have a tab once somebody wants
-    to see them, until it is closed.
+    tree, to which blocks of trees are to be added. ``attempt`` makes a change and tells the person
+    why not when it is refused. The pages that set robots and nodes up have a tab once somebody
+    wants to see them, until it is closed.
     """
 
     page_chosen = Signal(str)

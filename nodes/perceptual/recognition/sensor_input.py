@@ -69,7 +69,7 @@ class SensorInput:
         self._last: Detection | None = None
         for way in self._ways:
             way.spotter.listen(first.gyr is not None)
-        self._troubles = _Troubles(self.source, warn)
+        self._troubles = Troubles(self.source, warn)
         if about_wrist := self._about_wrist(first, model):
             tell(about_wrist)
 
@@ -140,7 +140,7 @@ def _overlap(one: Detection, other: Detection) -> bool:
     return one.t_start < other.t_end and other.t_start < one.t_end
 
 
-class _Troubles:
+class Troubles:
     """What a stream of samples lacks to be understood; each is told once."""
 
     def __init__(self, source: Words, warn: Callable[[Text], None]) -> None:

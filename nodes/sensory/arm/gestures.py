@@ -104,6 +104,24 @@ _STRECH_UP = Gesture(  # the hands, fingers laced and palms outward, stretched u
     duration_s=4.28,
 )
 
+_HELD_S = 3.0
+
+
+def _held(name: str, pose: Pose) -> Gesture:
+    """A pose that is taken and held for a while, which makes it a posture and no gesture."""
+    return Gesture(name, ready=pose, strokes=(), duration_s=_HELD_S)
+
+
+POSTURES = {
+    posture.name: posture
+    for posture in (
+        _held("arm_raised", {**arm(168, 6, 10, 8, 30), **trunk(0)}),
+        _held("arm_level", {**arm(88, 8, 10, 4, 40), **trunk(0)}),
+        _held("arm_lowered", {**arm(3, 8, 5, 10, 25), **trunk(0)}),
+    )
+}
+"""How a simulated person holds the arm when asked; by the human states that tell of it."""
+
 MAKES_GESTURE = "makes_gesture"
 """The code of what the virtual watch tells while it makes one, whose name is a value."""
 

@@ -12,6 +12,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from nep_core.wire.messages import Wrist
 from nodes.recordings import Recording
 
 from .everyday import CALM, EVERYDAY, HANGING, Activity, rest
@@ -230,7 +231,9 @@ class LivePerson:
 
     def __init__(self, person: int, rate_hz: float, seed: int, start_s: float = 0.0) -> None:
         self.number = person
-        self._performer = Performer(person_numbered(person), rate_hz, seed, start_s)
+        who = person_numbered(person)
+        self.wrist: Wrist = "left" if who.sensor.left_wrist else "right"
+        self._performer = Performer(who, rate_hz, seed, start_s)
         self._chance = np.random.default_rng([5, person, seed])
         self._waiting: deque[Gesture] = deque()
         self._gesture_until_s = start_s

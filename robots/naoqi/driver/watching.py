@@ -12,7 +12,13 @@ from collections.abc import Callable, Iterator
 from functools import partial
 from typing import Any
 
-from robots.body.driver import plain, state_of_thing, state_of_word, states_of_touch
+from robots.body.driver import (
+    NOT_UNDERSTOOD,
+    plain,
+    state_of_thing,
+    state_of_word,
+    states_of_touch,
+)
 from robots.body.inverse import from_world, to_world, torso_height_m
 from robots.body.surroundings import distance_word
 from robots.errors import ActionFailed
@@ -177,6 +183,10 @@ SENSOR_OF = {event: name for name, events in TOUCH_EVENTS.items() for event in e
 
 SURE_WORD = 0.35
 """From this confidence on NAOqi's recognition of a word is taken as heard."""
+UNSURE_WORD = 0.15
+"""From this one on somebody has said something; below, it may as well be a noise."""
+ECHO_S = 0.8
+"""So long after a robot has spoken its ears may still be busy with its own words."""
 FORGET_S = 2.0
 """What was not seen for so long is not there any more."""
 FACE_M, BALL_M, MARK_M = 0.16, 0.06, 0.12
@@ -195,6 +205,8 @@ class Noticing:
         """Our touch sensors, 0 or 1, as far as there was an event of them."""
         self._felt: dict[str, dict[str, float]] = {}
         self._seen_s: dict[str, float] = {}
+        self._spoke_s = -math.inf
+        """When the robot was last known to speak."""
 
     def hear(self, event: str, value: Any) -> list[str]:
         """Take in an event; return the human states that follow from it."""
@@ -209,6 +221,8 @@ class Noticing:
 
     def forget(self) -> None:
         """Forget what was not seen for a while."""
+        if self._robot.known.saying:
+            self._spoke_s = time.monotonic()
         limit_s = time.monotonic() - FORGET_S
         for thing in [name for name, seen_s in self._seen_s.items() if seen_s < limit_s]:
             del self._seen_s[thing]
@@ -270,6 +284,13 @@ class Noticing:
         words = word.replace("<...>", " ").strip()
         if certainty >= SURE_WORD and plain(words):
             yield state_of_word(words)
+        elif certainty >= UNSURE_WORD and self._is_asked():
+            yield NOT_UNDERSTOOD
+
+    def _is_asked(self) -> bool:
+        """Whether the robot waits for an answer, and does not hear itself."""
+        is_quiet = time.monotonic() - self._spoke_s >= ECHO_S
+        return bool(self._robot.known.listening) and is_quiet
 
     def _noticed(self, kind: str, name: str, place: tuple[float, float, float]) -> Iterator[str]:
         if not all(map(math.isfinite, place)):

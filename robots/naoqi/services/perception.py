@@ -110,6 +110,8 @@ class PausableExtractor(Extractor):
 
 LISTENING_S = 3600.0
 SURE = 0.9
+UNSURE = 0.2
+"""How sure it is of words that are none of the vocabulary, which it only notices."""
 Tell = Callable[[str, Any], None]
 
 
@@ -128,7 +130,10 @@ class ALSpeechRecognition(PausableExtractor):
         self._listening: Asked | None = None
 
     def hear(self, heard: str, tell: Tell) -> None:
-        """Take in what is said, and tell it when it is in the vocabulary."""
+        """Take in what is said, and tell the word of the vocabulary that it is.
+
+        Who spots words in sentences is told of others too, without a word, and as unsure.
+        """
         if not self.is_on:
             return
         tell("SpeechDetected", 1)
@@ -137,6 +142,8 @@ class ALSpeechRecognition(PausableExtractor):
             word = f"<...> {words[0]} <...>" if self._is_spotting else words[0]
             tell("WordRecognized", [word, SURE])
             tell("LastWordRecognized", [word, SURE])
+        elif self._is_spotting:
+            tell("WordRecognized", ["<...>", UNSURE])
         tell("SpeechDetected", 0)
 
     @method("setVocabulary::v([s]b)")

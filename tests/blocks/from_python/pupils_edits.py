@@ -272,7 +272,7 @@ EXAMPLES: list[tuple[str, str, str]] = [
     ("karate_greeting", '    nao.say("Now I have to rest.")', "    # tired now\n    tired = True\n    if tired:\n        nao.say('Now I have to rest.')"),
     ("dance", '    nao.say("Music, please!", gesture="happy")', "    songs = ['rock', 'pop']\n    for song in songs:\n        nao.say('I like ' + song)"),
     ("dance", "    nao.turn(90)", "    nao.turn(degrees=90)"),
-    ("dance", "    for _ in range(2):\n", "    for i in range(2):\n"),
+    ("dance", "    for _ in range(2):\n        together", "    for i in range(2):\n        together"),
     ("dance", '    nao.play("bow")', '    i = 0\n    while i < 2:\n        nao.play("bow")\n        i = i + 1'),
     ("emotions", '    nao.play("cheer")', '    nao.play("cheer")\n    nao.say("Hip hip " + "hooray " * 2)'),
     ("emotions", '    nao.look(25, 15)', '    yaw = 25\n    pitch = 15\n    nao.look(yaw, pitch)\n    nao.look(-yaw, pitch)'),

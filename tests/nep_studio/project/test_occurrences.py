@@ -56,6 +56,9 @@ def test_a_sensor_is_to_measure_a_little_more_than_is_waited_for(side: str, is_p
         ("seen_mark_64", "mark", "64"),
         ("emotion_sad", "emotion", "sad"),
         ("person_close", "distance", "close"),
+        ("arm_raised", "arm", "raised"),
+        ("arm_lowered", "arm", "lowered"),
+        ("arm_of_mine", "state", "arm_of_mine"),
         ("cue_storm", "state", "cue_storm"),
     ],
 )

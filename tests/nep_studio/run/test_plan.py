@@ -24,11 +24,12 @@ def project(
     language: Language,
     *,
     rules: tuple[str, ...] = (),
+    states: tuple[str, ...] = (),
     speaks_to: str = "NAO",
     robots: tuple[dict[str, Any], ...] = (),
     nodes: tuple[dict[str, Any], ...] = (),
 ) -> Project:
-    """A project with a rule for each gesture, in which a robot says hello."""
+    """A project with a rule for each gesture and human state, in which a robot says hello."""
     blocks: list[dict[str, Any]] = []
     pages: dict[str, list[dict[str, Any]]] = {"behaviour": [], "robots": [], "nodes": []}
 
@@ -42,6 +43,8 @@ def project(
     say = {"type": "robot.say", "fields": {"robot": speaks_to, "text": "Hello"}}
     for gesture in rules:
         stack("behaviour", {"type": "event.gesture", "fields": {"gesture": gesture}}, say)
+    for state in states:
+        stack("behaviour", {"type": "event.human_state", "fields": {"state": state}}, say)
     for fields in robots:
         stack("robots", {"type": "robots.robot", "fields": fields})
     for fields in nodes:
@@ -82,6 +85,48 @@ def test_a_virtual_watch_moves_by_itself_where_nobody_can_ask_it(language: Langu
     nodes = planned(project(language, rules=("karate",)), language, choices=Choices(by_itself=True))
 
     assert nodes["virtual_watch"].parameters == {"gestures": "karate"}
+
+
+def test_a_rule_that_waits_for_how_an_arm_is_held_gets_the_node_that_tells(
+    language: Language,
+) -> None:
+    states = ("arm_raised", "arm_lowered", "touched_head", "arm_of_mine")
+    nodes = planned(project(language, states=states), language)
+    alone = planned(
+        project(language, rules=("karate",), states=states[:1]),
+        language,
+        choices=Choices(by_itself=True),
+    )
+
+    assert {name: node.node for name, node in nodes.items()} == {
+        "arm": "perceptual/posture",
+        "virtual_watch": "sensory/virtual_watch",
+    }
+    assert nodes["arm"].parameters == {} and nodes["arm"].reason
+    assert alone["virtual_watch"].parameters == {"gestures": "karate, arm_raised"}
+
+
+@pytest.mark.parametrize("state", ["arm_of_mine", "arm_", "touched_head"])
+def test_no_other_state_needs_a_watch(language: Language, state: str) -> None:
+    assert planned(project(language, states=(state,)), language) == {}
+
+
+def test_a_posture_node_of_the_page_is_the_one_that_tells(language: Language) -> None:
+    settings = {"worn": "left wrist"}
+    node = ({"node": "perceptual/posture", "name": "mine", "parameters": settings},)
+
+    nodes = planned(project(language, states=("arm_level",), nodes=node), language)
+
+    assert set(nodes) == {"mine", "virtual_watch"}
+    assert nodes["mine"].parameters == settings
+
+
+def test_a_robot_may_have_the_name_of_the_posture_node(language: Language) -> None:
+    robots = ({"name": "arm", "driver": "virtual", "address": ""},)
+
+    nodes = planned(project(language, states=("arm_level",), robots=robots), language)
+
+    assert len(nodes) == 3 and nodes["arm"].node == "action/nao"
 
 
 @pytest.mark.parametrize("gestures", ["", "3 katana"])

@@ -9,8 +9,10 @@ import pytest
 from driver_stage import ANIMATIONS, BODY
 
 from robots.body.actions import ACTIONS, Listen, SetAngles, Stop, StopMoving
+from robots.body.driver import NOT_UNDERSTOOD
 from robots.body.keyframes import Keyframes, Track, track_angles
 from robots.body.pose import VirtualRobot
+from robots.naoqi.driver import watching
 from robots.naoqi.driver.calls import Calls
 from robots.naoqi.driver.driver import TASKS
 from robots.naoqi.driver.moving import bezier_call
@@ -78,6 +80,43 @@ def test_a_word_that_is_not_sure_is_not_heard() -> None:
     sure = noticing.hear("WordRecognized", ["<...> yes <...>", 0.6])
 
     assert (unsure, sure) == ([], ["heard_yes"])
+
+
+@pytest.mark.parametrize(
+    ("told", "states"),
+    [
+        (["<...>", 0.2], [NOT_UNDERSTOOD]),
+        (["<...> yes <...>", 0.3], [NOT_UNDERSTOOD]),
+        (["<...>", 0.9], [NOT_UNDERSTOOD]),
+        (["<...> yes <...>", 0.5], ["heard_yes"]),
+        (["yes", 0.05], []),
+        (["", -3.0], []),
+        (["yes", float("nan")], []),
+    ],
+)
+def test_a_robot_that_listens_notices_that_it_did_not_understand(
+    told: list[object], states: list[str]
+) -> None:
+    robot = bare_robot()
+    robot.known.listening = ("yes", "no")
+
+    assert Noticing(robot).hear("WordRecognized", told) == states
+
+
+def test_a_robot_that_has_just_spoken_does_not_wonder_what_was_said(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    robot = bare_robot()
+    noticing = Noticing(robot)
+    robot.known.listening, robot.known.saying = ("yes",), "Do you like robots?"
+    noticing.forget()
+    robot.known.saying = ""
+
+    echo = noticing.hear("WordRecognized", ["<...>", 0.3])
+    monkeypatch.setattr(watching, "ECHO_S", 0.0)
+    later = noticing.hear("WordRecognized", ["<...>", 0.3])
+
+    assert (echo, later) == ([], [NOT_UNDERSTOOD])
 
 
 def test_one_sensor_with_several_places_is_touched_until_all_are_let_go() -> None:

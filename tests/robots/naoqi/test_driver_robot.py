@@ -112,6 +112,18 @@ def test_a_question_adds_its_words_for_a_while(robot: ServedNao, stage: DriverSt
     assert stage.driver.state().listening == []
 
 
+def test_an_answer_that_is_none_of_the_words_is_noticed(
+    robot: ServedNao, stage: DriverStage
+) -> None:
+    stage.ask("1", "listen", words=["yes", "no"], seconds=60)
+    stage.until(lambda: stage.driver.state().listening == ["yes", "no"])
+    stage.until(lambda: robot.state().listening == ["yes", "no"])
+
+    robot.sense("word", name="elephant")
+
+    stage.until(lambda: stage.noticed == ["not_understood"])
+
+
 def test_words_are_listened_for_again_after_the_robot_was_gone(stage: DriverStage, robot) -> None:
     stage.driver.expect(["hello"])
     stage.until(lambda: robot.state().listening == ["hello"])

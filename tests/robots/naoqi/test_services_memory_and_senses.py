@@ -180,6 +180,18 @@ def test_a_word_is_spotted_in_a_sentence(theatre: NaoqiTheatre) -> None:
     theatre.until(lambda: heard == [["<...> dance <...>", pytest.approx(0.9)]])
 
 
+def test_who_spots_words_is_told_of_others_without_a_word(theatre: NaoqiTheatre) -> None:
+    heard = heard_events(theatre, "WordRecognized")
+    last = heard_events(theatre, "LastWordRecognized")
+    theatre.call("ALSpeechRecognition", "setVocabulary", ["dance"], True)
+    theatre.call("ALSpeechRecognition", "subscribe", "test")
+
+    theatre.feel("word", name="Please sing for me")
+
+    theatre.until(lambda: heard == [["<...>", pytest.approx(0.2)]])
+    assert last == []
+
+
 def test_speech_and_posture_are_events(theatre: NaoqiTheatre) -> None:
     said = heard_events(theatre, "ALTextToSpeech/CurrentSentence")
     postures = heard_events(theatre, "PostureChanged")

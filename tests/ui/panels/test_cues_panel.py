@@ -11,6 +11,7 @@ from pytestqt.qtbot import QtBot
 from nep_core.wire import messages as m
 from nep_studio.blocks.edits.content import SetField
 from nep_studio.project.triggers import kept_cues
+from nep_studio.ui.cue_style import invitation
 from nep_studio.ui.documents import Document
 from nep_studio.ui.plugins.cues import CuePanel
 from nep_studio.ui.plugins.cues.arranging import COLOURS, ArrangeDialog, columns_for, ink_on
@@ -125,6 +126,18 @@ def test_a_movement_of_the_watch_on_the_screen_is_asked_for(
 
     qtbot.waitUntil(ask, timeout=WAIT_MS)
     assert asked[0].gesture == "karate"
+
+
+def test_how_an_arm_is_held_can_be_sent_or_shown_by_the_watch(
+    panel: Callable[..., CuePage],
+) -> None:
+    shown = panel([B("event.human_state", {"state": "arm_raised"}), B("robot.say", {"text": "Hi"})])
+
+    [action] = shown.movements.menu().actions()
+    assert words(shown) == [action.text()] == ["The arm is raised"]
+    [cue] = shown.cues.cues()
+    assert (cue.kind, cue.movement) == ("arm", "arm_raised")
+    assert invitation(cue) == "Your arm: raised"
 
 
 def test_without_a_running_program_it_says_why_and_offers_run(

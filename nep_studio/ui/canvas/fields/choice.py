@@ -16,7 +16,7 @@ from nep_studio.blocks.checks.deployment import goal_names
 from nep_studio.blocks.deployment import can_be_stopped, rules
 from nep_studio.blocks.language import Language
 from nep_studio.blocks.program import Project
-from nep_studio.blocks.slots import GESTURE_STATE
+from nep_studio.blocks.slots import ARM_STATE, GESTURE_STATE
 from nep_studio.blocks.text import sentence
 from nep_studio.ui.theme.icons import icon
 from nep_studio.ui.words import tr
@@ -48,6 +48,7 @@ SHIPPED_STATES = (
     "touched_foot",
     "seen_face",
     "heard_word",
+    "not_understood",
     "sonar_close",
 )
 """Human states that a robot tells of whatever the program is."""
@@ -76,6 +77,10 @@ def _states(project: Project, language: Language) -> list[Option]:
     found = [
         Option(label, GESTURE_STATE + name, "hand", tr("Gestures"))
         for name, label in gestures.items()
+    ]
+    found += [
+        Option(_words(state), state, "person-standing", tr("How the arm with the watch is held"))
+        for state in (f"{ARM_STATE}{name}" for name in language.choices.get("arm_postures", ()))
     ]
     gesture_states = {option.value for option in found}
     found += [Option(_words(s), s, "eye", tr("What the robot notices")) for s in known]

@@ -180,7 +180,7 @@ class CuePage(QWidget):
         cues = self.cues.cues()
         self.board.show_cues(cues)
         self.empty.setVisible(not self.board.buttons)
-        self._show_movements([cue for cue in cues if cue.gesture and not cue.is_hidden])
+        self._show_movements([cue for cue in cues if cue.movement and not cue.is_hidden])
         self._on_running_changed()
 
     def send(self, cue: Cue) -> bool:
@@ -273,7 +273,7 @@ class CuePage(QWidget):
         menu = self.movements.menu()
         menu.clear()
         for cue in gestures:
-            make = partial(self.sending.make_gesture, cue.gesture, cue.words)
+            make = partial(self.sending.make_gesture, cue.movement, cue.words)
             menu.addAction(cue_words(cue)).triggered.connect(lambda _=False, make=make: make())
 
     def _on_said(self) -> None:

@@ -232,8 +232,12 @@ class TouchBox(Buttons):
         call(self.buttons, self._language().choices.get("touch_parts", {}))
 
 
+ARMS = {"raised": "Raise the arm", "level": "Hold the arm level", "lowered": "Let the arm hang"}
+"""How the arm that wears the watch is held, and what does so; stimuli.py says them, too."""
+
+
 class GestureBox(QWidget):
-    """A button for each gesture, and how it comes about."""
+    """A button for each gesture and for how the arm is held, and how it comes about."""
 
     def __init__(self, stimuli: Stimuli, language: Callable[[], Language], look: Look) -> None:
         super().__init__()
@@ -241,6 +245,11 @@ class GestureBox(QWidget):
         self.buttons: list[OccurrenceButton] = []
         self._shown: dict[str, str] | None = None
         self._rows = Buttons()
+        self.arms = {
+            one: WordsButton(words, look, "person-standing") for one, words in ARMS.items()
+        }
+        for posture, button in self.arms.items():
+            button.clicked.connect(partial(self._on_arm, posture))
         self.how = plain_label()
         self.how.setProperty("role", "hint")
         self.certainty = QSpinBox(minimum=1, maximum=100, value=100)
@@ -248,7 +257,8 @@ class GestureBox(QWidget):
         self.certainty.valueChanged.connect(self._on_certainty_changed)
         self._certain = QWidget()
         in_row(labelled(QLabel(), text="Certainty"), self.certainty, 1, of=self._certain, margins=0)
-        in_column(self._rows, self.how, self._certain, of=self, margins=0)
+        arms = Buttons(self.arms.values())
+        in_column(self._rows, arms, self.how, self._certain, of=self, margins=0)
         self.show_gestures([], language().choices.get("gestures", {}))
         follow_words(self, self._say)
 
@@ -277,6 +287,9 @@ class GestureBox(QWidget):
             else "No watch runs: the program is told by hand that the gesture was made.",
         )
         self._certain.setVisible(not is_moved)
+
+    def _on_arm(self, posture: str) -> None:
+        self._stimuli.begin(Occurrence("arm", posture))
 
     def _on_certainty_changed(self, percent: int) -> None:
         self._stimuli.certainty = percent / 100.0

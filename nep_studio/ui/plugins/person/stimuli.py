@@ -36,6 +36,7 @@ ICONS: dict[Kind, str] = {
     "posture": "person-standing",
     "doing": "bot",
     "idle": "hourglass",
+    "arm": "person-standing",
 }
 """The sign of each kind."""
 
@@ -68,6 +69,12 @@ def _words(occurrence: Occurrence, about: str) -> str:
             return tr("Make a sound")
         case "emotion":
             return tr("Look {emotion}", emotion=about)
+        case "arm" if occurrence.value == "raised":
+            return tr("Raise the arm")
+        case "arm" if occurrence.value == "level":
+            return tr("Hold the arm level")
+        case "arm":
+            return tr("Let the arm hang")
     return _measured_words(occurrence, about)
 
 
@@ -258,8 +265,8 @@ class Stimuli(QObject):
             self.refused.emit(reason)
             return False
         robot = self.noticing(occurrence)
-        if occurrence.kind == "gesture":
-            return self._gesture(occurrence)
+        if occurrence.kind in ("gesture", "arm"):
+            return self._movement(occurrence)
         if occurrence.kind in ("emotion", "state"):
             return self._tell(state_of(occurrence), SOURCE, occurrence)
         if not robot:
@@ -348,11 +355,14 @@ class Stimuli(QObject):
         """Touch the first sensor of a part: one finger touches one place."""
         self._sense(robot, TOUCHES.get(part, (part,))[0], value)
 
-    def _gesture(self, occurrence: Occurrence) -> bool:
-        if self.has_watch and occurrence.value in self._watch_gestures():
-            request = m.GestureRequest(gesture=occurrence.value)
-            is_sent = self._runner.send(m.GESTURE_REQUEST, request)
-            self.told.emit(tr("The watch moves: {gesture}", gesture=occurrence.words))
+    def _movement(self, occurrence: Occurrence) -> bool:
+        """Let the watch on the screen make it, or tell of it where no watch can."""
+        is_arm = occurrence.kind == "arm"
+        if self.has_watch and (is_arm or occurrence.value in self._watch_gestures()):
+            movement = state_of(occurrence) if is_arm else occurrence.value
+            is_sent = self._runner.send(m.GESTURE_REQUEST, m.GestureRequest(gesture=movement))
+            words = words_of(occurrence) if is_arm else occurrence.words
+            self.told.emit(tr("The watch moves: {gesture}", gesture=words))
             return is_sent
         return self._tell(state_of(occurrence), SOURCE, occurrence)
 

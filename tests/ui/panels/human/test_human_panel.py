@@ -48,6 +48,18 @@ def test_what_the_program_waits_for_comes_first(human: Human) -> None:
     assert "Anna" in [panel.person.name.itemText(n) for n in range(panel.person.name.count())]
 
 
+def test_how_an_arm_is_held_has_buttons_of_its_own(human: Human) -> None:
+    panel = human(
+        rule("event.human_state", state="arm_raised"),
+        rule("event.human_state", state="arm_level"),
+        rule("event.human_state", state="arm_lowered"),
+    )
+
+    every = ["Raise the arm", "Hold the arm level", "Let the arm hang"]
+    assert words(panel) == every
+    assert [button.words for button in panel.gestures.arms.values()] == every
+
+
 def test_a_program_that_waits_for_nothing_says_so(human: Human) -> None:
     panel = human([B("event.started")])
 

@@ -59,6 +59,29 @@ def test_every_hat_is_set_off_by_its_control(human: Human, run: Run, qtbot: QtBo
     assert set(HATS) <= set(said(heard))
 
 
+def test_a_gesture_and_a_raised_arm_soon_after_it_set_off_their_rule(
+    human: Human, run: Run, qtbot: QtBot
+) -> None:
+    """A real watch node moves, and two real nodes recognise the gesture and the posture."""
+    gesture, arm = (
+        B("sensing.was_seen", {"state": state, "seconds": 2})
+        for state in ("gesture_karate", "arm_raised")
+    )
+    both = B("logic.junction", {"junction": "and"}, {"a": gesture, "b": arm})
+    panel = human([B("event.true", {}, {"condition": both}), B("robot.say", {"text": "Ha"})])
+    heard = run()
+    qtbot.waitUntil(lambda: panel.stimuli.has_watch, timeout=RUN_MS)
+    karate, raised = panel.waiting.buttons
+
+    click(qtbot, karate)
+    click(qtbot, raised)
+
+    qtbot.waitUntil(lambda: "Ha" in said(heard), timeout=RUN_MS)
+    told = [one for one in heard if isinstance(one, m.HumanBehavior)]
+    wanted = ("gesture_karate", "arm_raised")
+    assert {one.source for one in told if one.human_state in wanted} == {"karate", "arm"}
+
+
 def test_what_is_told_moves_no_button_and_goes_with_its_project(
     human: Human, window: MainWindow, run: Run, qtbot: QtBot
 ) -> None:
