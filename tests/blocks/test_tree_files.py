@@ -193,7 +193,7 @@ def test_what_is_not_taken_over_is_told(language: Language) -> None:
         """<root BTCPP_format="4"><include path="more.xml"/>
         <BehaviorTree><PipelineSequence><A/><B _onHalted="x = 1"/></PipelineSequence></BehaviorTree>
         <BehaviorTree ID="B2"><Sequence>
-          <Script code="x := y &amp; 1"/><Parallel failure_count="2"/><Timeout msec="soon"/>
+          <Script code="x := y &amp; 1"/><Parallel failure_count="2"/><Timeout msec="soon"/><Delay delay_msec="-1"/>
         </Sequence></BehaviorTree></root>""",
     )
 
@@ -205,6 +205,7 @@ def test_what_is_not_taken_over_is_told(language: Language) -> None:
         "The script “x := y & 1” is more than blocks can read.",
         "“failure_count” of “Parallel” is not taken over.",
         "“msec” of “Timeout” is not taken over.",
+        "“delay_msec” of “Delay” is not taken over.",
     ]
     assert not check(editor.project, editor.language)
 
@@ -261,6 +262,11 @@ OUTSIDE = """<!DOCTYPE root [<!ENTITY x SYSTEM "file:///etc/passwd">]>
 <root><BehaviorTree ID="&x;"/></root>"""
 
 
+def nested(before: str, after: str, times: int) -> bytes:
+    inside = before * times + "<C/>" + after * times
+    return f"<root><BehaviorTree>{inside}</BehaviorTree></root>".encode()
+
+
 @pytest.mark.parametrize(
     ("content", "reason"),
     [
@@ -269,6 +275,9 @@ OUTSIDE = """<!DOCTYPE root [<!ENTITY x SYSTEM "file:///etc/passwd">]>
         (b"<root>" * (DEEPEST + 1), "too large"),
         (b"<root>" + b"<a/>" * 20_000 + b"</root>", "too large"),
         (b" " * 3_000_000, "too large"),
+        (nested("<IfThenElse><A/><B/>", "</IfThenElse>", 90), "too large"),
+        (nested("<WhileDoElse>", "<A/><B/></WhileDoElse>", 30), "too large"),
+        (nested("<A _skipIf='x' _while='x' _post='x:=1'>", "</A>", 60), "too large"),
         (b"", "no XML"),
         (b"<root><BehaviorTree></root>", "Line 1 is no XML"),
         (b'<?xml version="1.0" encoding="nothing"?><root/>', "no XML"),

@@ -43,6 +43,15 @@ class Element:
         """The elements directly in it that have one of these tags."""
         return (child for child in self.children if child.tag in tags)
 
+    def depth(self) -> int:
+        """How many elements are inside each other, itself one of them."""
+        deepest, waiting = 0, [(self, 1)]
+        while waiting:
+            element, depth = waiting.pop()
+            deepest = max(deepest, depth)
+            waiting += [(child, depth + 1) for child in element.children]
+        return deepest
+
     def inner(self) -> Iterator[Element]:
         """All elements in it, and itself, the outer ones first."""
         waiting = [self]
@@ -50,6 +59,16 @@ class Element:
             element = waiting.pop()
             yield element
             waiting += reversed(element.children)
+
+
+def too_large() -> TreeFileError:
+    """What is said of trees with too many parts."""
+    return TreeFileError(
+        "The trees are too large: {deepest} parts inside each other, and {most} in all, at most.",
+        checklist=(_FROM_GROOT, "Make smaller trees, and several files."),
+        deepest=DEEPEST,
+        most=MOST_ELEMENTS,
+    )
 
 
 def read_elements(content: bytes) -> Element:
@@ -144,13 +163,7 @@ class _Builder:
     def _start(self, tag: str, attributes: dict[str, str]) -> None:
         self._count += 1
         if len(self._around) > DEEPEST or self._count > MOST_ELEMENTS:
-            raise TreeFileError(
-                "The trees are too large: {deepest} parts inside each other, and {most} in all, "
-                "at most.",
-                checklist=(_FROM_GROOT, "Make smaller trees, and several files."),
-                deepest=DEEPEST,
-                most=MOST_ELEMENTS,
-            )
+            raise too_large()
         element = Element(tag, attributes, self.parser.CurrentLineNumber)
         self._around[-1].children.append(element)
         self._around.append(element)

@@ -16,7 +16,7 @@ from dataclasses import dataclass, field
 from typing import Literal
 
 from ..arithmetic import is_number_text
-from .elements import Element
+from .elements import DEEPEST, MOST_ELEMENTS, Element, too_large
 from .scripts import assigned, used
 
 Skipped = Literal["success", "failure"]
@@ -121,6 +121,14 @@ class Plain:
     """The names of values in the file, and those that were made here."""
     is_version_3: bool = False
     _made: dict[str, int] = field(default_factory=dict)
+    _parts: int = 0
+
+    def tree(self, elements: Iterable[Element]) -> list[Element]:
+        """Plain parts of a tree; raises TreeFileError if they are too many."""
+        plain = self.all(elements)
+        if any(part.depth() > DEEPEST for part in plain):
+            raise too_large()
+        return plain
 
     def all(self, elements: Iterable[Element], skipped: Skipped = "success") -> list[Element]:
         """Plain parts for these."""
@@ -128,6 +136,9 @@ class Plain:
 
     def part(self, element: Element, skipped: Skipped = "success") -> Element:
         """A plain part for one with all that is in it."""
+        self._parts += 1  # a condition that is asked twice has others in it twice
+        if self._parts > MOST_ELEMENTS:
+            raise too_large()
         bare = _bare(element)
         said = bare.attributes
         bare.attributes = {

@@ -128,7 +128,7 @@ class _Reader:
         entries = names_in(root)
         is_3 = root.attributes.get("BTCPP_format", "").strip() != "4"
         plain = Plain(told_models.__contains__, self._tell, set(entries), is_3)
-        self._parts = [plain.all(_top(tree)) for tree in trees]
+        self._parts = [plain.tree(_top(tree)) for tree in trees]
         self._entries = entries | plain.taken
         for part in itertools.chain.from_iterable(self._parts):
             self._entries |= names_in(part)
@@ -340,7 +340,7 @@ class _Reader:
                 divided: dict[str, FieldValue] = {"operation": "divide", "b": per_one}
                 value = Made("math.arithmetic", divided, {"a": value})
             made.inputs[key] = value
-        elif is_number_text(text.strip()):
+        elif is_number_text(text.strip()) and not (key == "seconds" and "-" in text):
             number = number_of(typed_number(text.strip()))
             made.fields[key] = int(number // per_one) if number % per_one == 0 else number / per_one
         else:
