@@ -193,7 +193,8 @@ def test_what_is_not_taken_over_is_told(language: Language) -> None:
         """<root BTCPP_format="4"><include path="more.xml"/>
         <BehaviorTree><PipelineSequence><A/><B _onHalted="x = 1"/></PipelineSequence></BehaviorTree>
         <BehaviorTree ID="B2"><Sequence>
-          <Script code="x := y &amp; 1"/><Parallel failure_count="2"/><Timeout msec="soon"/><Delay delay_msec="-1"/>
+          <Script code="x := y &amp; 1"/><Parallel failure_count="2"/><Timeout msec="soon"/>
+          <Delay delay_msec="-1"/>
         </Sequence></BehaviorTree></root>""",
     )
 
