@@ -264,8 +264,7 @@ class Fallback(_InOrder):
 class Parallel(Branch):
     """Does its children side by side; fails as soon as one fails.
 
-    Succeeds when ``enough`` of them have, all of them if that is not said. Those behind the one
-    that decides it are not asked any more.
+    Succeeds when ``enough`` of them have, all of them if that is not said.
     """
 
     def __init__(self, enough: Number = math.inf) -> None:
@@ -278,20 +277,20 @@ class Parallel(Branch):
         self._halt_from(0)
 
     def _look(self) -> Status:
-        status = self._ask()
-        if status != RUNNING:
-            for child in self.children:
-                if child.status == RUNNING:
-                    child.halt()
-        return status
-
-    def _ask(self) -> Status:
         for child in self.children:
-            if child.status != SUCCEEDED and child.tick() == FAILED:
-                return FAILED
-            if sum(one.status == SUCCEEDED for one in self.children) >= self._wanted:
-                return SUCCEEDED
-        return RUNNING if self.children else SUCCEEDED
+            if child.status != SUCCEEDED:
+                child.tick()
+        done = sum(child.status == SUCCEEDED for child in self.children)
+        if any(child.status == FAILED for child in self.children):
+            status = FAILED
+        elif done >= self._wanted:
+            status = SUCCEEDED
+        else:
+            return RUNNING
+        for child in self.children:
+            if child.status == RUNNING:
+                child.halt()
+        return status
 
 
 # Nodes that change what the one below them means, or when it is asked.

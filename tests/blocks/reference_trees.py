@@ -160,18 +160,16 @@ class _Run:
             wanted = min(wanted, rounded(self.trees.slot(block, "enough.1")))
         left = [self._part(*part) for part in parts]
         done = 0
-        while left:
-            for looked in list(left):
-                end = _looked_at(looked)
-                if end is not None:
-                    left.remove(looked)
-                done += end == GOOD
-                if end == BAD or done >= wanted:
-                    for running in left:
-                        running.close()
-                    return BAD if end == BAD else GOOD
+        while True:
+            ends = [(looked, _looked_at(looked)) for looked in left]
+            left = [looked for looked, end in ends if end is None]
+            done += sum(end == GOOD for _, end in ends)
+            has_failed = any(end == BAD for _, end in ends)
+            if has_failed or done >= wanted:
+                for looked in left:
+                    looked.close()
+                return BAD if has_failed else GOOD
             yield
-        return GOOD
 
     def _while(self, block: Block, inside: Look) -> Look:
         while self._yes(block):
