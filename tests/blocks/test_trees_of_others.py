@@ -1,7 +1,7 @@
 """Behaviour trees that others made: what blocks have no part for plays as in BehaviorTree.CPP.
 
-What is expected here is what version 4 of the library does with the same trees; but of parts side by
-side ours asks all in one look, as py_trees does, also when one has failed already.
+What is expected here is what version 4 of the library does with the same trees; but of parts side
+by side ours asks all in one look, as py_trees does, also when one has failed already.
 """
 
 from __future__ import annotations
