@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 from dataclasses import dataclass, field
+from pathlib import Path
 from xml.parsers import expat
 
 from ..errors import BlocksError
@@ -12,6 +13,8 @@ from ..errors import BlocksError
 LARGEST = 2_000_000
 DEEPEST = 100
 MOST_ELEMENTS = 10_000
+LARGEST_INCLUDED = 50
+"""So many files may be included."""
 
 _COMMENT = re.compile(rb"<!--.*?-->", re.DOTALL)
 _LOOSE_AND = re.compile(rb"&(?!#?\w+;)")
@@ -40,6 +43,15 @@ class Element:
         """The elements directly in it that have one of these tags."""
         return (child for child in self.children if child.tag in tags)
 
+    def depth(self) -> int:
+        """How many elements are inside each other, itself one of them."""
+        deepest, waiting = 0, [(self, 1)]
+        while waiting:
+            element, depth = waiting.pop()
+            deepest = max(deepest, depth)
+            waiting += [(child, depth + 1) for child in element.children]
+        return deepest
+
     def inner(self) -> Iterator[Element]:
         """All elements in it, and itself, the outer ones first."""
         waiting = [self]
@@ -47,6 +59,16 @@ class Element:
             element = waiting.pop()
             yield element
             waiting += reversed(element.children)
+
+
+def too_large() -> TreeFileError:
+    """What is said of trees with too many parts."""
+    return TreeFileError(
+        "The trees are too large: {deepest} parts inside each other, and {most} in all, at most.",
+        checklist=(_FROM_GROOT, "Make smaller trees, and several files."),
+        deepest=DEEPEST,
+        most=MOST_ELEMENTS,
+    )
 
 
 def read_elements(content: bytes) -> Element:
@@ -78,6 +100,45 @@ def read_elements(content: bytes) -> Element:
     return builder.outermost
 
 
+def read_file(path: Path) -> Element:
+    """The outermost element of a file, with what stands in the files that it includes.
+
+    Those lie beside it or in folders there; an “include” stays where one cannot be read. Raises
+    TreeFileError or OSError for the file itself.
+    """
+    root = _read(path)
+    seen, left = {path.resolve()}, LARGEST_INCLUDED
+    waiting = [(path, include) for include in root.named("include")]
+    root.children = [child for child in root.children if child.tag != "include"]
+    while waiting:
+        beside, include = waiting.pop(0)
+        inside = _included(beside, include)
+        if inside is None or left == 0:
+            root.children.append(include)
+        elif inside.resolve() not in seen:
+            seen.add(inside.resolve())
+            left -= 1
+            added = _read(inside)
+            waiting += [(inside, one) for one in added.named("include")]
+            root.children += [one for one in added.children if one.tag != "include"]
+    return root
+
+
+def _read(path: Path) -> Element:
+    with path.open("rb") as file:
+        return read_elements(file.read(LARGEST + 1))
+
+
+def _included(beside: Path, include: Element) -> Path | None:
+    """The file that another one includes, if it is there."""
+    said = include.attributes.get("path", "").replace("\\", "/")
+    if not said or "ros_pkg" in include.attributes or Path(said).is_absolute():
+        return None
+    inside = beside.parent / said
+    is_near = inside.resolve().is_relative_to(beside.parent.resolve().parent)
+    return inside if is_near and inside.is_file() else None
+
+
 def _blank(comment: re.Match[bytes]) -> bytes:
     """The lines of a comment, empty."""
     return b"\n" * comment[0].count(b"\n")
@@ -102,13 +163,7 @@ class _Builder:
     def _start(self, tag: str, attributes: dict[str, str]) -> None:
         self._count += 1
         if len(self._around) > DEEPEST or self._count > MOST_ELEMENTS:
-            raise TreeFileError(
-                "The trees are too large: {deepest} parts inside each other, and {most} in all, "
-                "at most.",
-                checklist=(_FROM_GROOT, "Make smaller trees, and several files."),
-                deepest=DEEPEST,
-                most=MOST_ELEMENTS,
-            )
+            raise too_large()
         element = Element(tag, attributes, self.parser.CurrentLineNumber)
         self._around[-1].children.append(element)
         self._around.append(element)

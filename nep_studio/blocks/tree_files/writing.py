@@ -6,6 +6,7 @@ own block. They stand there as actions and conditions with the words of the bloc
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from xml.sax.saxutils import quoteattr
@@ -14,11 +15,12 @@ from faults import Text, text_of
 
 from ..arithmetic import number_text
 from ..language import Language
-from ..procedures import CALL, parameters, procedure_of, words
+from ..procedures import CALL, RETURN, header_of, parameters, procedure_of, words
 from ..program import Block, Project
 from ..text import sentence
 from .elements import Element, TreeFileError
 from .reading import Model
+from .scripts import Writer, plain
 
 _ORDERS = {
     ("tree.sequence", "memory"): "Sequence",
@@ -72,6 +74,7 @@ class _Writer:
         self._language = language
         self._models: dict[str, Model] = {}
         self._told: dict[str, Text] = {}
+        self._scripts = Writer(self._value, self._plugged)
 
     def write(self, hats: Sequence[Block]) -> Exported:
         root = Element("root", {"BTCPP_format": "4"})
@@ -81,7 +84,10 @@ class _Writer:
                 root.attributes.setdefault("main_tree_to_execute", name)
             chain = self._project.stack_of(hat.id).body[1:]
             parts = self._all(chain) or [Element("AlwaysSuccess", {})]
-            root.children.append(Element("BehaviorTree", {"ID": name}, children=_as_one(parts)))
+            tree = Element("BehaviorTree", {"ID": name}, children=_as_one(parts))
+            if hat.comment:
+                tree.attributes["_description"] = " ".join(hat.comment.split())
+            root.children.append(tree)
         root.children.append(self._described())
         lines = ['<?xml version="1.0" encoding="UTF-8"?>', *_lines(root, 0)]
         return Exported("\n".join(lines) + "\n", tuple(self._told.values()))
@@ -187,11 +193,33 @@ class _Writer:
             is_true = self._value(plugged, "truth") == "true"
             return Element("AlwaysSuccess" if is_true else "AlwaysFailure", {})
         if plugged is not None and plugged.type.startswith(CALL):
-            return self._call("Condition", plugged, "")
+            code = self._at_once(plugged)
+            return self._call("Condition", plugged, "") if code is None else _script(code)
+        code = None if plugged is None else self._scripts.written(plugged)
+        if code is not None:
+            return Element("ScriptCondition", {"code": plain(code)})
         self._tell("What “{block}” asks is not in the file: write it there in C++.", block)
         words_of_it = sentence(self._project, self._language, (plugged or block).id)
         self._models.setdefault(words_of_it, Model("Condition"))
         return Element("Condition", {"ID": words_of_it})
+
+    def _at_once(self, block: Block) -> str | None:
+        """The script of an own block that only sets values and says yes, or None."""
+        header = header_of(self._project, procedure_of(block.type))
+        if not header:
+            return None
+        chain = [self._project.blocks[one] for one in self._project.stack_of(header).body[1:]]
+        *body, end = [one for one in chain if not one.disabled] or [block]
+        said = self._plugged(end, "value") if end.type == RETURN else None
+        is_yes = said is not None and said.type == "logic.truth"
+        if not body or not is_yes or said is None or self._value(said, "truth") != "true":
+            return None
+        return self._code(body)
+
+    def _code(self, body: Sequence[Block]) -> str | None:
+        """The script of blocks that set values, or None."""
+        script = [self._assigned(block) for block in body]
+        return "; ".join(filter(None, script)) if body and None not in script else None
 
     def _call(self, kind: str, block: Block, name: str) -> Element:
         """A part that is an own block: its values are ports."""
@@ -202,9 +230,22 @@ class _Writer:
             element.attributes["name"] = name
         model = self._models.setdefault(own, Model(kind))
         for parameter in parameters(procedure):
-            model.inputs[parameter.name] = None
-            element.attributes[parameter.name] = self._text(block, parameter.id)
+            model.inputs[_port(parameter.name)] = None
+            if text := self._text(block, parameter.id):
+                element.attributes[_port(parameter.name)] = text
+        if kind == "Condition":
+            for key in self._set_inside(procedure.id):
+                model.outputs[_port(key)] = None
+                element.attributes[_port(key)] = f"{{{key}}}"
         return element
+
+    def _set_inside(self, procedure_id: str) -> list[str]:
+        """The values of the tree that an own block sets."""
+        header = header_of(self._project, procedure_id)
+        chain = self._project.stack_of(header).body[1:] if header else ()
+        blocks = [self._project.blocks[one] for one in chain]
+        keys = [self._scripts.key(one) for one in blocks if one.type == "tree.set"]
+        return list(filter(None, keys))
 
     def _step(self, block: Block) -> Element:
         name = str(self._value(block, "name"))
@@ -214,12 +255,12 @@ class _Writer:
         if body and body[0].type.startswith(CALL) and None not in results:
             element = self._call("Action", body[0], name)
             for port, ours in filter(None, results):
-                self._models[element.attributes["ID"]].outputs[port] = None
-                element.attributes[port] = f"{{{ours}}}"
+                self._models[element.attributes["ID"]].outputs[_port(port)] = None
+                element.attributes[_port(port)] = f"{{{ours}}}"
             return element
-        script = [self._assigned(one) for one in body]
-        if body and None not in script:
-            return Element("Script", {"code": "; ".join(filter(None, script))})
+        if (code := self._code(body)) is not None:
+            named = {} if name in ("", code) else {"name": name}
+            return Element("Script", {**named, "code": code})
         self._tell("What “{block}” does is not in the file: write it there in C++.", block)
         self._models.setdefault(name, Model())
         return Element("Action", {"ID": name})
@@ -235,24 +276,31 @@ class _Writer:
         """The script of a block that sets a value, or None."""
         if block.type != "tree.set":
             return None
-        key, plugged = self._value(block, "key"), self._plugged(block, "value")
-        if plugged is not None:
-            is_known = plugged.type in ("tree.value", "logic.truth")
-            return f"{key} := {self._of(plugged).strip('{}')}" if is_known else None
-        value = self._value(block, "value")
-        if not isinstance(value, str):
-            return f"{key} := {value}"
-        return None if "'" in value or "\\" in value else f"{key} := '{value}'"
+        key, value = self._scripts.key(block), self._scripts.slot(block, "value")
+        return None if key is None or value is None else f"{key} := {plain(value)}"
 
     def _sub_tree(self, block: Block) -> Element:
         element = Element("SubTree", {"ID": str(self._value(block, "name"))})
         for one in (self._project.blocks[b] for b in block.bodies.get("ports.1", [])):
             key = str(self._value(one, "key")) if not one.disabled else ""
+            if key.startswith("@"):  # BehaviorTree.CPP shares it with all trees
+                continue
+            key = _port(key)
             if key and one.type == "tree.input":
                 element.attributes[key] = self._text(one, "value")
             elif key and one.type == "tree.output":
                 element.attributes[key] = f"{{{self._value(one, 'ours')}}}"
         return element
+
+
+def _port(name: str) -> str:
+    """A name as an attribute may have it."""
+    port = re.sub(r"[^\w.-]", "_", name)
+    return f"_{port}" if port and not (port[0].isalpha() or port[0] == "_") else port
+
+
+def _script(code: str) -> Element:
+    return Element("Script", {"code": code})
 
 
 def _as_one(parts: list[Element]) -> list[Element]:

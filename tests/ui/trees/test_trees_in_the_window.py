@@ -41,11 +41,11 @@ def test_a_file_becomes_blocks_and_is_written_again(
 
 
 def test_what_is_not_taken_over_is_told_in_the_window(karate: MainWindow, greet: Path) -> None:
-    greet.write_text(GREET.replace("<Wave/>", '<Wave _skipIf="x"/>'), encoding="utf-8")
+    greet.write_text(GREET.replace("<Wave/>", '<Wave _onHalted="x := 1"/>'), encoding="utf-8")
 
     assert import_file(karate.host, greet)
 
-    told = ("Imported “greet.xml”.", ("“_skipIf” of “Wave” is not taken over.",))
+    told = ("Imported “greet.xml”.", ("“_onHalted” of “Wave” is not taken over.",))
     assert cards(karate)[-1] == told
 
 

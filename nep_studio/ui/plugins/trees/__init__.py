@@ -25,7 +25,7 @@ def choose_import(host: Host) -> None:
 
 def import_file(host: Host, path: Path) -> bool:
     """Make blocks of a file, on the page that is shown; whether that went well, which is told."""
-    from nep_studio.blocks.tree_files.elements import LARGEST, read_elements
+    from nep_studio.blocks.tree_files.elements import read_file
     from nep_studio.blocks.tree_files.reading import import_trees
 
     document, messages = host.services.document, host.services.messages
@@ -34,8 +34,7 @@ def import_file(host: Host, path: Path) -> bool:
     shown = host.workbench.canvas.page_layout.page
     is_behaviour = document.project.kind_of_page(shown) == "behaviour"
     try:
-        with path.open("rb") as file:
-            root = read_elements(file.read(LARGEST + 1))
+        root = read_file(path)
         made = import_trees(document.editor, root, shown if is_behaviour else "behaviour")
     except OSError as error:
         title, steps = tr("The file could not be read"), (tr("Choose another file."),)
