@@ -20,7 +20,8 @@ def choose_import(host: Host) -> None:
     """Ask for a file of behaviour trees, and make blocks of it."""
     if host.services.document is not None:
         title, folder = tr("Import a behaviour tree"), host.services.settings.last_folder
-        ask_for_path(host.widget, title, folder, partial(import_file, host), kinds=_kinds())
+        kinds = (tr("Behaviour trees (*.xml *.btproj)"), tr("All files (*)"))
+        ask_for_path(host.widget, title, folder, partial(import_file, host), kinds=kinds)
 
 
 def import_file(host: Host, path: Path) -> bool:
