@@ -14,8 +14,9 @@ from nep_studio.blocks.edits.placing import CreateBlocks
 from nep_studio.blocks.files import from_bytes, to_bytes
 from nep_studio.blocks.generate.expressions import comment_line, comment_text
 from nep_studio.blocks.language import Language
+from nep_studio.blocks.operations.copying import height_of
 from nep_studio.blocks.procedures import DEFINE, parameters
-from nep_studio.blocks.program import Project
+from nep_studio.blocks.program import FARTHEST, Project
 
 from .equal_forms import other_statements
 from .learning import CodeUnread, Made, beginning, blocks_of, learned
@@ -417,9 +418,6 @@ def _require_no_values(node: ast.FunctionDef) -> None:
         )
 
 
-_BETWEEN = 120.0
-
-
 @dataclass(frozen=True, slots=True)
 class ReadRule:
     """A function of the text as blocks; ``text`` are its lines, with the comments above it."""
@@ -474,6 +472,9 @@ def scratch_of(base: Project, language: Language) -> Editor:
     return Editor(from_bytes(to_bytes(base), "project", language), language)
 
 
+_EDGE = 40.0
+
+
 def create_chain(
     editor: Editor,
     chain: list[Made],
@@ -481,9 +482,11 @@ def create_chain(
     page: str = "behaviour",
 ) -> str:
     """Make a stack of a chain on a page, at a place or below all; gives its first block."""
-    lowest = max((s.y for s in editor.project.pages[page]), default=40 - 2 * _BETWEEN)
-    roots, blocks = blocks_of(editor.project, editor.language, chain)
-    place = editor.new_stack(page, *(at or (40, lowest + 2 * _BETWEEN)))
+    project = editor.project
+    last = max(project.pages[page], key=lambda stack: stack.y, default=None)
+    below = last.y + height_of(project, last.body) if last is not None else _EDGE
+    roots, blocks = blocks_of(project, editor.language, chain)
+    place = editor.new_stack(page, *(at or (_EDGE, min(below, FARTHEST / 2))))
     editor.apply(CreateBlocks(roots, blocks, place))
     return roots[0]
 

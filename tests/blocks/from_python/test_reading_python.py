@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+import itertools
 from pathlib import Path
 
 import pytest
@@ -431,3 +432,20 @@ def test_a_header_that_is_made_otherwise_is_told_in_words_that_fit(language, mad
 
     assert raised.value.line == 3
     assert step in str(raised.value.checklist[0])
+
+
+def test_rules_that_come_from_python_do_not_lie_on_each_other(language):
+    editor = build(language, [B("event.started"), B("robot.say")])
+    text = generate_program(editor.project, language).text
+    rules = [
+        f"@behavior.when_started\ndef rule_{number}():\n" + '    nao.say("Hello")\n' * lines
+        for number, lines in enumerate((30, 1, 12))
+    ]
+
+    end = "\n\n".join([*rules, "behavior.run()"])
+    update_from_python(editor, text.replace("behavior.run()", end))
+
+    stacks = sorted(editor.project.pages["behaviour"], key=lambda stack: stack.y)
+    assert len(stacks) == 4
+    for above, below in itertools.pairwise(stacks):
+        assert below.y - above.y > 42 * len(above.body)  # a line of a block is so high
