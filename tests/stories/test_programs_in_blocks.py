@@ -359,10 +359,11 @@ import datetime, time
 import nep_core.program.triggers as triggers
 moments = {moments}
 triggers.LOOK_AT_CLOCK_S = 0.2
-triggers.local_now = lambda: moments[min(len(moments) - 1, int(time.monotonic() - began))]
+triggers.local_now = lambda: moments[min(len(moments) - 1, int((time.monotonic() - began) / 3))]
 began = time.monotonic()
 """
-"""Lets the clock of the computer show one moment for a second, and then another."""
+"""Lets the clock of the computer show one moment for three seconds, and then another: a busy
+computer looks late."""
 THURSDAY = [datetime.datetime(2026, 11, 26, 8, 0, 1), datetime.datetime(2026, 11, 26, 19, 30)]
 CLOCKS = {
     "daily_schedule": CLOCK.format(moments=THURSDAY),
