@@ -37,7 +37,7 @@ TEXTS = [
 ]
 NUMBERS = [0, 1, 2, 3, 5, 10, -1, -2, 0.5, 2.5, -2.5, 1.5, 0.1, 0.2, 1e-7, 123456789.25]
 DEEPEST = 3
-EACH_ROBOT = "control.each_robot"
+EACH_ROBOT, ROBOT = "control.each_robot", "robots.robot"
 
 
 @dataclass
@@ -92,15 +92,15 @@ class Maker:
         build(self.editor.language, rule, editor=self.editor)
         for message in self.messages:
             self._rule_for(message)
-        build(self.editor.language, [B("robots.robot")], page="robots", editor=self.editor)
+        build(self.editor.language, [B(ROBOT)], page="robots", editor=self.editor)
         if self._chance(0.2):
             self._disable()
         return self.editor.project
 
     def _disable(self) -> None:
-        """Some blocks are switched off, but no header."""
-        blocks = self.editor.project.blocks
-        shapes = {key: self.editor.language.definitions[b.type].shape for key, b in blocks.items()}
+        """Some blocks are switched off, but no header and no robot, which no Python would tell."""
+        blocks, definitions = self.editor.project.blocks, self.editor.language.definitions
+        shapes = {k: definitions[b.type].shape for k, b in blocks.items() if b.type != ROBOT}
         usual = sorted(key for key, shape in shapes.items() if shape != "hat")
         for block in self.dice.sample(usual, min(3, len(usual))):
             self.editor.apply(SetFlag(block, "disabled", True))

@@ -321,7 +321,8 @@ def test_what_two_rules_add_at_the_same_time_is_whole(language):
         ([put(AGES, table(("Anna", TRUE))), put(OUT, name_with("max"))],
          "It cannot be told which is larger"),
         ([put(WHO, 5), put(OUT, name_with("max", get(WHO)))], "A table belongs"),
-        ([put(WHO, 5), put(OUT, at("x", get(WHO)))], "no table here"),
+        ([put(WHO, 5), put(OUT, at("x", get(WHO)))], "A table belongs"),
+        ([put(WHO, B("event.told_value")), put(OUT, at("x", get(WHO)))], "no table here"),
         ([put(WHO, listed(1)), put(OUT, slots("table.length", table=get(WHO)))], "A table belongs"),
         ([ANNA_AND_BEN, slots("table.set", table=get(AGES), key="Anna", value="x"), change("Anna")],
          "cannot be worked out"),
@@ -365,3 +366,11 @@ def test_a_table_that_is_repeated_is_copied_for_each_place():
     first, second = list_with({"a": 1}, 2)
 
     assert first == second and first is not second
+
+
+def test_what_is_surely_no_table_is_asked_and_changed_in_words_that_say_so(language):
+    setting = slots("table.set", table=get(AGES), key="Anna", value=3)
+
+    text = written(language, put(AGES, listed(1, 2)), setting, put(OUT, at("Anna")))
+
+    assert 'set_at(ages, "Anna", 3)' in text and 'value_at(ages, "Anna")' in text

@@ -29,8 +29,11 @@ def _is_plain(key: int) -> bool:
 
 
 def _is_place(code: Expressions, table: ast.expr, key: ast.expr) -> bool:
-    """Whether ``table[key]`` is what a block means: nothing but a table takes a text there."""
-    is_named = bool(kinds_of(key)) and are(kinds_of(key), TEXT)
+    """Whether ``table[key]`` is what a block means: nothing but a table takes a text there.
+
+    What is surely none is refused in words by a function, and read as what it was meant for.
+    """
+    is_named = bool(kinds_of(key)) and are(kinds_of(key), TEXT) and bool(kinds_of(table) & TABLE)
     return is_named or (are(kinds_of(table), TABLE) and _is_plain(kinds_of(key)))
 
 
