@@ -63,7 +63,7 @@ class RobotListener:
                     break
                 current_task().check()
                 self._news.wait(POLL_S)
-            return self._states[robot][0] if robot in self._states else None
+            return self.heard_of(robot)
 
     def heard_of(self, robot: str) -> RobotState | None:
         """The state that a robot told last; None of what has told none, as of who is no robot."""

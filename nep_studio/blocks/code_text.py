@@ -236,6 +236,13 @@ def outside_functions(tree: ast.AST) -> Iterator[ast.AST]:
             waiting += ast.iter_child_nodes(node)
 
 
+def bodies_of(node: ast.AST) -> Iterator[list[ast.stmt]]:
+    """The lists of statements that stand directly in a part of Python."""
+    for name in ("body", "orelse", "finalbody"):
+        if isinstance(body := getattr(node, name, None), list):
+            yield body
+
+
 def made_by(node: ast.AST) -> Iterator[str]:
     """The names that a part of Python makes itself."""
     match node:

@@ -16,11 +16,8 @@ from nodes.resources import resource_folder
 
 from .recognition.features import Detection
 from .recognition.model import read_model
-from .recognition.sensor_input import Measures, SensorInput, Worn
+from .recognition.sensor_input import Audience, Measures, SensorInput, Worn
 
-_MOST_SENSORS = 8
-_FORGOTTEN_S = 10.0
-"""A sensor that is silent for so long may give way to another one."""
 _SILENCE_S = 0.3
 """After so long the movement of a sensor has ended: a gesture that waits for a better one fires."""
 
@@ -113,16 +110,16 @@ class _Ears:
         self._worn, self._measures = worn, measures
         make_spotter(gravity_included=True)  # what the model lacks is told at the start
         self._ears: dict[_Sensor, SensorInput | None] = {}
-        self._heard_s: dict[str, float] = {}
+        self._audience = Audience(node, self._forget)
         self._waiting: set[_Sensor] = set()
-        self._is_full = False
 
     def hear(self, batch: Imu) -> list[Detection]:
         """The gestures that end in a batch of samples."""
         sensor = (batch.source, batch.gravity_included, batch.gyr is not None, batch.wrist)
-        if sensor not in self._ears and not self._take_in(sensor, batch):
+        if not self._audience.has(batch):
             return []
-        self._heard_s[batch.source] = time.monotonic()
+        if sensor not in self._ears:
+            self._ears[sensor] = self._listen_to(batch)
         ear = self._ears[sensor]
         counts = {len(batch.t), len(batch.acc), len(batch.t if batch.gyr is None else batch.gyr)}
         if ear is None or counts == {0}:
@@ -142,28 +139,11 @@ class _Ears:
         """What the sensors that have just fallen silent ended with."""
         before_s = time.monotonic() - _SILENCE_S
         found: list[Detection] = []
-        for sensor in [one for one in self._waiting if self._heard_s[one[0]] < before_s]:
+        for sensor in [one for one in self._waiting if self._audience.heard_s[one[0]] < before_s]:
             self._waiting.remove(sensor)
             ear = self._ears[sensor]
             found += ear.flush() if ear else []
         return found
-
-    def _take_in(self, sensor: _Sensor, batch: Imu) -> bool:
-        """Begin to listen to a sensor; False when there are too many."""
-        is_new = batch.source not in self._heard_s
-        if is_new and len(self._heard_s) >= _MOST_SENSORS and not self._forget_silent():
-            if not self._is_full:
-                self._is_full = True
-                self._node.warn(
-                    "{source} is not heard: {most_sensors} watches and phones send movement "
-                    "already. Switch off those that nobody wears.",
-                    source=batch.sender,
-                    most_sensors=_MOST_SENSORS,
-                )
-            return False
-        self._is_full = self._is_full and not is_new
-        self._ears[sensor] = self._listen_to(batch)
-        return True
 
     def _listen_to(self, batch: Imu) -> SensorInput | None:
         make = partial(self._make_spotter, gravity_included=batch.gravity_included)
@@ -185,12 +165,6 @@ class _Ears:
     def _remark(self, sentence: Text) -> None:
         self._node.state("running", sentence)
 
-    def _forget_silent(self) -> bool:
-        """Forget the sensor that has been silent for longest, if that was long."""
-        oldest = min(self._heard_s, key=lambda source: self._heard_s[source])
-        if time.monotonic() - self._heard_s[oldest] < _FORGOTTEN_S:
-            return False
-        del self._heard_s[oldest]
-        self._ears = {sensor: ear for sensor, ear in self._ears.items() if sensor[0] != oldest}
-        self._waiting = {sensor for sensor in self._waiting if sensor[0] != oldest}
-        return True
+    def _forget(self, source: str) -> None:
+        self._ears = {sensor: ear for sensor, ear in self._ears.items() if sensor[0] != source}
+        self._waiting = {sensor for sensor in self._waiting if sensor[0] != source}

@@ -7,7 +7,6 @@ mean, and what nobody can tell from a watch.
 from __future__ import annotations
 
 import math
-import time
 from typing import Literal
 
 import numpy as np
@@ -16,13 +15,10 @@ from nep_core.processes.node import Node
 from nep_core.wire.messages import HUMAN_BEHAVIOR, IMU, HumanBehavior, Imu
 
 from .arm_posture import ArmPosture, ArmPostures
-from .recognition.sensor_input import Troubles
+from .recognition.sensor_input import Audience, Troubles
 
 ARM = "arm_"
 """What the human states begin with."""
-MOST_SENSORS = 8
-FORGOTTEN_S = 10.0
-"""A sensor that is silent for so long may give way to another one."""
 
 Worn = Literal[
     "automatic", "left wrist", "right wrist", "left wrist, turned", "right wrist, turned"
@@ -66,14 +62,14 @@ class _Ears:
     def __init__(self, node: Node, worn: Worn) -> None:
         self._node, self._worn = node, worn
         self._arms: dict[_Sensor, _Arm] = {}
-        self._is_full = False
+        self._audience = Audience(node, self._forget)
 
     def hear(self, batch: Imu) -> list[ArmPosture]:
         """The postures that begin in a batch of samples."""
         sensor = (batch.source, batch.gravity_included, batch.wrist)
+        if not self._audience.has(batch):
+            return []
         if sensor not in self._arms:
-            if not self._has_room(batch):
-                return []
             self._arms[sensor] = _Arm(self._node, batch, self._worn)
         return self._arms[sensor].hear(batch)
 
@@ -84,24 +80,8 @@ class _Ears:
         if known:
             self._node.state("alive", measures={"elevation_deg": known[-1]})
 
-    def _has_room(self, batch: Imu) -> bool:
-        """Whether another watch can be listened to; one that fell silent gives way."""
-        if len(self._arms) < MOST_SENSORS:
-            return True
-        oldest = min(self._arms, key=lambda sensor: self._arms[sensor].heard_s)
-        if time.monotonic() - self._arms[oldest].heard_s >= FORGOTTEN_S:
-            del self._arms[oldest]
-            self._is_full = False
-            return True
-        if not self._is_full:
-            self._is_full = True
-            self._node.warn(
-                "{source} is not heard: {most_sensors} watches and phones send movement "
-                "already. Switch off those that nobody wears.",
-                source=batch.sender,
-                most_sensors=MOST_SENSORS,
-            )
-        return False
+    def _forget(self, source: str) -> None:
+        self._arms = {sensor: arm for sensor, arm in self._arms.items() if sensor[0] != source}
 
 
 class _Arm:
@@ -109,7 +89,6 @@ class _Arm:
 
     def __init__(self, node: Node, first: Imu, worn: Worn) -> None:
         self._node, self._source = node, first.sender
-        self.heard_s = time.monotonic()
         self._troubles = Troubles(first.sender, node.warn)
         self._postures: ArmPostures | None = None
         self._is_broken = False
@@ -122,7 +101,8 @@ class _Arm:
             )
         elif first.wrist == "hand":
             node.warn(
-                "{source} is held in the hand. How an arm is held tells a watch on the wrist.",
+                "{source} is held in the hand, where nobody can tell how an arm is held. Strap it "
+                "to the wrist.",
                 source=first.sender,
             )
         else:
@@ -142,7 +122,6 @@ class _Arm:
 
     def hear(self, batch: Imu) -> list[ArmPosture]:
         """The postures that begin in a batch of samples."""
-        self.heard_s = time.monotonic()
         if self._postures is None or self._is_broken or (not batch.t and not batch.acc):
             return []
         if len(batch.t) != len(batch.acc):

@@ -10,7 +10,7 @@ from collections import Counter
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 
-from nep_studio.blocks.code_text import made_by, outside_functions
+from nep_studio.blocks.code_text import bodies_of, made_by, outside_functions
 from nep_studio.blocks.edits.content import AddProcedure, SetExtra, SetField
 from nep_studio.blocks.edits.project import RenameProject, SetScope
 from nep_studio.blocks.procedures import DEFINE, parameters, words
@@ -161,11 +161,9 @@ def _only_asked(tree: ast.Module) -> set[str]:
     used = Counter(node.id for node in ast.walk(tree) if isinstance(node, ast.Name))
     asked: Counter[str] = Counter()
     for node in ast.walk(tree):
-        for part in ("body", "orelse", "finalbody"):
-            lines = getattr(node, part, None)
-            if isinstance(lines, list):
-                for first, second in itertools.pairwise(lines):
-                    asked.update(_of_question(first, second))
+        for lines in bodies_of(node):
+            for first, second in itertools.pairwise(lines):
+                asked.update(_of_question(first, second))
     return {name for name, times in asked.items() if used[name] == times}
 
 

@@ -12,6 +12,8 @@ import copy
 from collections import Counter
 from collections.abc import Callable, Iterator, Mapping, Sequence
 
+from nep_studio.blocks.code_text import bodies_of
+
 from .robot_calls import CALLS, as_blocks_write
 from .told_names import Names, may_be_asked_twice
 
@@ -27,10 +29,8 @@ def simplify(tree: ast.Module) -> ast.Module:
             _simplify_function(node, names)
     inside = [node for top in tree.body if isinstance(top, _FUNCTION) for node in ast.walk(top)]
     for node in inside:
-        for field in ("body", "orelse", "finalbody"):
-            lines = getattr(node, field, None)
-            if isinstance(lines, list):
-                lines[:] = [made for line in lines for made in _statements(line, names)]
+        for lines in bodies_of(node):
+            lines[:] = [made for line in lines for made in _statements(line, names)]
     for top in tree.body:
         if isinstance(top, _FUNCTION):
             said = (getattr(one, "id", getattr(one, "name", "")) for one in ast.walk(top))
@@ -234,8 +234,10 @@ def _make_above_loops(
     for line in lines:
         is_outermost = above is None and isinstance(line, ast.For | ast.While)
         around = [] if is_outermost else above
-        for body in _bodies(line):
-            _make_above_loops(body, named, None if isinstance(line, _SCOPE) else around)
+        inside = None if isinstance(line, _SCOPE) else around
+        for part in (line, *getattr(line, "handlers", []), *getattr(line, "cases", [])):
+            for body in bodies_of(part):
+                _make_above_loops(body, named, inside)
         kept += around if is_outermost and around else []
         if above is not None and (count := _functions_given(kept, line, named)):
             above += kept[-count:]
@@ -260,15 +262,6 @@ def _functions_given(above: Sequence[ast.stmt], call: ast.stmt, named: Mapping[s
         if isinstance(one, ast.FunctionDef) and not one.decorator_list
     ]
     return len(names) if there == names and all(named[one] == 2 for one in there) else 0
-
-
-def _bodies(node: ast.stmt) -> Iterator[list[ast.stmt]]:
-    """The lists of statements in a statement."""
-    parts: list[ast.AST] = [node, *getattr(node, "handlers", []), *getattr(node, "cases", [])]
-    for part in parts:
-        for field in ("body", "orelse", "finalbody"):
-            if lines := getattr(part, field, None):
-                yield lines
 
 
 # Functions that become own blocks.

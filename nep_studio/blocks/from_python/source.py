@@ -11,7 +11,7 @@ import warnings
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 
-from nep_studio.blocks.code_text import as_names, lines_inside_texts, outside_functions
+from nep_studio.blocks.code_text import as_names, bodies_of, lines_inside_texts, outside_functions
 from nep_studio.blocks.generate.expressions import comment_line, comment_text
 
 from .learning import CodeUnread
@@ -239,17 +239,10 @@ def _set_aside(tree: ast.Module, lines: Sequence[str]) -> Iterator[tuple[int, st
             continue
         inside = (n for one in function.body for n in outside_functions(one) if not _is_scope(n))
         for node in itertools.chain([function], inside):
-            for body in _bodies(node):
+            for body in bodies_of(node):
                 found = [one.lineno for one in body if _is_plain_global(one, lines)]
                 left = "pass" if len(found) == len(body) else ""
                 yield from ((line, left if line == found[0] else "") for line in found)
-
-
-def _bodies(node: ast.AST) -> Iterator[list[ast.stmt]]:
-    """The lists of statements that are in a part of a function."""
-    for name in ("body", "orelse", "finalbody"):
-        if isinstance(body := getattr(node, name, None), list):
-            yield body
 
 
 def _is_scope(node: ast.AST) -> bool:

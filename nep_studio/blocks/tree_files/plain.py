@@ -24,7 +24,6 @@ Skipped = Literal["success", "failure"]
 Tell = Callable[..., None]
 
 MARK = re.compile(r"\$?\{\s*=?([^{}]*)\}")
-SUCCESS, FAILURE = "success", "failure"
 _OTHER: dict[Skipped, Skipped] = {"success": "failure", "failure": "success"}
 _SWITCH = re.compile(r"Switch([2-9])")
 _COMPARED = re.compile(r"BlackboardCheck(Int|Double|String|Bool)")

@@ -34,7 +34,6 @@ _ROWS: dict[str, tuple[str, dict[str, FieldValue]]] = {
     "AsyncSequence": ("tree.sequence", {"order": "memory"}),
     "ReactiveSequence": ("tree.sequence", {"order": "reactive"}),
     "SequenceWithMemory": ("tree.sequence", {"order": "keeps"}),
-    "SequenceStar": ("tree.sequence", {"order": "keeps"}),
     "Fallback": ("tree.fallback", {"order": "memory"}),
     "AsyncFallback": ("tree.fallback", {"order": "memory"}),
     "ReactiveFallback": ("tree.fallback", {"order": "reactive"}),
@@ -46,7 +45,6 @@ _ROWS: dict[str, tuple[str, dict[str, FieldValue]]] = {
 _LIMITED = {
     "Parallel": ("tree.parallel", "enough", ("success_count", "success_threshold")),
     "RetryUntilSuccessful": ("tree.retry", "times", ("num_attempts",)),
-    "RetryUntilSuccesful": ("tree.retry", "times", ("num_attempts",)),
     "Repeat": ("tree.repeat", "times", ("num_cycles",)),
 }
 """Parts with a number, which is -1 when there is no limit: its slot, its attributes."""

@@ -140,6 +140,53 @@ def _overlap(one: Detection, other: Detection) -> bool:
     return one.t_start < other.t_end and other.t_start < one.t_end
 
 
+MOST_SENSORS = 8
+FORGOTTEN_S = 10.0
+"""A sensor that is silent for so long may give way to another one."""
+
+
+class Audience:
+    """Which sensors a node listens to: a few at a time; a silent one gives way to another.
+
+    ``forget`` is called with the source of one that gives way. ``heard_s`` tells when each was
+    heard last.
+    """
+
+    def __init__(self, node: Node, forget: Callable[[str], None]) -> None:
+        self._node, self._forget = node, forget
+        self.heard_s: dict[str, float] = {}
+        self._is_full = False
+
+    def has(self, batch: Imu) -> bool:
+        """Whether the sensor of a batch is one of them from now on; who is not is told once."""
+        if batch.source not in self.heard_s:
+            if len(self.heard_s) >= MOST_SENSORS and not self._forget_silent():
+                self._tell_full(batch)
+                return False
+            self._is_full = False
+        self.heard_s[batch.source] = time.monotonic()
+        return True
+
+    def _tell_full(self, batch: Imu) -> None:
+        if not self._is_full:
+            self._is_full = True
+            self._node.warn(
+                "{source} is not heard: {most_sensors} watches and phones send movement "
+                "already. Switch off those that nobody wears.",
+                source=batch.sender,
+                most_sensors=MOST_SENSORS,
+            )
+
+    def _forget_silent(self) -> bool:
+        """Forget the sensor that has been silent for longest, if that was long."""
+        oldest = min(self.heard_s, key=lambda source: self.heard_s[source])
+        if time.monotonic() - self.heard_s[oldest] < FORGOTTEN_S:
+            return False
+        del self.heard_s[oldest]
+        self._forget(oldest)
+        return True
+
+
 class Troubles:
     """What a stream of samples lacks to be understood; each is told once."""
 
